@@ -107,7 +107,8 @@ class Run {
   static constexpr double strict_violation = 1e-6;
   /// How often the objective of a proven design may become the measure of the next proof.
   static constexpr int most_references = 8;
-  /// Part of the objective of the reference that counts as much as that of the design (scaling.hpp).
+  /// Part of the objective of the reference that counts as much as that of the design
+  /// (scaling.hpp).
   static constexpr double part_of_reference = 1e-3;
   /// Part of its reference to which an objective without a proof has to fall to be taken for zero.
   static constexpr double vanished = 1e-6;
@@ -127,8 +128,8 @@ class Run {
     return verdict;
   }
 
-  /// Whether a proof means nothing, since all that is left is small beside the objective of a bad start: damage by
-  /// fatigue, or a penalty, may be many decades larger there.
+  /// Whether a proof means nothing, since all that is left is small beside the objective of a bad
+  /// start: damage by fatigue, or a penalty, may be many decades larger there.
   bool is_measured_by_far_too_much(const Verdict& verdict) {
     const EvaluatedDesign& design = verdict.design;
     const double much = part_of_reference * std::abs(reference_.objective);
@@ -138,8 +139,8 @@ class Run {
            bend_beside(design, s) < much;
   }
 
-  /// How far the slope of the objective changes with the variables: a sum of squares may vanish at its
-  /// optimum, and its slope with it, but its curvature says what is much of it.
+  /// How far the slope of the objective changes with the variables: a sum of squares may vanish at
+  /// its optimum, and its slope with it, but its curvature says what is much of it.
   double bend_beside(const EvaluatedDesign& design, const Eigen::VectorXd& s) {
     constexpr double step = 1e-3;
     Eigen::VectorXd moved = design.x;
@@ -163,8 +164,9 @@ class Run {
     return judged(design);
   }
 
-  /// Of a search that went on from a proven design, measured by it, and ended without a proof: whether it found nothing better, or an
-  /// objective that goes to zero, beside which nothing is small.
+  /// Of a search that went on from a proven design, measured by it, and ended without a proof:
+  /// whether it found nothing better, or an objective that goes to zero, beside which nothing is
+  /// small.
   bool says_no_more(const Verdict& next, const Verdict& proven) const {
     const double before = proven.design.evaluation.objective;
     const double after = next.design.evaluation.objective;

@@ -20,7 +20,8 @@ class PeriodicCorrection {
   /// @throws SimulationError if it no longer shrinks with a map of the motion itself, and is more than round-off
   bool is_done(const Eigen::MatrixXd& left, const Eigen::RowVectorXd& sizes);
 
-  /// The map that solves: that of the search, or one of the motion itself where that is too far from it.
+  /// The map that solves: that of the search, or one of the motion itself where that is too far
+  /// from it.
   const PeriodMap& map(Mechanism& mechanism, const Trajectory& trajectory);
 
  private:

@@ -19,8 +19,8 @@ StateSensitivity zero_sensitivity(const System& system) {
 }
 
 /// Variables that change forces only, as the mass of a counterweight that a drive turns, have
-/// derivatives of the motion that are round-off from end to end. Those of the size at which the motion
-/// would change by this share of what the forces change count as such.
+/// derivatives of the motion that are round-off from end to end. Those of the size at which the
+/// motion would change by this share of what the forces change count as such.
 constexpr double next_to_nothing = 1e-6;
 
 /// What is left of derivatives is compared with, one a variable.

@@ -152,7 +152,8 @@ ProblemFile with_sizes_at(ProblemFile problem, const Eigen::VectorXd& x) {
   return problem;
 }
 
-/// Without the numbers that set the period of a motion that repeats itself, as the speed of its drive.
+/// Without the numbers that set the period of a motion that repeats itself, as the speed of its
+/// drive.
 PricedNumbers without_periods(const ProblemText& text, const ProblemFile& problem,
                               const Eigen::VectorXd& x, PricedNumbers numbers) {
   std::vector<NumberGroup>& groups = numbers.groups;

@@ -39,8 +39,8 @@ struct PriceList {
   double objective = 0.0;           ///< at the design [SI]
   double residual = 0.0;            ///< KKT residual, relative: how well multipliers explain it
   std::vector<NumberPrice> prices;  ///< the dearest percent first
-  /// Numbers whose prices nobody knows: places on elastic beams, what sets the period of a motion that
-  /// repeats itself.
+  /// Numbers whose prices nobody knows: places on elastic beams, what sets the period of a motion
+  /// that repeats itself.
   std::vector<std::string> unknown;
 };
 

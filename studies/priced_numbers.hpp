@@ -9,7 +9,8 @@ namespace pleuel {
 
 struct PricedNumbers {
   std::vector<NumberGroup> groups;
-  /// Names of groups that would have a price, but no variable can stand for them: a place on an elastic beam.
+  /// Names of groups that would have a price, but no variable can stand for them: a place on an
+  /// elastic beam.
   std::vector<std::string> left_out;
 };
 

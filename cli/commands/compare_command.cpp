@@ -153,8 +153,8 @@ Json member(const Json& values, const std::string& name, const char* key) {
   return value.is_object() ? value.value(key, Json()) : Json();
 }
 
-/// What there is of each name of a group, which has one unit: a key of its entry in the results, and what
-/// it is called.
+/// What there is of each name of a group, which has one unit: a key of its entry in the results,
+/// and what it is called.
 struct ComparedKey {
   const char* key;
   const char* title;

@@ -15,7 +15,8 @@ struct Partials {
   double by_first = 0.0, by_second = 0.0;
 };
 
-/// Numbers that are equal but for their round-off, as the frequencies of a square section along two axes.
+/// Numbers that are equal but for their round-off, as the frequencies of a square section along two
+/// axes.
 bool is_tie(double a, double b) {
   constexpr double round_off = 1e-12;
   return std::abs(a - b) <= round_off * std::max(std::abs(a), std::abs(b));

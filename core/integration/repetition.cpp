@@ -111,8 +111,8 @@ class RepetitionCheck {
   std::vector<std::vector<Share>> changes_, largest_;  ///< by term and column
 };
 
-/// Between the instants of a period, as laws may jump at them, and at no simple share of it, where they
-/// may all be zero.
+/// Between the instants of a period, as laws may jump at them, and at no simple share of it, where
+/// they may all be zero.
 /// @param samples  at most
 RepetitionCheck check_repetition(Mechanism& mechanism, const Trajectory& trajectory, int steps,
                                  double period, Compared compared, int samples) {

@@ -22,13 +22,14 @@ std::string complaint_about_repetition(Mechanism& mechanism, const Trajectory& t
 std::string complaint_about_repeated_derivatives(Mechanism& mechanism, const Trajectory& trajectory,
                                                  int steps, double period);
 
-/// The design variables, in ascending order, that keep the motion from repeating itself at designs close by.
+/// The design variables, in ascending order, that keep the motion from repeating itself at designs
+/// close by.
 std::vector<int> variables_of_unrepeated_derivatives(Mechanism& mechanism,
                                                      const Trajectory& trajectory, int steps,
                                                      double period);
 
-/// Of a period that is rounded: a sentence, with its full stop before it, that says what nearly makes
-/// whole turns in it; or nothing.
+/// Of a period that is rounded: a sentence, with its full stop before it, that says what nearly
+/// makes whole turns in it; or nothing.
 /// @param trajectory  of a period whose beginning is that of the file
 std::string advice_to_be_exact(const Mechanism& mechanism, const Trajectory& trajectory);
 

@@ -97,8 +97,7 @@ std::optional<std::string> find_point_moved_along(const Scene& scene, const Desi
     if (is_on_beam(*beam, share, position(*placed.point, moved), moved)) continue;
     return fmt::format(
         "moves {} along the beam \"{}\", or the beam under it, but a place of an elastic beam "
-        "keeps "
-        "its share of the length ({:.4g}): what it changes is not known",
+        "keeps its share of the length ({:.4g}): what it changes is not known",
         placed.pointer(), placed.body->name, share);
   }
   return std::nullopt;

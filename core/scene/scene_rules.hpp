@@ -17,9 +17,10 @@ namespace pleuel {
 std::optional<std::string> find_impossible(const Scene& scene, const Design<double>& start,
                                            const Design<double>& design);
 
-/// Why nobody knows what a variable changes, as the end of a sentence that begins with its name: a point of an elastic
-/// beam, between its ends, would move along it, where the model keeps its share of the length. Bounds refuse such variables where they
-/// are free; this is asked where one with equal bounds scatters, is priced, or is differentiated.
+/// Why nobody knows what a variable changes, as the end of a sentence that begins with its name: a
+/// point of an elastic beam, between its ends, would move along it, where the model keeps its share
+/// of the length. Bounds refuse such variables where they are free; this is asked where one with
+/// equal bounds scatters, is priced, or is differentiated.
 std::optional<std::string> find_point_moved_along(const Scene& scene, const Design<double>& start,
                                                   std::size_t variable);
 

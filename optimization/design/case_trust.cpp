@@ -47,7 +47,8 @@ std::optional<ErrorBar> error_of_sum(const ProblemFile& joined, const Trust& tru
                                      const std::vector<WeightedResponse>& parts, double magnitude) {
   std::map<std::size_t, Evidence> sums;
   ErrorPart effects;
-  for (const WeightedResponse& part : parts) {  // a sum may cancel, and what is small of it is small beside its terms
+  // A sum may cancel: what is small of it is small beside its terms.
+  for (const WeightedResponse& part : parts) {
     if (!trust.evidence[part.response]) continue;
     magnitude = std::max(magnitude, std::abs(part.weight * trust.evidence[part.response]->value));
   }

@@ -1,5 +1,5 @@
-/// Objectives that are many decades larger at the start than at their optimum: what is small beside the start says
-/// nothing of a design.
+/// Objectives that are many decades larger at the start than at their optimum: what is small beside
+/// the start says nothing of a design.
 
 #include <cmath>
 
@@ -22,8 +22,9 @@ auto column(const V&, const Entries&... entries) {
   return result;
 }
 
-/// Damage (100/(b h²))¹⁰ of a section of b by h cm with at most 6 cm² and h ≤ 3 b, from one of 0.6 by 1.2 cm, where it is 4e20.
-/// Both limits hold the optimum: b = √2, h = 3√2, so that b h² = 18 √2.
+/// Damage (100/(b h²))¹⁰ of a section of b by h cm with at most 6 cm² and h ≤ 3 b, from one of 0.6
+/// by 1.2 cm, where it is 4e20. Both limits hold the optimum: b = √2, h = 3√2, so that b h² = 18
+/// √2.
 KnownProblem damage() {
   return {"damage",
           {{{"b", 0.6, 0.4, 6.0}, {"h", 1.2, 1.0, 6.0}},
@@ -36,7 +37,8 @@ KnownProblem damage() {
           std::pow(100.0 / (18.0 * std::sqrt(2.0)), 10.0)};
 }
 
-/// d² + exp(20 (2/d³ − 1)), from d = 0.7, where it is 4e41: least where 2 d = 120 d⁻⁴ e, which bisection solves.
+/// d² + exp(20 (2/d³ − 1)), from d = 0.7, where it is 4e41: least where 2 d = 120 d⁻⁴ e, which
+/// bisection solves.
 KnownProblem penalty() {
   const auto e = [](double d) { return std::exp(20.0 * (2.0 / (d * d * d) - 1.0)); };
   double low = 0.7, high = 4.0;
@@ -62,7 +64,8 @@ TEST_P(FarObjective, IsProvenByWhatItIsAtTheEnd) {
   }
 }
 
-/// (x − 1)² + (y − x²)², which vanishes at (1, 1), from where it is 4e5: beside what it is there nothing is small, and still it is proven.
+/// (x − 1)² + (y − x²)², which vanishes at (1, 1), from where it is 4e5: beside what it is there
+/// nothing is small, and still it is proven.
 TEST_P(FarObjective, ThatVanishesIsProvenByItsCurvature) {
   FunctionProblem squares({{"x", -25.0, -30.0, 30.0}, {"y", 3.0, -30.0, 30.0}}, {},
                           by_complex_step([](const auto& x) {

@@ -10,8 +10,8 @@
 #include "optimization/design/design_solve.hpp"
 #include "tests/problems/loaded_crank.hpp"
 
-/// Expressions that name load cases, `bow[fast] - bow[slow]`: closed forms, differences, and the same
-/// problem said in another way.
+/// Expressions that name load cases, `bow[fast] - bow[slow]`: closed forms, differences, and the
+/// same problem said in another way.
 namespace pleuel::test::across_cases_test {
 namespace {
 
@@ -189,8 +189,9 @@ TEST(AcrossCases, LimitTheDifferenceOfTwoDeflectionsOfACantilever) {
               1e-3 * (weak->bound() + strong->bound()) + 1e-12);
 }
 
-/// Bent upwards in one case and sideways in the other, by the same force, with v = 2 w: F L³/(3 E b h³/12) is twice F L³/(3 E h b³/12), so that
-/// b = √2 h. The difference is zero at the optimum, and its error is small beside what it is the difference of.
+/// Bent upwards in one case and sideways in the other, by the same force, with v = 2 w: F L³/(3 E b
+/// h³/12) is twice F L³/(3 E h b³/12), so that b = √2 h. The difference is zero at the optimum, and
+/// its error is small beside what it is the difference of.
 TEST(AcrossCases, MayBeHeldAtZero) {
   Json document = cantilever();
   document["scene"]["bodies"]["bar"]["section"]["width"] = {{"variable", "width"}};

@@ -70,7 +70,8 @@ std::string complaint(const std::string& text) {
   return "";
 }
 
-/// f is 40 rad/s, or 6.37 cycles a second: over 60 cycles that is 0.106, and over 60 Hz it would be an angle of 0.667.
+/// f is 40 rad/s, or 6.37 cycles a second: over 60 cycles that is 0.106, and over 60 Hz it would be
+/// an angle of 0.667.
 TEST(Expression, TakesNoAngleForARatioOfFrequencies) {
   for (const char* text : {"f/(60 Hz)", "f/beat", "f^2/(60 Hz)^2", "1 + f/(60/(1 s))"}) {
     EXPECT_NE(complaint(text).find("write \"rev/s\" in place of \"Hz\""), std::string::npos)

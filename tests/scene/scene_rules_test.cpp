@@ -7,15 +7,15 @@
 #include "core/base/error.hpp"
 #include "core/scene/problem_reader.hpp"
 
-/// What formulas must keep at every design: bounds are those of variables, not of what formulas make
-/// of them.
+/// What formulas must keep at every design: bounds are those of variables, not of what formulas
+/// make of them.
 namespace pleuel::test::scene_rules_test {
 namespace {
 
 using testing::HasSubstr;
 
-/// A clamped tube with a load and a mass at its end; two variables a and b, each of them harmless at
-/// both its bounds while the other one keeps its start.
+/// A clamped tube with a load and a mass at its end; two variables a and b, each of them harmless
+/// at both its bounds while the other one keeps its start.
 ProblemFile cantilever(const std::vector<std::string>& overrides) {
   return read_problem_text(R"json({
     "scene": {

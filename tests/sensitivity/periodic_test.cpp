@@ -412,8 +412,9 @@ TEST(SteadyMachineErrors, NameAMotionThatNothingBringsBack) {
   EXPECT_THAT(failure, testing::HasSubstr("nothing has brought back"));
 }
 
-/// A slender bar that bends so far under its load that its stiffening couples both directions: the map of the search is that of a motion
-/// on the way, too far from the motion itself to find the derivatives by its end's height. They were refused.
+/// A slender bar that bends so far under its load that its stiffening couples both directions: the
+/// map of the search is that of a motion on the way, too far from the motion itself to find the
+/// derivatives by its end's height. They were refused.
 TEST(SteadyBar, HasDerivativesWhereTheMapOfTheSearchIsTooFarAway) {
   const ProblemFile bar = read_problem_text(R"({"scene": {
         "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": [0.4, {"variable": "rise"}, 0],

@@ -111,8 +111,8 @@ TEST(NumberPrices, OfAFixedVariableIsThatOfTheNumber) {
   EXPECT_NEAR(width->per_percent() / (0.01 * list.objective), 0.5, 1e-6);
 }
 
-/// f = m/(1 kg) + s/(100 MPa) with m = ρ b L h and s = 6 F L/(b h²) is least at h³ = 12 F L/(ρ b² L · 1e8), where s = m/2: a percent more
-/// density costs a percent of m. No limit holds this optimum.
+/// f = m/(1 kg) + s/(100 MPa) with m = ρ b L h and s = 6 F L/(b h²) is least at h³ = 12 F L/(ρ b² L
+/// · 1e8), where s = m/2: a percent more density costs a percent of m. No limit holds this optimum.
 TEST(NumberPrices, AreThoseOfAnOptimumThatNoLimitHolds) {
   const std::vector<std::string> overrides = {
       "/constraints={}", R"json(/objective={"minimize": "= m/(1 kg) + s/(100 MPa)"})json"};
@@ -128,7 +128,8 @@ TEST(NumberPrices, AreThoseOfAnOptimumThatNoLimitHolds) {
   EXPECT_NEAR(density->per_percent(), 0.01 * mass, 1e-6 * mass);
 }
 
-/// With its height from a list the bar stays as it is where a little more is allowed: only what makes it heavier has a price.
+/// With its height from a list the bar stays as it is where a little more is allowed: only what
+/// makes it heavier has a price.
 TEST(NumberPrices, OfChosenSizesAreThoseWithThem) {
   const std::vector<std::string> overrides = {
       R"(/variables/height={"start": "20 mm", "choices": ["15 mm", "20 mm", "25 mm"]})"};
@@ -147,8 +148,8 @@ TEST(NumberPrices, OfChosenSizesAreThoseWithThem) {
   EXPECT_EQ(find(list, "height"), nullptr);
 }
 
-/// A force of 40 Hz on the bar, whose motion repeats itself after 25 ms: its frequency sets the period, its
-/// amplitude does not.
+/// A force of 40 Hz on the bar, whose motion repeats itself after 25 ms: its frequency sets the
+/// period, its amplitude does not.
 TEST(NumberPrices, OfAMotionThatRepeatsItselfAreWithoutItsPeriod) {
   const std::vector<std::string> overrides = {
       R"(/simulation={"end_time": "25 ms", "step": "0.5 ms", "initial_state": "periodic"})",
@@ -212,8 +213,9 @@ TEST(PricedNumbers, LeaveOutPointsThatFormulasMove) {
   EXPECT_THAT(names_of(groups), testing::Contains("/scene/bodies/bar/from/0"));
 }
 
-/// A load between the ends of an elastic beam keeps its share of the length: neither it nor the end of the beam has a
-/// price that anyone knows. (Of the formula F a² (3 L − a)/(6 E I) both move the sag.)
+/// A load between the ends of an elastic beam keeps its share of the length: neither it nor the end
+/// of the beam has a price that anyone knows. (Of the formula F a² (3 L − a)/(6 E I) both move the
+/// sag.)
 TEST(PricedNumbers, LeaveOutPlacesOnElasticBeams) {
   const std::vector<std::string> overrides = {"/scene/loads/press/at/0=0.3"};
   const PricedNumbers numbers = priced_numbers(

@@ -115,8 +115,8 @@ void count_mentioned(const JsonNode& root, NumberReader& numbers) {
   }
 }
 
-/// The variables come late: where they are used tells what they measure. What follows from a part with
-/// mistakes is not read.
+/// The variables come late: where they are used tells what they measure. What follows from a part
+/// with mistakes is not read.
 ProblemFile read_document(const JsonNode& root, NumberReader& numbers) {
   ProblemFile problem;
   MistakeCollector mistakes;

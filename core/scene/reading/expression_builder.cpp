@@ -180,7 +180,8 @@ Dimension ExpressionBuilder::dimension_of(std::size_t position, Operation operat
   }
 }
 
-/// f/(60 Hz) looks like a ratio, but would be 2π times as large, as an angle [rad] whose unit no limit asks for.
+/// f/(60 Hz) looks like a ratio, but would be 2π times as large, as an angle [rad] whose unit no
+/// limit asks for.
 void ExpressionBuilder::check_no_ratio_of_frequencies(std::size_t position, int first,
                                                       int second) const {
   const double power = fact(second).dimension.powers[2];

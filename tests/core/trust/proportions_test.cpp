@@ -99,7 +99,8 @@ TEST(SizesOutOfProportion, ArePointsFarAwayAndInertiaOfOtherUnits) {
   EXPECT_THAT(heavy("1e2")[0].text, HasSubstr("/scene/bodies/more/inertia"));
 }
 
-/// A mass that is held a tenth of a millimetre beside the end of a bar of 400 mm is no mechanism that the other end is far from.
+/// A mass that is held a tenth of a millimetre beside the end of a bar of 400 mm is no mechanism
+/// that the other end is far from.
 TEST(SizesOutOfProportion, AreNoneWherePointsAreALittleApart) {
   const ProblemFile lug = read_scene(R"({"scene": {
         "bodies": {"arm": {"type": "beam", "from": [0, 0, 0], "to": [0.4, 0, 0], "material": "steel", "elements": 2,
