@@ -15,6 +15,7 @@
 #include "optimization/broken_limits.hpp"
 #include "optimization/designs_to_try.hpp"
 #include "optimization/kkt_audit.hpp"
+#include "optimization/objective_bend.hpp"
 #include "optimization/recorded_problem.hpp"
 #include "optimization/scaling.hpp"
 #include "optimization/smooth_problem.hpp"
@@ -29,6 +30,10 @@ constexpr int patience = 25;
 constexpr double short_first_step = 0.1;
 /// Relative difference of objectives that is none: the later attempt then counts.
 constexpr double same_to_rounding = 1e-9;
+/// How often the objective at the end may become the measure of the next proof.
+constexpr int most_references = 8;
+/// Part of the objective at the start that counts as much as that of a design (scaling.hpp).
+constexpr double part_of_reference = 1e-3;
 /// How often the limits are restored before they are taken for contradictory.
 constexpr int most_restorations = 2;
 /// Iterations of each optimization that looks for the least violation.
@@ -65,6 +70,15 @@ class Search {
   Result run() {
     attempt({options_.backend}, start_);
     if (!has_design()) begin_elsewhere();
+    search_on();
+    if (has_design()) reference_ = first_design(total_.history).objective;
+    for (int i = 0; i < most_references && is_measured_by_far_too_much(); ++i) begin_at_the_end();
+    tell_of_parts();
+    return std::move(total_);
+  }
+
+ private:
+  void search_on() {
     while (has_design() && !is_settled()) {
       if (is_outside()) {
         const std::optional<Eigen::VectorXd> inside = restored();
@@ -82,11 +96,42 @@ class Search {
         break;
       }
     }
-    tell_of_parts();
-    return std::move(total_);
   }
 
- private:
+  /// Whether a proof means nothing, since all that is left is small beside the objective where the
+  /// search began: damage by fatigue, or a penalty, may be many decades larger there.
+  bool is_measured_by_far_too_much() {
+    if (!is_verified() || total_.evaluation.objective == 0.0) return false;
+    const double much = part_of_reference * std::abs(reference_);
+    const Eigen::VectorXd s = variable_scales(problem_, total_.x);
+    if (objective_scale(problem_, total_.evaluation, s) >= much) return false;
+    Attempt beside;
+    const auto evaluate = [&](const Eigen::VectorXd& x) {
+      beside = attempt_evaluation(problem_, x, Request::values_and_gradients);
+      return beside.evaluation ? &*beside.evaluation : nullptr;
+    };
+    return objective_bend(problem_, total_.x, total_.evaluation, evaluate) < much;
+  }
+
+  /// What is small is measured by the end of the search so far, where it begins anew. Where that finds
+  /// nothing better, the proof stands.
+  void begin_at_the_end() {
+    const double before = total_.evaluation.objective;
+    const std::string message = total_.message;
+    reference_ = before;
+    total_.status = Status::stalled;
+    next_way_ = 0;
+    tell(
+        "what is small was measured by the start, where the objective is many times as large: the "
+        "search begins anew at its end");
+    attempt({options_.backend}, total_.x);
+    search_on();
+    const double after = total_.evaluation.objective;
+    if (is_verified() || before - after > options_.verdict.gain * std::abs(after)) return;
+    total_.status = Status::verified;
+    total_.message = message;
+  }
+
   bool has_design() const { return total_.evaluation.has_gradients(); }
 
   bool is_verified() const { return total_.status == Status::verified; }
@@ -299,6 +344,7 @@ class Search {
   std::vector<Way> ways_;
   std::size_t next_way_ = 0;
   int restorations_ = 0;
+  double reference_ = 0.0;  ///< objective that the last proof is measured by
   bool begun_elsewhere_ = false;
   Eigen::VectorXd magnitudes_;  ///< of the constraints; empty before the first restoration
   Result total_;

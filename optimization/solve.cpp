@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "optimization/backends.hpp"
+#include "optimization/objective_bend.hpp"
 #include "optimization/polish.hpp"
 #include "optimization/prices.hpp"
 #include "optimization/scaling.hpp"
@@ -64,17 +65,19 @@ class Run {
       : cache_(cache),
         options_(options),
         start_(start),
-        reference_(start.evaluation),
-        tolerance_(options.tolerance),
+        reference_(reference()),
         begun_at_(start.x) {}
 
   Result solve() {
-    Verdict verdict = settled(polished(improve(start_, tolerance_)));
-    for (int i = 0; i < most_references && is_measured_by_far_too_much(verdict); ++i) {
-      const int before = restarts_ + escapes_;
-      Verdict next = settled(judged_by_itself(verdict.design));
-      const bool has_gone_on = restarts_ + escapes_ > before;
-      if (next.status != Status::verified && has_gone_on && says_no_more(next, verdict)) break;
+    double tolerance = options_.tolerance;
+    Verdict verdict = polished(improve(start_, tolerance));
+    while (may_restart(verdict)) {
+      const EvaluatedDesign from = start_of_restart(verdict);
+      restart_size_ = from.x == begun_at_ ? size_of_other_steps * restart_size_ : 1.0;
+      begun_at_ = from.x;
+      tolerance *= tolerance_factor;
+      Verdict next = polished(improve(from, tolerance));
+      unchanged_restarts_ = next.design.x == verdict.design.x ? unchanged_restarts_ + 1 : 0;
       verdict = std::move(next);
     }
     return make_result(std::move(verdict));
@@ -105,74 +108,27 @@ class Run {
   /// Violation up to which a design is preferred: tighter than what a verdict allows, so that no
   /// tolerance is exploited.
   static constexpr double strict_violation = 1e-6;
-  /// How often the objective of a proven design may become the measure of the next proof.
-  static constexpr int most_references = 8;
-  /// Part of the objective of the reference that counts as much as that of the design
-  /// (scaling.hpp).
-  static constexpr double part_of_reference = 1e-3;
-  /// Part of its reference to which an objective without a proof has to fall to be taken for zero.
-  static constexpr double vanished = 1e-6;
+  /// Of the objective: slopes of a start that is nearly an optimum.
+  static constexpr double nearly_level = 0.1;
+  /// Of its slopes: an objective that nearly vanishes.
+  static constexpr double nearly_nothing = 0.01;
 
-  /// What restarts make of a design.
-  Verdict settled(Verdict verdict) {
-    unchanged_restarts_ = 0;
-    while (may_restart(verdict)) {
-      const EvaluatedDesign from = start_of_restart(verdict);
-      restart_size_ = from.x == begun_at_ ? size_of_other_steps * restart_size_ : 1.0;
-      begun_at_ = from.x;
-      tolerance_ *= tolerance_factor;
-      Verdict next = polished(improve(from, tolerance_));
-      unchanged_restarts_ = next.design.x == verdict.design.x ? unchanged_restarts_ + 1 : 0;
-      verdict = std::move(next);
-    }
-    return verdict;
-  }
-
-  /// Whether a proof means nothing, since all that is left is small beside the objective of a bad
-  /// start: damage by fatigue, or a penalty, may be many decades larger there.
-  bool is_measured_by_far_too_much(const Verdict& verdict) {
-    const EvaluatedDesign& design = verdict.design;
-    const double much = part_of_reference * std::abs(reference_.objective);
-    const Eigen::VectorXd s = variable_scales(cache_.problem(), design.x);
-    return verdict.status == Status::verified && design.evaluation.objective != 0.0 &&
-           objective_scale(cache_.problem(), design.evaluation, s) < much &&
-           bend_beside(design, s) < much;
-  }
-
-  /// How far the slope of the objective changes with the variables: a sum of squares may vanish at
-  /// its optimum, and its slope with it, but its curvature says what is much of it.
-  double bend_beside(const EvaluatedDesign& design, const Eigen::VectorXd& s) {
-    constexpr double step = 1e-3;
-    Eigen::VectorXd moved = design.x;
-    for (Eigen::Index i = 0; i < s.size(); ++i) {
-      const Variable& variable = cache_.problem().variables()[i];
-      const double way = step * s[i];
-      moved[i] = std::clamp(moved[i] + way <= variable.upper ? moved[i] + way : moved[i] - way,
-                            variable.lower, variable.upper);
-    }
+  /// The start, which says what is small of the objective and its slopes. At a start that is nearly an
+  /// optimum these say nothing, but how the slopes change does.
+  Evaluation reference() {
+    Evaluation reference = start_.evaluation;
+    const Eigen::VectorXd s = variable_scales(cache_.problem(), start_.x);
+    const double value = std::abs(reference.objective);
+    const double slope =
+        scaled_objective_gradient(cache_.problem(), reference, s).lpNorm<Eigen::Infinity>();
+    if (slope >= nearly_level * value && value >= nearly_nothing * slope) return reference;
     cache_.set_purpose(Purpose::audit);
-    const Evaluation* there = cache_.evaluate(moved, Request::values_and_gradients);
-    if (there == nullptr) return 0.0;
-    return s.cwiseProduct(there->objective_gradient - design.evaluation.objective_gradient)
-               .lpNorm<Eigen::Infinity>() /
-           step;
-  }
-
-  Verdict judged_by_itself(const EvaluatedDesign& design) {
-    reference_ = design.evaluation;
-    verdicts_.clear();
-    return judged(design);
-  }
-
-  /// Of a search that went on from a proven design, measured by it, and ended without a proof:
-  /// whether it found nothing better, or an objective that goes to zero, beside which nothing is
-  /// small.
-  bool says_no_more(const Verdict& next, const Verdict& proven) const {
-    const double before = proven.design.evaluation.objective;
-    const double after = next.design.evaluation.objective;
-    const double gain = before - after;
-    return gain <= options_.verdict.gain * std::abs(after) ||
-           std::abs(after) <= vanished * std::abs(before);
+    const double bend =
+        objective_bend(cache_.problem(), start_.x, reference, [&](const Eigen::VectorXd& x) {
+          return cache_.evaluate(x, Request::values_and_gradients);
+        });
+    reference.objective += std::copysign(bend, reference.objective);
+    return reference;
   }
 
   /// A better design beside this one, or this one itself.
@@ -411,9 +367,8 @@ class Run {
   EvaluationCache& cache_;
   const SolveOptions& options_;
   const EvaluatedDesign start_;
-  Evaluation reference_;           ///< whose objective is the measure of what is small
-  std::vector<Verdict> verdicts_;  ///< of all designs that were judged by it
-  double tolerance_;               ///< of the next run of the backend
+  const Evaluation reference_;
+  std::vector<Verdict> verdicts_;  ///< of all designs that were judged
   int restarts_ = 0;
   int escapes_ = 0;
   int unchanged_restarts_ = 0;
