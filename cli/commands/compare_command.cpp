@@ -183,11 +183,11 @@ void add_values(const OlderRun& first, const OlderRun& second, const std::string
 void add_prices(const OlderRun& first, const OlderRun& second, std::vector<Compared>& compared) {
   const Json one = part_of(first, "prices"), other = part_of(second, "prices");
   if (one.empty() || other.empty()) return;
-  const Json objective = part_of(first, "objective");
+  const Json objective = part_of(first, "objective"), of_other = part_of(second, "objective");
+  if (objective.value("name", Json()) != of_other.value("name", Json())) return;
   const std::string unit = objective.value("unit", "");
   compared.push_back({"objective", objective.value("name", ""), unit,
-                      objective.value("value", Json()),
-                      part_of(second, "objective").value("value", Json()), ""});
+                      objective.value("value", Json()), of_other.value("value", Json()), ""});
   for (const auto& entry : one.items()) {
     const Json a = member(one, entry.key(), "per_percent");
     const Json b = member(other, entry.key(), "per_percent");
@@ -196,19 +196,33 @@ void add_prices(const OlderRun& first, const OlderRun& second, std::vector<Compa
   }
 }
 
-/// Points of fronts, in their order.
+/// The point of a front with this limit; nothing if there is none.
+Json point_at(const Json& points, const Json& limit) {
+  constexpr double same = 1e-9;
+  for (const Json& point : points) {
+    const Json other = point.value("limit", Json());
+    if (!limit.is_number() || !other.is_number()) continue;
+    const double a = limit.get<double>(), b = other.get<double>();
+    if (std::abs(a - b) <= same * std::max(std::abs(a), std::abs(b))) return point;
+  }
+  return {};
+}
+
+/// Points of fronts of the same limit, those with the same bound, by their number in the first.
 void add_points(const OlderRun& first, const OlderRun& second, std::vector<Compared>& compared) {
   const auto points_of = [](const OlderRun& run) {
     const Json points = run.result.is_object() ? run.result.value("points", Json()) : Json();
     return points.is_array() ? points : Json::array();
   };
-  const Json one = points_of(first), other = points_of(second);
-  if (one.empty() || other.empty()) return;
+  const Json one = points_of(first), other = points_of(second), units = part_of(first, "units");
+  if (one.empty() || other.empty() || units != part_of(second, "units")) return;
+  if (first.result.value("constraint", Json()) != second.result.value("constraint", Json())) return;
   compared.push_back({"points", "number", "", one.size(), other.size(), ""});
-  const Json units = part_of(first, "units");
-  for (std::size_t i = 0; i < std::min(one.size(), other.size()); ++i) {
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    const Json found = point_at(other, one[i].value("limit", Json()));
+    if (!found.is_object()) continue;
     const Json here = one[i].value("objectives", Json::object());
-    const Json there = other[i].value("objectives", Json::object());
+    const Json there = found.value("objectives", Json::object());
     for (const auto& entry : here.items()) {
       const Json unit = units.value(entry.key(), Json());
       compared.push_back({"points", entry.key(), unit.is_string() ? unit.get<std::string>() : "",

@@ -5,8 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "core/scene/body_constants.hpp"
 #include "core/scene/held_points.hpp"
 #include "core/scene/reading/geometry.hpp"
+#include "core/scene/reading/limits.hpp"
 #include "core/scene/reading/placed_points.hpp"
 
 namespace pleuel {
@@ -77,28 +79,45 @@ std::optional<std::string> complaint(const PlacedPoint& placed, const PointMass&
                      placed.body->name, describe(position(mass.at, design)), describe(at));
 }
 
-/// A change that any tolerance of places tells from rounding.
-double moved_value(double value) {
-  constexpr double change = 1e-2;
-  return value == 0.0 ? change : value * (1.0 + change);
+/// Whether a place of an elastic body is another one of it at another design.
+bool is_moved_along(const PlacedPoint& placed, const Design<double>& start,
+                    const Design<double>& moved) {
+  const Point& point = *placed.point;
+  if (const auto* beam = std::get_if<BeamBody>(&placed.body->shape)) {
+    if (beam->is_rigid) return false;
+    const double share = nearest_share(*beam, position(point, start), start);
+    return !is_on_beam(*beam, share, position(point, moved), moved);
+  }
+  if (const auto* imported = std::get_if<ImportedBody>(&placed.body->shape)) {
+    const Eigen::Vector3d before = local_point(*imported, position(point, start), start);
+    const Eigen::Vector3d after = local_point(*imported, position(point, moved), moved);
+    return (after - before).stableNorm() > placement_tolerance * size_of(imported->file->constants);
+  }
+  return false;
+}
+
+/// Changes of a variable, one of which tells any tolerance of places from rounding.
+std::vector<double> changes_of(double value, double change) {
+  constexpr double share = 1e-2;
+  if (change != 0.0) return {change};
+  return {share * value, share};
 }
 
 }  // namespace
 
 std::optional<std::string> find_point_moved_along(const Scene& scene, const Design<double>& start,
-                                                  std::size_t variable) {
-  Design<double> moved = start;
-  moved[variable] = moved_value(start[variable]);
-  for (const PlacedPoint& placed : placed_points(scene)) {
-    if (placed.body == nullptr) continue;
-    const auto* beam = std::get_if<BeamBody>(&placed.body->shape);
-    if (beam == nullptr || beam->is_rigid) continue;
-    const double share = nearest_share(*beam, position(*placed.point, start), start);
-    if (is_on_beam(*beam, share, position(*placed.point, moved), moved)) continue;
-    return fmt::format(
-        "moves {} along the beam \"{}\", or the beam under it, but a place of an elastic beam "
-        "keeps its share of the length ({:.4g}): what it changes is not known",
-        placed.pointer(), placed.body->name, share);
+                                                  std::size_t variable, double change) {
+  for (const double by : changes_of(start[variable], change)) {
+    Design<double> moved = start;
+    moved[variable] += by;
+    for (const PlacedPoint& placed : placed_points(scene)) {
+      if (placed.body == nullptr || !is_moved_along(placed, start, moved)) continue;
+      return fmt::format(
+          "moves {} along the elastic body \"{}\", or the body under it, but a place of an elastic "
+          "body stays what it is (of a beam its share of the length): what that changes is not "
+          "known",
+          placed.pointer(), placed.body->name);
+    }
   }
   return std::nullopt;
 }

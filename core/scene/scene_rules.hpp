@@ -21,7 +21,8 @@ std::optional<std::string> find_impossible(const Scene& scene, const Design<doub
 /// point of an elastic beam, between its ends, would move along it, where the model keeps its share
 /// of the length. Bounds refuse such variables where they are free; this is asked where one with
 /// equal bounds scatters, is priced, or is differentiated.
+/// @param change  of the variable, that any tolerance of places tells from rounding; 0: some
 std::optional<std::string> find_point_moved_along(const Scene& scene, const Design<double>& start,
-                                                  std::size_t variable);
+                                                  std::size_t variable, double change = 0.0);
 
 }  // namespace pleuel

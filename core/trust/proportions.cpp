@@ -105,11 +105,10 @@ class Proportions {
       if (near.size() > most_far_away() || rest.empty()) continue;
       std::vector<Eigen::Vector3d> others;
       for (const std::size_t k : rest) others.push_back(places_[k].position);
-      // Points that are meant to be one, a little apart, are no mechanism that another one is far
-      // from.
-      const double size = std::max(diameter(others), deepest_section());
+      const double size = diameter(others);
       const double distance = distance_to(places_[i].position, others);
-      if (size == 0.0 || distance <= far_away * size) continue;
+      // Points that are meant to be one, a little apart, are nothing that another one is far from.
+      if (size <= deepest_section() || distance <= far_away * size) continue;
       named.insert(near.begin(), near.end());
       add(
           fmt::format("{} is {:.3g} m away from all other points of the mechanism, which lie "

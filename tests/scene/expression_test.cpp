@@ -38,10 +38,12 @@ std::vector<Symbol> symbols() {
           {"stroke", dimension("m"), 0.08, {}},
           {"tip deflection", dimension("m"), {}, argument(6)},
           {"f", dimension("rad/s"), {}, argument(7)},
-          {"beat", dimension("Hz"), 60.0, {}}};
+          {"beat", dimension("Hz"), 60.0, {}, true},
+          {"rate", dimension("s^-1"), 3.0, {}},
+          {"t", dimension("s"), {}, argument(8)}};
 }
 
-constexpr double values[] = {0.7, 1.3, 0.4, 0.12, 0.35, 2.5, 0.003, 40.0};
+constexpr double values[] = {0.7, 1.3, 0.4, 0.12, 0.35, 2.5, 0.003, 40.0, 0.01};
 
 std::vector<double> arguments_of(const Expression& expression) {
   std::vector<double> arguments;
@@ -73,12 +75,19 @@ std::string complaint(const std::string& text) {
 /// f is 40 rad/s, or 6.37 cycles a second: over 60 cycles that is 0.106, and over 60 Hz it would be
 /// an angle of 0.667.
 TEST(Expression, TakesNoAngleForARatioOfFrequencies) {
-  for (const char* text : {"f/(60 Hz)", "f/beat", "f^2/(60 Hz)^2", "1 + f/(60/(1 s))"}) {
+  for (const char* text : {"f/(60 Hz)", "f/beat", "f^2/(60 Hz)^2", "(60 Hz)/f", "f*(1/beat)"}) {
     EXPECT_NE(complaint(text).find("write \"rev/s\" in place of \"Hz\""), std::string::npos)
         << text;
   }
   EXPECT_NEAR(value_of("f/(60 rev/s)"), 40.0 / (2.0 * std::numbers::pi * 60.0), 1e-15);
-  EXPECT_DOUBLE_EQ(value_of("f*(2 s)"), 80.0);  // an angle
+  // Angles, of which nobody thinks as of ratios; a decay rate has no cycles.
+  EXPECT_DOUBLE_EQ(value_of("f*(2 s)"), 80.0);
+  EXPECT_DOUBLE_EQ(value_of("f/rate"), 40.0 / 3.0);
+  EXPECT_DOUBLE_EQ(value_of("f/(10 s^-1)"), 4.0);
+  for (const char* text :
+       {"sin(2*pi*beat*t*1 rad)", "sin(2*pi*beat*1 rad*t)", "sin(beat*1 rev*t)"}) {
+    EXPECT_NEAR(value_of(text), std::sin(2.0 * std::numbers::pi * 0.6), 1e-12) << text;
+  }
 }
 
 /// What is equal but for its round-off is a tie, with the mean of both derivatives.

@@ -134,7 +134,9 @@ TEST(LoadCase, IsTheSameProblemWhereverItIsTakenFromTheFile) {
                          "bad.json",
                          {},
                          "loaded"};
-  const ProblemFile bound = bind_numbers(text, {{"length", {"/scene/bodies/bar/to/0"}}});
+  const ProblemFile bound = bind_numbers(
+      text, {{"length",
+              {"/scene/bodies/bar/to/0", "/scene/bodies/load/at/0", "/scene/joints/clamp/at/0"}}});
   EXPECT_THAT(names_of(bound.constraints), ElementsAre("strength", "size"));
   EXPECT_FALSE(bound.pareto);
   EXPECT_FALSE(bound.has_cases());

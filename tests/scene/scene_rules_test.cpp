@@ -114,7 +114,7 @@ TEST(PlaceOfALoad, IsKnownNotToMoveAlongAnElasticBeam) {
   const ProblemFile problem = cantilever(middle);
   const auto found = find_point_moved_along(problem.scene, {1.0, 0.5}, 1);
   ASSERT_TRUE(found);
-  EXPECT_THAT(*found, HasSubstr("moves /scene/loads/push/at along the beam \"tube\""));
+  EXPECT_THAT(*found, HasSubstr("moves /scene/loads/push/at along the elastic body \"tube\""));
   EXPECT_FALSE(find_point_moved_along(problem.scene, {1.0, 0.5}, 0));
   const ProblemFile end =
       cantilever({"/scene/bodies/tube/to/0== a*1 m", "/scene/loads/push/at/0== a*1 m",

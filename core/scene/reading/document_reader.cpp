@@ -65,7 +65,8 @@ void check_scattering_places(const JsonNode& root, const ProblemFile& problem) {
   Design<double> start;
   for (const DesignVariable& variable : problem.variables) start.push_back(variable.start);
   for (const UncertainParameter& parameter : problem.uncertainty->parameters) {
-    const auto moved = find_point_moved_along(problem.scene, start, parameter.variable);
+    const auto moved =
+        find_point_moved_along(problem.scene, start, parameter.variable, parameter.half_width());
     if (!moved) continue;
     const std::string& name = problem.variables[parameter.variable].name;
     root.at("uncertainty").at("parameters").at(name).fail(*moved);

@@ -22,16 +22,6 @@ std::string without_blanks_at_powers(const std::string& unit) {
   return text;
 }
 
-Dimension rate() {
-  Dimension rate;
-  rate.powers[2] = -1.0;
-  return rate;
-}
-
-Dimension angular_speed() {
-  return Dimension::angle() * rate();
-}
-
 }  // namespace
 
 void ExpressionBuilder::fail(std::size_t position, const std::string& why) const {
@@ -52,7 +42,9 @@ int ExpressionBuilder::add_quantity(std::size_t position, double value, const st
   }
   const double si = value * measured.scale;
   if (!std::isfinite(si)) fail(position, "the number is out of range");
-  return add_constant(si, measured.dimension);
+  const int step = add_constant(si, measured.dimension);
+  facts_[step].counts_cycles = unit.find("Hz") != std::string::npos;
+  return step;
 }
 
 int ExpressionBuilder::add_name(std::size_t position, const std::string& name) {
@@ -70,6 +62,12 @@ int ExpressionBuilder::add_name(std::size_t position, const std::string& name) {
 int ExpressionBuilder::apply(std::size_t position, Operation operation, int first, int second) {
   StepFacts facts;
   facts.dimension = dimension_of(position, operation, first, second);
+  const bool is_of_cycles =
+      fact(first).counts_cycles || (second >= 0 && fact(second).counts_cycles);
+  facts.counts_cycles = is_of_cycles && facts.dimension.powers[3] == 0.0;
+  if (operation == Operation::times || operation == Operation::over) {
+    check_no_ratio_of_frequencies(position, facts, first, second);
+  }
   const bool is_constant = fact(first).constant && (second < 0 || fact(second).constant);
   const int step = add({operation, 0.0, first, second}, facts);
   if (is_constant) fold(position, step);
@@ -100,7 +98,7 @@ ReadExpression ExpressionBuilder::take(int last) {
   expression_.quantity = quantity ? quantity->name : "a quantity";
   expression_.unit = quantity ? std::string(quantity->unit) : base_units(facts_.back().dimension);
   return {std::make_shared<const Expression>(std::move(expression_)), facts_.back().dimension,
-          facts_.back().constant};
+          facts_.back().constant, facts_.back().counts_cycles};
 }
 
 int ExpressionBuilder::add(const ExpressionStep& step, const StepFacts& facts) {
@@ -114,7 +112,11 @@ int ExpressionBuilder::add_constant(double value, const Dimension& dimension) {
 }
 
 int ExpressionBuilder::add_symbol(const Symbol& symbol) {
-  if (symbol.constant) return add_constant(*symbol.constant, symbol.dimension);
+  if (symbol.constant) {
+    const int step = add_constant(*symbol.constant, symbol.dimension);
+    facts_[step].counts_cycles = symbol.counts_cycles;
+    return step;
+  }
   std::vector<ExpressionArgument>& all = expression_.arguments;
   const auto known = std::find_if(all.begin(), all.end(), [&](const ExpressionArgument& one) {
     return one.kind == symbol.argument->kind && one.index == symbol.argument->index;
@@ -150,7 +152,6 @@ Dimension ExpressionBuilder::dimension_of(std::size_t position, Operation operat
     case Operation::times:
       return fact(first).dimension * fact(second).dimension;
     case Operation::over:
-      check_no_ratio_of_frequencies(position, first, second);
       return fact(first).dimension / fact(second).dimension;
     case Operation::power:
       return power(position, first, second);
@@ -181,17 +182,17 @@ Dimension ExpressionBuilder::dimension_of(std::size_t position, Operation operat
 }
 
 /// f/(60 Hz) looks like a ratio, but would be 2π times as large, as an angle [rad] whose unit no
-/// limit asks for.
-void ExpressionBuilder::check_no_ratio_of_frequencies(std::size_t position, int first,
-                                                      int second) const {
-  const double power = fact(second).dimension.powers[2];
-  const bool is_rate = power != 0.0 && fact(second).dimension == rate().to_the(-power);
-  if (!is_rate || !fact(second).constant) return;
-  if (!(fact(first).dimension == angular_speed().to_the(-power))) return;
-  fail(position,
-       fmt::format("{} over {} is no ratio but an angle: Hz counts cycles, and frequencies are "
-                   "angular ones here; write \"rev/s\" in place of \"Hz\"",
-                   described(first), described(second)));
+/// limit asks for; so would f*(1/(60 Hz)), and (60 Hz)/f as much smaller.
+void ExpressionBuilder::check_no_ratio_of_frequencies(std::size_t position, const StepFacts& result,
+                                                      int first, int second) const {
+  const double angles = result.dimension.powers[3];
+  const bool is_angle = angles != 0.0 && result.dimension == Dimension::angle().to_the(angles);
+  if (!is_angle || fact(first).counts_cycles == fact(second).counts_cycles) return;
+  const StepFacts& cycles = fact(first).counts_cycles ? fact(first) : fact(second);
+  if (cycles.dimension.is_number()) return;  // cycles themselves, which "1 rad" makes an angle
+  fail(position, fmt::format("{} and {} make no ratio but an angle: frequencies are angular ones "
+                             "here, and Hz counts cycles; write \"rev/s\" in place of \"Hz\"",
+                             described(first), described(second)));
 }
 
 void ExpressionBuilder::check_number(std::size_t position, int step) const {

@@ -44,6 +44,7 @@ class ExpressionBuilder {
   struct StepFacts {
     Dimension dimension;
     std::optional<double> constant;  ///< its value, if it depends on nothing
+    bool counts_cycles = false;      ///< made from Hz, which are 1/s here
     /// A plain 0, which is as well no length, no mass, …
     bool is_zero() const { return constant && *constant == 0.0 && dimension.is_number(); }
   };
@@ -58,7 +59,8 @@ class ExpressionBuilder {
 
   Dimension dimension_of(std::size_t position, Operation operation, int first, int second) const;
   void check_number(std::size_t position, int step) const;
-  void check_no_ratio_of_frequencies(std::size_t position, int first, int second) const;
+  void check_no_ratio_of_frequencies(std::size_t position, const StepFacts& result, int first,
+                                     int second) const;
   Dimension common(std::size_t position, int first, int second, const char* what) const;
   Dimension power(std::size_t position, int base, int exponent) const;
 

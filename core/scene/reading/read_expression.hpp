@@ -18,6 +18,7 @@ struct Symbol {
   Dimension dimension;
   std::optional<double> constant = {};              ///< [SI]
   std::optional<ExpressionArgument> argument = {};  ///< if it is no constant
+  bool counts_cycles = false;                       ///< a constant made from Hz
 };
 
 /// Why an expression cannot be read, and where. The text is the end of a sentence.
@@ -36,6 +37,7 @@ struct ReadExpression {
   Dimension dimension;
   /// Its value [SI] where it depends on no variable and no response.
   std::optional<double> constant;
+  bool counts_cycles = false;  ///< made from Hz, which are 1/s in formulas
 };
 
 }  // namespace pleuel

@@ -12,6 +12,7 @@ namespace {
 struct WrittenValue {
   double value = 0.0;
   Dimension dimension;
+  bool counts_cycles = false;  ///< made from Hz
 };
 
 WrittenValue read_text(const JsonNode& node, const std::vector<Symbol>& symbols,
@@ -19,12 +20,12 @@ WrittenValue read_text(const JsonNode& node, const std::vector<Symbol>& symbols,
   if (is_formula(node)) {
     const ReadExpression read = read_formula(node, symbols, units);
     if (!read.constant) node.fail_with_value("must not depend on design variables");
-    return {*read.constant, read.dimension};
+    return {*read.constant, read.dimension, read.counts_cycles};
   }
   const WrittenQuantity written = split_quantity(node.value().get<std::string>());
   if (written.unit.empty()) return {written.value, {}};
   const MeasuredUnit unit = units.measure(written.unit);
-  return {written.value * unit.scale, unit.dimension};
+  return {written.value * unit.scale, unit.dimension, written.unit.find("Hz") != std::string::npos};
 }
 
 Symbol read_constant(const std::string& name, const JsonNode& node,
@@ -35,7 +36,7 @@ Symbol read_constant(const std::string& name, const JsonNode& node,
   }
   try {
     const WrittenValue written = read_text(node, symbols, units);
-    return {name, written.dimension, written.value};
+    return {name, written.dimension, written.value, std::nullopt, written.counts_cycles};
   } catch (const UnitError& error) {
     node.fail_with_value("must be a number, a text with unit, or a formula \"= …\"",
                          fmt::format(": {}{}", error.what(),
