@@ -113,8 +113,8 @@ class Search {
     return objective_bend(problem_, total_.x, total_.evaluation, evaluate) < much;
   }
 
-  /// What is small is measured by the end of the search so far, where it begins anew. Where that finds
-  /// nothing better, the proof stands.
+  /// What is small is measured by the end of the search so far, where it begins anew. Where that
+  /// finds nothing better, the proof stands.
   void begin_at_the_end() {
     const double before = total_.evaluation.objective;
     const std::string message = total_.message;

@@ -21,6 +21,9 @@ using Notice = std::function<void(const std::string&)>;
 ///   (least_violation.hpp). Only with this evidence a problem is called infeasible.
 /// - A backend that ends within the limits without a proof is followed by SolveOptions::
 ///   other_backends, and by itself with shorter first steps.
+/// - An optimum whose objective, with its slope and its bend (objective_bend.hpp), is less than a
+///   thousandth of where the search began is proven beside nothing of its size: the search begins
+///   anew there. Where that finds nothing better, the proof stands.
 ///
 /// The answer is the best design of all attempts; Result::backend found it, and Result::parts tells
 /// what was tried.

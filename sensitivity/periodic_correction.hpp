@@ -17,7 +17,8 @@ inline Eigen::RowVectorXd sizes_of(const Eigen::MatrixXd& columns) {
 /// round-off, relative to the size of the whole, in each column.
 class PeriodicCorrection {
  public:
-  /// @throws SimulationError if it no longer shrinks with a map of the motion itself, and is more than round-off
+  /// @throws SimulationError if it no longer shrinks with a map of the motion itself, and is more
+  ///         than round-off
   bool is_done(const Eigen::MatrixXd& left, const Eigen::RowVectorXd& sizes);
 
   /// The map that solves: that of the search, or one of the motion itself where that is too far
