@@ -18,8 +18,9 @@ double objective_bend(const Problem& problem, const Eigen::VectorXd& x, const Ev
   }
   const Evaluation* there = evaluate(moved);
   if (there == nullptr) return 0.0;
-  const Eigen::VectorXd change = there->objective_gradient - at.objective_gradient;
-  return s.cwiseProduct(change).lpNorm<Eigen::Infinity>() / step;
+  const Eigen::VectorXd change =
+      scaled_objective_gradient(problem, *there, s) - scaled_objective_gradient(problem, at, s);
+  return change.lpNorm<Eigen::Infinity>() / step;
 }
 
 }  // namespace pleuel

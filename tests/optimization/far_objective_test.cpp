@@ -10,6 +10,7 @@
 #include "known_problems.hpp"
 #include "optimization/backends.hpp"
 #include "optimization/find_optimum.hpp"
+#include "optimization/objective_bend.hpp"
 
 namespace pleuel::test::far_objective_test {
 namespace {
@@ -54,6 +55,26 @@ KnownProblem penalty() {
           low * low + e(low)};
 }
 
+/// 2 x² + 3 y² + 10 x z with z fixed: s ∘ ∇f changes by s² f'' a step of s, with s = 0.5 of x and 3,
+/// its range, of y, which is at its upper bound. 54 is the larger one; that of the fixed z does not
+/// count.
+TEST(ObjectiveBend, IsTheScaledCurvatureOfFreeVariables) {
+  FunctionProblem problem({{"x", 0.5, 0.0, 1.0}, {"y", 4.0, 1.0, 4.0}, {"z", 30.0, 30.0, 30.0}}, {},
+                          by_complex_step([](const auto& x) {
+                            return column(
+                                x, 2.0 * x[0] * x[0] + 3.0 * x[1] * x[1] + 10.0 * x[0] * x[2]);
+                          }));
+  const Eigen::Vector3d x(0.5, 4.0, 30.0);
+  const Evaluation at = problem.evaluate(x, Request::values_and_gradients);
+  Evaluation there;
+  const double bend = objective_bend(problem, x, at, [&](const Eigen::VectorXd& beside) {
+    EXPECT_LE(beside[1], 4.0);
+    there = problem.evaluate(beside, Request::values_and_gradients);
+    return &there;
+  });
+  EXPECT_NEAR(bend, 3.0 * 3.0 * 6.0, 1e-9);
+}
+
 class FarObjective : public testing::TestWithParam<std::string> {};
 
 TEST_P(FarObjective, IsProvenByWhatItIsAtTheEnd) {
@@ -76,6 +97,24 @@ TEST_P(FarObjective, ThatVanishesIsProvenByItsCurvature) {
   EXPECT_EQ(result.status, Status::verified) << result.message;
   EXPECT_NEAR(result.x[0], 1.0, 0.05);
   EXPECT_NEAR(result.x[1], 1.0, 0.1);
+}
+
+/// Two targets that cannot both be met, (x/2 − 1)² + (3/x³ − 1)²: started at its optimum, which
+/// bisection of the derivative finds, its slopes say nothing of what is small.
+TEST_P(FarObjective, IsProvenFromItsOptimum) {
+  double low = 1.0, high = 2.0;
+  for (int i = 0; i < 100; ++i) {
+    const double x = 0.5 * (low + high), cube = x * x * x;
+    (x / 2.0 - 1.0 - 18.0 / (cube * x) * (3.0 / cube - 1.0) < 0.0 ? low : high) = x;
+  }
+  FunctionProblem targets({{"x", low, 0.5, 6.0}}, {}, by_complex_step([](const auto& x) {
+                            const auto a = x[0] / 2.0 - 1.0;
+                            const auto b = 3.0 / (x[0] * x[0] * x[0]) - 1.0;
+                            return column(x, a * a + b * b);
+                          }));
+  const Result result = find_optimum(targets, {.backend = GetParam()});
+  EXPECT_EQ(result.status, Status::verified) << result.message;
+  EXPECT_NEAR(result.x[0], low, 1e-3 * low);
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, FarObjective, testing::ValuesIn(optimizer_names()),

@@ -14,66 +14,14 @@
 #include "core/response/analysis.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "sensitivity/gradients.hpp"
+#include "tests/sensitivity/steady_machines.hpp"
 #include "tests/support/parameter_name.hpp"
 #include "tests/support/problem_runs.hpp"
 
 namespace pleuel::test::periodic_test {
 namespace {
 
-/// Runs steadily at 50 rad/s, 500 steps a turn, with much damping in the members.
-ProblemFile slider_crank(std::vector<std::string> overrides = {}) {
-  for (const char* body : {"crank", "rod"}) {
-    overrides.push_back(std::string("/scene/bodies/") + body + "/damping/stiffness=2e-4 s");
-  }
-  overrides.insert(
-      overrides.begin(),
-      {R"(/scene/joints/bearing/drive={"type": "constant-speed", "speed": "50 rad/s"})",
-       "/simulation/end_time=0.12566370614359174", "/simulation/step=2.5132741228718346e-4 s",
-       "/simulation/initial_state=periodic", "/scene/bodies/crank/elements=2",
-       "/scene/bodies/rod/elements=4"});
-  return sample_problem("slider_crank", overrides);
-}
-
-ProblemFile four_bar(std::vector<std::string> overrides = {}) {
-  for (const char* body : {"crank", "coupler", "rocker"}) {
-    overrides.push_back(std::string("/scene/bodies/") + body + "/damping/stiffness=2e-4 s");
-  }
-  overrides.insert(
-      overrides.begin(),
-      {R"(/scene/joints/crank_bearing/drive={"type": "constant-speed", "speed": "50 rad/s"})",
-       "/simulation/end_time=0.12566370614359174", "/simulation/step=2.5132741228718346e-4 s",
-       "/simulation/initial_state=periodic"});
-  return sample_problem("four_bar", overrides);
-}
-
-/// Turned by a motor that is controlled towards 50 rad/s: the crank is free to turn, too.
-ProblemFile motor() {
-  return four_bar(
-      {R"(/scene/joints/crank_bearing={"type": "revolute", "bodies": ["ground", "crank"],
-          "at": [0, 0, 0]})",
-       R"(/scene/loads/motor={"type": "joint", "joint": "crank_bearing", "motor": {
-          "type": "control", "target": {"type": "constant-speed", "speed": "50 rad/s"},
-          "proportional": "100 N m/rad", "derivative": "2 N m s/rad"}})",
-       R"(/responses/torque_peak={"type": "motor-power", "load": "motor", "over_time": "max"})"});
-}
-
-/// In space, at 60 rad/s.
-ProblemFile spatial(std::vector<std::string> overrides = {}) {
-  for (const char* body : {"crank", "rod"}) {
-    overrides.push_back(std::string("/scene/bodies/") + body +
-                        "/damping={\"stiffness\": \"2e-4 s\"}");
-  }
-  overrides.insert(
-      overrides.begin(),
-      {R"(/scene/joints/bearing/drive={"type": "constant-speed", "speed": "60 rad/s"})",
-       "/simulation/end_time=0.10471975511965977", "/simulation/step=3.4906585039886593e-4 s",
-       "/simulation/initial_state=periodic"});
-  return sample_problem("spatial_slider_crank", overrides);
-}
-
-ProblemFile six_bar(const std::vector<std::string>& overrides = {}) {
-  return sample_problem("running_press", overrides);
-}
+using namespace steady;
 
 ProblemFile with_run_up(ProblemFile problem, int turns) {
   problem.simulation.period = 0.0;
@@ -242,37 +190,6 @@ TEST_P(SteadySetting, RepeatsItselfWithEqualGradients) {
   }
 }
 
-/// A mass on a spring and a damper under a harmonic force, m = 2 kg, k = 800 N/m, F = 5 N at
-/// ω = 30 rad/s.
-/// @param damper  of the joint, in its words; @param frequency  of the force, likewise
-struct Oscillator {
-  static constexpr double frequency = 30.0, m = 2.0, k = 800.0, force = 5.0;
-  static constexpr int steps = 40;
-  static constexpr double period = 2.0 * std::numbers::pi / frequency;
-
-  static ProblemFile with(const std::string& damper, const std::string& frequency_text = "30") {
-    constexpr const char* variable =
-        R"("variables": {"speed": {"start": 30, "lower": 20, "upper": 40}},)";
-    const bool is_variable = frequency_text != "30";
-    return read_problem_text(fmt::format(R"({{"name": "oscillator", "scene": {{"gravity": [0, 0, 0],
-        "bodies": {{"mass": {{"type": "point-mass", "at": [0, 0, 0], "mass": {}}}}},
-        "joints": {{"guide": {{"type": "point-on-line", "bodies": ["ground", "mass"],
-                               "at": [0, 0, 0], "axis": [1, 0, 0]}}}},
-        "loads": {{"spring": {{"type": "joint", "joint": "guide", "stiffness": {}, {}}},
-          "push": {{"type": "force", "body": "mass", "at": [0, 0, 0], "direction": [1, 0, 0],
-            "value": {{"type": "harmonic", "amplitude": {}, "frequency": {}}}}}}}}},
-        "simulation": {{"end_time": {:.17g}, "step": {:.17g}, "initial_state": "periodic",
-                        "newton_tolerance": 1e-14}},
-        {}
-        "responses": {{"x": {{"type": "position", "body": "mass", "direction": "x",
-                              "over_time": "max"}}}}}})",
-                                         m, k, damper, force, frequency_text, period,
-                                         period / steps, is_variable ? variable : ""),
-                             "oscillator.json")
-        .complete();
-  }
-};
-
 /// The discrete steady motion is Re(q e^{iωt}) with (Z − H) y = c z for the scheme y⁺ = H y + c z,
 /// Z = e^{iωh}, and m a + c v + k q = F.
 TEST(SteadyOscillator, IsThatOfTheDiscreteFrequencyResponse) {
@@ -304,15 +221,6 @@ TEST(SteadyOscillator, ForgetsAsItsDampingSays) {
     EXPECT_NEAR(growth, expected, 1e-3) << c;
     EXPECT_LE(growth, 1.0 + 1e-9) << c;
   }
-}
-
-std::string failure_of(const ProblemFile& file) {
-  try {
-    analyze(file, start_design(file));
-  } catch (const SimulationError& error) {
-    return error.what();
-  }
-  return "none";
 }
 
 /// The mass of a counterweight on the driven end of an arm changes no motion, whose derivatives are
@@ -350,68 +258,6 @@ TEST(SteadyMachine, HasGradientsOfAVariableThatChangesForcesOnly) {
   EXPECT_NEAR(std::abs(direct(1, 0)), 9.81, 1e-6);
 }
 
-TEST(SteadyMachineErrors, NameADriveThatDoesNotRepeatItself) {
-  const std::string failure =
-      failure_of(four_bar({"/scene/joints/crank_bearing/drive/speed=49 rad/s"}));
-  EXPECT_THAT(failure, testing::HasSubstr("crank_bearing"));
-  EXPECT_THAT(failure, testing::HasSubstr("whole turns"));
-}
-
-/// A period that somebody rounded: the crank goes on by 1e-6 of a turn.
-TEST(SteadyMachineErrors, TellARoundedPeriod) {
-  const std::string failure =
-      failure_of(four_bar({"/scene/joints/crank_bearing/drive/speed=50.00005 rad/s"}));
-  EXPECT_THAT(failure, testing::HasSubstr("goes through 360.00036 deg: if that is to be 360, write "
-                                          "the period as a formula"));
-}
-
-TEST(SteadyMachineErrors, NameALoadThatDoesNotRepeatItself) {
-  const std::string failure = failure_of(
-      four_bar({R"(/scene/loads/push={"type": "force", "body": "rocker", "at": ["400 mm", 0, 0],
-          "direction": [1, 0, 0], "value": {"type": "harmonic", "amplitude": 1, "frequency": 60}})"}));
-  EXPECT_THAT(failure, testing::HasSubstr("push"));
-}
-
-/// Pushed along by 0.1 N s/m of its speed it grows by 0.5 % in a period.
-TEST(SteadyMachineErrors, TellAMotionThatGrows) {
-  const std::string failure = failure_of(
-      Oscillator::with(R"("motor": {"type": "expression", "value": "= 0.1 N s/m*speed"})"));
-  EXPECT_THAT(failure, testing::HasSubstr("is unstable: disturbances grow by 0.5"));
-}
-
-/// The motion of this design repeats itself; those of others do not with its period.
-TEST(SteadyMachineErrors, NameAVariableThatSetsThePeriod) {
-  const ProblemFile file = Oscillator::with(R"("damping": 8)", R"({"variable": "speed"})");
-  const Eigen::VectorXd x = start_design(file);
-  const auto analysis = analyze(file, x);
-  for (const GradientMethod method : {GradientMethod::direct, GradientMethod::adjoint}) {
-    try {
-      gradients(file, x, *analysis, method);
-      ADD_FAILURE() << "no complaint";
-    } catch (const SimulationError& error) {
-      EXPECT_THAT(error.what(), testing::HasSubstr("push no longer repeats itself"));
-    }
-  }
-}
-
-TEST(SteadyMachineErrors, NameAMotionThatNothingBringsBack) {
-  const std::string failure = failure_of(read_problem_text(
-                                             R"({"name": "free", "scene": {"gravity": [0, 0, 0],
-        "bodies": {"cart": {"type": "point-mass", "at": [0, 0, 0], "mass": 1}},
-        "joints": {"guide": {"type": "point-on-line", "bodies": ["ground", "cart"],
-                             "at": [0, 0, 0], "axis": [1, 0, 0]}},
-        "loads": {"push": {"type": "force", "body": "cart", "at": [0, 0, 0],
-          "direction": [1, 0, 0],
-          "value": {"type": "harmonic", "amplitude": 1, "frequency": 62.83185307179586}}}},
-        "simulation": {"end_time": 0.1, "step": 1e-3, "initial_state": "periodic"},
-        "responses": {"x": {"type": "position", "body": "cart", "direction": "x",
-                            "over_time": "max"}}})",
-                                             "free.json")
-                                             .complete());
-  EXPECT_THAT(failure, testing::HasSubstr("\"cart\""));
-  EXPECT_THAT(failure, testing::HasSubstr("nothing has brought back"));
-}
-
 /// A slender bar that bends so far under its load that its stiffening couples both directions: the
 /// map of the search is that of a motion on the way, too far from the motion itself to find the
 /// derivatives by its end's height. They were refused.
@@ -432,33 +278,6 @@ TEST(SteadyBar, HasDerivativesWhereTheMapOfTheSearchIsTooFarAway) {
                                             "bar.json")
                               .complete();
   expect_equal_gradients(bar);
-}
-
-/// A disc on a tube, twisted to and fro without damping: neither grows nor dies, wherever in its
-/// period it begins. On the way to its motion it turns on the average, and that motion would grow.
-TEST(SteadyMachineErrors, AreNoneOfAMotionThatIsFoundFromOneThatGrows) {
-  for (const double phase : {0.0, 90.0}) {
-    const ProblemFile disc =
-        read_problem_text(fmt::format(R"({{"scene": {{"gravity": [0, 0, 0], "bodies": {{
-              "tube": {{"type": "beam", "from": [0, 0, 0], "to": [0, 0, 0.6], "material": "steel",
-                "section": {{"type": "tube", "outer_diameter": 0.03, "thickness": 0.003}},
-                "elements": 4}},
-              "disc": {{"type": "rigid", "at": [0, 0, 0.6], "mass": 20,
-                "inertia": [0.2, 0.2, 0.4, 0, 0, 0]}}}},
-            "joints": {{
-              "wall": {{"type": "fixed", "bodies": ["ground", "tube"], "at": [0, 0, 0]}},
-              "hub": {{"type": "fixed", "bodies": ["tube", "disc"], "at": [0, 0, 0.6]}}}},
-            "loads": {{"twist": {{"type": "torque", "body": "disc", "at": [0, 0, 0.6],
-              "direction": [0, 0, 1], "value": {{"type": "harmonic", "amplitude": 1,
-                "frequency": "40 Hz", "phase": "{} deg"}}}}}}}},
-          "simulation": {{"end_time": 0.025, "step": 1e-4, "initial_state": "periodic"}},
-          "responses": {{"hold": {{"type": "reaction-moment", "joint": "wall", "direction": "z",
-                                   "over_time": "max"}}}}}})",
-                                      phase),
-                          "disc.json")
-            .complete();
-    EXPECT_EQ(failure_of(disc), "none") << phase;
-  }
 }
 
 }  // namespace

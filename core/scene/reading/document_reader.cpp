@@ -147,8 +147,8 @@ ProblemFile read_document(const JsonNode& root, NumberReader& numbers) {
   problem.scene.formulas = numbers.ranged_formulas();
   read_settings(root, numbers, problem);
   check_margins(root, problem);
-  check_scattering_places(root, problem);
   check_scene(root.at("scene"), problem);
+  check_scattering_places(root, problem);
   if (const auto effects = root.find("effects")) check_effects(*effects, problem);
   return problem;
 }

@@ -43,7 +43,7 @@ int ExpressionBuilder::add_quantity(std::size_t position, double value, const st
   const double si = value * measured.scale;
   if (!std::isfinite(si)) fail(position, "the number is out of range");
   const int step = add_constant(si, measured.dimension);
-  facts_[step].counts_cycles = unit.find("Hz") != std::string::npos;
+  facts_[step].counts_cycles = is_of_cycles(unit);
   return step;
 }
 
@@ -62,9 +62,8 @@ int ExpressionBuilder::add_name(std::size_t position, const std::string& name) {
 int ExpressionBuilder::apply(std::size_t position, Operation operation, int first, int second) {
   StepFacts facts;
   facts.dimension = dimension_of(position, operation, first, second);
-  const bool is_of_cycles =
-      fact(first).counts_cycles || (second >= 0 && fact(second).counts_cycles);
-  facts.counts_cycles = is_of_cycles && facts.dimension.powers[3] == 0.0;
+  const bool has_cycles = fact(first).counts_cycles || (second >= 0 && fact(second).counts_cycles);
+  facts.counts_cycles = has_cycles && facts.dimension.powers[3] == 0.0;
   if (operation == Operation::times || operation == Operation::over) {
     check_no_ratio_of_frequencies(position, facts, first, second);
   }

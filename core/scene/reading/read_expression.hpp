@@ -12,6 +12,11 @@
 /// What goes into the reading of a formula, and what comes out.
 namespace pleuel {
 
+/// Whether a unit counts cycles, Hz or kHz: 1/s in formulas, where frequencies are angular ones.
+inline bool is_of_cycles(const std::string& unit) {
+  return unit.find("Hz") != std::string::npos;
+}
+
 /// A name that an expression may use, and what it stands for.
 struct Symbol {
   std::string name;

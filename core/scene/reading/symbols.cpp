@@ -25,7 +25,7 @@ WrittenValue read_text(const JsonNode& node, const std::vector<Symbol>& symbols,
   const WrittenQuantity written = split_quantity(node.value().get<std::string>());
   if (written.unit.empty()) return {written.value, {}};
   const MeasuredUnit unit = units.measure(written.unit);
-  return {written.value * unit.scale, unit.dimension, written.unit.find("Hz") != std::string::npos};
+  return {written.value * unit.scale, unit.dimension, is_of_cycles(written.unit)};
 }
 
 Symbol read_constant(const std::string& name, const JsonNode& node,
