@@ -33,10 +33,10 @@ double rounded_outward(double value, bool is_upper) {
   return unit * (is_upper ? std::ceil((value - slack) / unit) : std::floor((value + slack) / unit));
 }
 
-class Elasticity {
+class LeastViolationSearch {
  public:
-  Elasticity(const LimitRows& rows, const std::vector<Constraint>& limits,
-             const Eigen::VectorXd& start, int iterations)
+  LeastViolationSearch(const LimitRows& rows, const std::vector<Constraint>& limits,
+                       const Eigen::VectorXd& start, int iterations)
       : rows_(rows), limits_(limits), iterations_(iterations), x_(start) {}
 
   LeastViolation find() {
@@ -242,7 +242,7 @@ Eigen::VectorXd LimitRows::fold(const Eigen::VectorXd& rows,
 
 LeastViolation find_least_violation(const LimitRows& rows, const std::vector<Constraint>& limits,
                                     const Eigen::VectorXd& start, int iterations) {
-  return Elasticity(rows, limits, start, iterations).find();
+  return LeastViolationSearch(rows, limits, start, iterations).find();
 }
 
 std::string describe(const LeastViolation& least, const Problem& problem) {

@@ -1,7 +1,9 @@
 #include "picture/drawn_place.hpp"
 
-#include "core/model/beam_mesh.hpp"
+#include <algorithm>
+
 #include "core/model/scene_geometry.hpp"
+#include "core/scene/beam_mesh.hpp"
 
 namespace pleuel {
 
@@ -17,7 +19,7 @@ int index_of(const Scene& scene, const std::string& name) {
 }  // namespace
 
 DrawnPlace drawn_place(const Scene& scene, const std::string& body, const Point& at,
-                       const Design<double>& start, const Design<double>& design) {
+                       const Design<double>& design) {
   DrawnPlace place;
   place.body = index_of(scene, body);
   place.point = resolve_point(at, design);
@@ -25,14 +27,13 @@ DrawnPlace drawn_place(const Scene& scene, const std::string& body, const Point&
   const Body& holder = scene.bodies[place.body];
   if (const auto* beam = std::get_if<BeamBody>(&holder.shape)) {
     // A rigid beam holds points anywhere in space: those beside its axis are drawn from its frame.
-    const double share = share_along(*beam, at, start);
-    const Eigen::Vector3d from = resolve_point(beam->from, start),
-                          to = resolve_point(beam->to, start);
-    const Eigen::Vector3d there = resolve_point(at, start);
-    const bool is_on_axis =
-        (from + share * (to - from) - there).norm() <= 1e-6 * (to - from).norm();
-    place.share = share;
-    if (is_on_axis && share >= 0.0 && share <= 1.0) {
+    constexpr double rounding = 1e-6;
+    const double share = share_along(*beam, at, design);
+    const Eigen::Vector3d from = resolve_point(beam->from, design);
+    const Eigen::Vector3d way = resolve_point(beam->to, design) - from;
+    const bool is_on_axis = (from + share * way - place.point).norm() <= rounding * way.norm();
+    if (is_on_axis && share >= -rounding && share <= 1.0 + rounding) {
+      place.share = std::clamp(share, 0.0, 1.0);
       place.point.setZero();
       return place;
     }

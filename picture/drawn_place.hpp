@@ -19,9 +19,7 @@ struct DrawnPlace {
 
 /// @param body    name of a body, or the ground
 /// @param at      at t = 0, global axes [m]
-/// @param start   design that decides where along a beam the place is
-/// @param design  design that is drawn
 DrawnPlace drawn_place(const Scene& scene, const std::string& body, const Point& at,
-                       const Design<double>& start, const Design<double>& design);
+                       const Design<double>& design);
 
 }  // namespace pleuel

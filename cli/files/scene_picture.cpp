@@ -189,8 +189,8 @@ Json law_document(const TimeFunction& function, double end_time, const Values& d
 
 class GeometryWriter {
  public:
-  GeometryWriter(const ProblemFile& problem, const Values& start, const Values& design)
-      : problem_(problem), scene_(problem.scene), start_(start), design_(design) {}
+  GeometryWriter(const ProblemFile& problem, const Values& design)
+      : problem_(problem), scene_(problem.scene), design_(design) {}
 
   Json bodies() const {
     Json document = Json::array();
@@ -249,7 +249,7 @@ class GeometryWriter {
   }
 
   Json place(const std::string& body, const Point& at) const {
-    const DrawnPlace drawn = drawn_place(scene_, body, at, start_, design_);
+    const DrawnPlace drawn = drawn_place(scene_, body, at, design_);
     Json document = {{"body", drawn.body}, {"at", vector_document(resolve_point(at, design_))}};
     const bool is_on_axis = drawn.body >= 0 && drawn.share >= 0.0 &&
                             std::holds_alternative<BeamBody>(scene_.bodies[drawn.body].shape);
@@ -285,7 +285,7 @@ class GeometryWriter {
 
   const ProblemFile& problem_;
   const Scene& scene_;
-  const Values &start_, &design_;
+  const Values& design_;
 };
 
 Values values_of_vector(const Eigen::VectorXd& x) {
@@ -318,8 +318,8 @@ Json scene_picture(const ProblemFile& problem) {
 }
 
 Json geometry_picture(const ProblemFile& problem, const Eigen::VectorXd& x) {
-  const Values start = values_of_vector(start_design(problem)), design = values_of_vector(x);
-  const GeometryWriter writer(problem, start, design);
+  const Values design = values_of_vector(x);
+  const GeometryWriter writer(problem, design);
   return {{"bodies", writer.bodies()}, {"joints", writer.joints()}, {"loads", writer.loads()}};
 }
 

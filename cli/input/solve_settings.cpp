@@ -31,8 +31,12 @@ Json options_document(const SolveOptions& options, const ProblemFile& problem) {
           {"max_restarts", options.max_restarts},
           {"max_escapes", options.max_escapes},
           {"max_consecutive_failures", options.max_consecutive_failures},
+          {"max_polishes", options.max_polishes},
+          {"polish_iterations", options.polish_iterations},
+          {"patience", options.patience},
           {"verdict",
            {{"kkt_residual", options.verdict.kkt_residual},
+            {"variable_residual", options.verdict.variable_residual},
             {"violation", options.verdict.violation},
             {"gradient", options.verdict.gradient},
             {"gain", options.verdict.gain}}}};

@@ -1,25 +1,24 @@
 #pragma once
 
 #include <cmath>
+#include <type_traits>
+#include <vector>
 
+#include "core/base/element_place.hpp"
 #include "core/base/int_size.hpp"
 #include "core/beam/beam.hpp"
 #include "core/beam/beam_shape.hpp"
 
 namespace pleuel {
 
-/// A place along the axis of a beam. Shares of the length do not depend on the design: all elements
-/// scale with the beam.
-struct BeamPlace {
-  int element = 0;
-  double xi = 0.0;  ///< in the element, 0 … 1
-
-  bool is_node() const { return xi == 0.0 || xi == 1.0; }
-  int node() const { return xi < 0.5 ? element : element + 1; }
+/// A place along the axis of a beam. All elements scale with the beam: where places keep their shares
+/// of the length, they do not depend on the design.
+struct BeamPlace : ElementPlace {
+  std::vector<double> xi_x = {};  ///< derivatives of ξ, in the order of those of the body; or none
 };
 
 /// @param at  share of the length, 0 … 1; what is a node up to round-off becomes one
-inline BeamPlace find_place(const Beam<double>& beam, double at) {
+inline ElementPlace find_place(const Beam<double>& beam, double at) {
   const int elements = int_size(beam.elements);
   const double x = at * beam.node_position(elements);
   for (int e = 0; e < elements; ++e) {
@@ -36,18 +35,19 @@ inline BeamPlace find_place(const Beam<double>& beam, double at) {
 
 /// Local x of a place [m].
 template <class Scalar>
-Scalar position_of(const Beam<Scalar>& beam, const BeamPlace& place) {
+Scalar position_of(const Beam<Scalar>& beam, const ElementPlace& place) {
   return beam.node_position(place.element) + place.xi * beam.elements[place.element].length;
 }
 
-/// u v w θx θy θz of a place, one row each, from the twelve coordinates of its element.
+/// u v w θx θy θz of a place of an element, one row each, from its twelve coordinates.
 template <class Scalar>
-Eigen::Matrix<Scalar, 6, 12> place_shape(const BeamPlace& place, const ElementForm<Scalar>& form) {
+Eigen::Matrix<Scalar, 6, 12> place_shape(const std::type_identity_t<Scalar>& xi,
+                                         const ElementForm<Scalar>& form) {
   Eigen::Matrix<Scalar, 6, 12> shape;
-  shape.template topRows<3>() = axis_shape(place.xi, form);
-  shape.row(3) = linear_row<Scalar>(3, place.xi);
-  shape.row(4) = rotation_y_row(place.xi, form);
-  shape.row(5) = rotation_z_row(place.xi, form);
+  shape.template topRows<3>() = axis_shape(xi, form);
+  shape.row(3) = linear_row<Scalar>(3, xi);
+  shape.row(4) = rotation_y_row(xi, form);
+  shape.row(5) = rotation_z_row(xi, form);
   return shape;
 }
 

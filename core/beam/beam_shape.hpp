@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <type_traits>
 
 #include <Eigen/Core>
 
@@ -25,18 +26,20 @@ using ElementRow = Eigen::Matrix<Scalar, 1, element_coordinates>;
 
 /// Hermite polynomials for (v₁, v'₁, v₂, v'₂), differentiated `order` times with respect to x.
 template <class Scalar>
-std::array<Scalar, 4> hermite(double xi, const Scalar& length, int order = 0) {
+std::array<Scalar, 4> hermite(const std::type_identity_t<Scalar>& xi, const Scalar& length,
+                              int order = 0) {
   switch (order) {
     case 0:
-      return {Scalar(1 - 3 * xi * xi + 2 * xi * xi * xi),
-              Scalar(length * (xi - 2 * xi * xi + xi * xi * xi)),
-              Scalar(3 * xi * xi - 2 * xi * xi * xi), Scalar(length * (xi * xi * xi - xi * xi))};
+      return {Scalar(1.0 - 3.0 * xi * xi + 2.0 * xi * xi * xi),
+              Scalar(length * (xi - 2.0 * xi * xi + xi * xi * xi)),
+              Scalar(3.0 * xi * xi - 2.0 * xi * xi * xi),
+              Scalar(length * (xi * xi * xi - xi * xi))};
     case 1:
-      return {Scalar((6 * xi * xi - 6 * xi) / length), Scalar(1 - 4 * xi + 3 * xi * xi),
-              Scalar((6 * xi - 6 * xi * xi) / length), Scalar(3 * xi * xi - 2 * xi)};
+      return {Scalar((6.0 * xi * xi - 6.0 * xi) / length), Scalar(1.0 - 4.0 * xi + 3.0 * xi * xi),
+              Scalar((6.0 * xi - 6.0 * xi * xi) / length), Scalar(3.0 * xi * xi - 2.0 * xi)};
     default:
-      return {Scalar((12 * xi - 6) / (length * length)), Scalar((6 * xi - 4) / length),
-              Scalar((6 - 12 * xi) / (length * length)), Scalar((6 * xi - 2) / length)};
+      return {Scalar((12.0 * xi - 6.0) / (length * length)), Scalar((6.0 * xi - 4.0) / length),
+              Scalar((6.0 - 12.0 * xi) / (length * length)), Scalar((6.0 * xi - 2.0) / length)};
   }
 }
 
@@ -64,7 +67,8 @@ BendingRow<Scalar> shear_angle(const Scalar& length, const Scalar& shear) {
 
 /// The deflection of the axis, differentiated `order` times: the cubic with the end slopes θ + γ.
 template <class Scalar>
-BendingRow<Scalar> deflection(double xi, const Scalar& length, const Scalar& shear, int order) {
+BendingRow<Scalar> deflection(const std::type_identity_t<Scalar>& xi, const Scalar& length,
+                              const Scalar& shear, int order) {
   BendingRow<Scalar> row = hermite(xi, length, order);
   if (value_of(shear) == 0.0) return row;
   const Scalar of_angle = row[1] + row[3];
@@ -75,7 +79,8 @@ BendingRow<Scalar> deflection(double xi, const Scalar& length, const Scalar& she
 
 /// The rotation of the section, v' − γ.
 template <class Scalar>
-BendingRow<Scalar> section_rotation(double xi, const Scalar& length, const Scalar& shear) {
+BendingRow<Scalar> section_rotation(const std::type_identity_t<Scalar>& xi, const Scalar& length,
+                                    const Scalar& shear) {
   BendingRow<Scalar> row = deflection(xi, length, shear, 1);
   if (value_of(shear) == 0.0) return row;
   const BendingRow<Scalar> angle = shear_angle(length, shear);
@@ -107,25 +112,29 @@ ElementRow<Scalar> row_along_z(const BendingRow<Scalar>& bending) {
 
 /// Row of v₀ (in the x–y plane), differentiated `order` times.
 template <class Scalar>
-ElementRow<Scalar> deflection_y_row(double xi, const ElementForm<Scalar>& form, int order = 0) {
+ElementRow<Scalar> deflection_y_row(const std::type_identity_t<Scalar>& xi,
+                                    const ElementForm<Scalar>& form, int order = 0) {
   return row_along_y(deflection(xi, form.length, form.shear_y, order));
 }
 
 /// Row of w₀ (in the x–z plane), differentiated `order` times.
 template <class Scalar>
-ElementRow<Scalar> deflection_z_row(double xi, const ElementForm<Scalar>& form, int order = 0) {
+ElementRow<Scalar> deflection_z_row(const std::type_identity_t<Scalar>& xi,
+                                    const ElementForm<Scalar>& form, int order = 0) {
   return row_along_z(deflection(xi, form.length, form.shear_z, order));
 }
 
 /// Row of θz.
 template <class Scalar>
-ElementRow<Scalar> rotation_z_row(double xi, const ElementForm<Scalar>& form) {
+ElementRow<Scalar> rotation_z_row(const std::type_identity_t<Scalar>& xi,
+                                  const ElementForm<Scalar>& form) {
   return row_along_y(section_rotation(xi, form.length, form.shear_y));
 }
 
 /// Row of θy.
 template <class Scalar>
-ElementRow<Scalar> rotation_y_row(double xi, const ElementForm<Scalar>& form) {
+ElementRow<Scalar> rotation_y_row(const std::type_identity_t<Scalar>& xi,
+                                  const ElementForm<Scalar>& form) {
   return -row_along_z(section_rotation(xi, form.length, form.shear_z));
 }
 
@@ -143,16 +152,17 @@ ElementRow<Scalar> shear_z_row(const ElementForm<Scalar>& form) {
 
 /// Linear interpolation of the coordinates `first` and `first` + 6 (0: u₀, 3: θx).
 template <class Scalar>
-ElementRow<Scalar> linear_row(int first, double xi) {
+ElementRow<Scalar> linear_row(int first, const std::type_identity_t<Scalar>& xi) {
   ElementRow<Scalar> row = ElementRow<Scalar>::Constant(Scalar(0));
-  row(first) = Scalar(1 - xi);
+  row(first) = Scalar(1.0 - xi);
   row(first + 6) = Scalar(xi);
   return row;
 }
 
 /// Displacement of the beam axis.
 template <class Scalar>
-ElementShape<Scalar> axis_shape(double xi, const ElementForm<Scalar>& form) {
+ElementShape<Scalar> axis_shape(const std::type_identity_t<Scalar>& xi,
+                                const ElementForm<Scalar>& form) {
   ElementShape<Scalar> shape;
   shape.row(0) = linear_row<Scalar>(0, xi);
   shape.row(1) = deflection_y_row(xi, form);
@@ -162,7 +172,8 @@ ElementShape<Scalar> axis_shape(double xi, const ElementForm<Scalar>& form) {
 
 /// Displacement per unit y of an off-axis point: (−θz, 0, θx).
 template <class Scalar>
-ElementShape<Scalar> y_offset_shape(double xi, const ElementForm<Scalar>& form) {
+ElementShape<Scalar> y_offset_shape(const std::type_identity_t<Scalar>& xi,
+                                    const ElementForm<Scalar>& form) {
   ElementShape<Scalar> shape = ElementShape<Scalar>::Constant(Scalar(0));
   shape.row(0) = -rotation_z_row(xi, form);
   shape.row(2) = linear_row<Scalar>(3, xi);
@@ -171,7 +182,8 @@ ElementShape<Scalar> y_offset_shape(double xi, const ElementForm<Scalar>& form) 
 
 /// Displacement per unit z of an off-axis point: (θy, −θx, 0).
 template <class Scalar>
-ElementShape<Scalar> z_offset_shape(double xi, const ElementForm<Scalar>& form) {
+ElementShape<Scalar> z_offset_shape(const std::type_identity_t<Scalar>& xi,
+                                    const ElementForm<Scalar>& form) {
   ElementShape<Scalar> shape = ElementShape<Scalar>::Constant(Scalar(0));
   shape.row(0) = rotation_y_row(xi, form);
   shape.row(1) = -linear_row<Scalar>(3, xi);

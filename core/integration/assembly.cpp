@@ -151,7 +151,7 @@ Eigen::MatrixXd assembly_forces(const Mechanism& mechanism, const Eigen::MatrixX
 void projection_matrix(const Mechanism& mechanism, const State& state, System::Matrix& matrix) {
   const int n = mechanism.system->coordinates();
   mechanism.system->tangent(state, {.q = 1.0}, ConstraintLevel::position, matrix);
-  scale_dynamic_block(n, 0.0, matrix);
+  clear_dynamic_block(n, matrix);
   for (int i = 0; i < n; ++i) matrix.coeffRef(i, i) = mechanism.assembly_weight(i);
 }
 

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/SparseLU>
 #include <fmt/format.h>
 
+#include "core/base/balanced_lu.hpp"
 #include "core/base/dense_solvers.hpp"
 #include "core/base/error.hpp"
 #include "core/base/rotation_vector.hpp"
@@ -29,6 +29,10 @@ constexpr double stuck_share = 1e-9;
 /// Or where it gets no further and each equation is met to this share of its terms. Stiff elements
 /// leave such changes of the coordinates as round-off makes of it, some n⁴ of it for n elements.
 constexpr double balance_round_off = 1e-12;
+/// Or where it has not come nearer so many times, at this share of the largest deformation: elements
+/// that are much shorter than others leave more round-off than an even mesh does.
+constexpr int most_stuck_steps = 3;
+constexpr double long_stuck_share = 1e-6;
 /// Where the whole load is too much for Newton's method it comes in parts, down to this one.
 constexpr double smallest_part = 1.0 / 1024;
 /// Where members turn far there are other equilibria, to which loads that grow slowly do not lead.
@@ -299,14 +303,13 @@ Eigen::SparseMatrix<double> Equilibrium::mixed_jacobian(const InitialState& at,
 }
 
 bool Equilibrium::solve_from(const Eigen::VectorXd& target, InitialState& at) {
-  Eigen::SparseLU<Eigen::SparseMatrix<double>> factors;
+  BalancedLu factors;
   Eigen::VectorXd strains = strains_.at(at.state.q);
   double previous = std::numeric_limits<double>::infinity();
+  int stuck_steps = 0;
   for (int iteration = 0; iteration < max_newton_steps; ++iteration) {
     const Eigen::SparseMatrix<double> matrix = mixed_jacobian(at, strains);
-    if (iteration == 0) factors.analyzePattern(matrix);
-    factors.factorize(matrix);
-    if (factors.info() != Eigen::Success) return false;
+    if (!factors.factorize(matrix)) return false;
     const Eigen::VectorXd left = target - residual(at);
     const Eigen::VectorXd step = factors.solve(left);
     if (!step.allFinite()) return false;
@@ -315,7 +318,9 @@ bool Equilibrium::solve_from(const Eigen::VectorXd& target, InitialState& at) {
     const bool is_met = is_stuck && backward_error(matrix, unknowns(at), left) < balance_round_off;
     strains = strains_.predicted(at.state.q, step.head(n_));
     advance_by(step, at);
-    const bool is_round_off = is_stuck && size < stuck_share * std::max(1.0, deformation(at.state));
+    stuck_steps = is_stuck ? stuck_steps + 1 : 0;
+    const double share = stuck_steps < most_stuck_steps ? stuck_share : long_stuck_share;
+    const bool is_round_off = is_stuck && size < share * std::max(1.0, deformation(at.state));
     if (size < newton_tolerance || is_round_off || is_met) return true;
     previous = size;
   }
@@ -406,8 +411,8 @@ void Equilibrium::refuse_unstable(const InitialState& start, const InitialState&
 }
 
 Equilibrium::Derivatives Equilibrium::differentiate(const InitialState& solution) {
-  Eigen::SparseLU<Eigen::SparseMatrix<double>> factors(jacobian(solution));
-  if (factors.info() != Eigen::Success) {
+  BalancedLu factors;
+  if (!factors.factorize(jacobian(solution))) {
     throw SimulationError("the derivatives of the elastic equilibrium are singular");
   }
   const Eigen::MatrixXd z = -factors.solve(design_derivative(solution));

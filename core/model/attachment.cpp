@@ -3,8 +3,8 @@
 #include <cassert>
 #include <map>
 
-#include "core/model/beam_mesh.hpp"
 #include "core/model/imported_constants.hpp"
+#include "core/scene/beam_mesh.hpp"
 #include "core/scene/joint_kind.hpp"
 #include "core/scene/visit_numbers.hpp"
 
@@ -22,7 +22,7 @@ Attachment::Attachment(const std::string& body, Point at, const std::vector<Body
     point_ = point_of(*model_, place_at(*imported, at_, context.start));
   } else if (model_->is_elastic) {
     const double share = share_along(std::get<BeamBody>(body_->shape), at_, context.start);
-    point_ = point_of(*model_, find_place(model_->beam, share));
+    point_ = point_of(*model_, held_place(*model_, share));
   }
   if (point_) set_rows();
   is_direct_ = are_coordinates();
@@ -98,6 +98,9 @@ Eigen::Vector3d angle_reference(const Joint& joint, std::span<const Attachment> 
 
 void Attachment::add_variables(std::set<int>& variables) const {
   if (body_) variables.merge(variables_of(*body_, context_.scene));
+  if (point_) {
+    for (const auto& [variable, change] : point_->derivatives) variables.insert(variable);
+  }
   for (const Number& number : at_) {
     for (const int variable : number.variables()) variables.insert(variable);
   }

@@ -2,14 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <set>
 
 #include "core/beam/beam_place.hpp"
 #include "core/beam/elastic_basis.hpp"
-#include "core/model/attached_points.hpp"
-#include "core/model/beam_mesh.hpp"
 #include "core/model/beam_shapes.hpp"
 #include "core/model/invariant_derivatives.hpp"
 #include "core/model/resolve_beam.hpp"
+#include "core/scene/attached_points.hpp"
+#include "core/scene/beam_mesh.hpp"
 
 namespace pleuel {
 
@@ -44,11 +45,10 @@ ElasticCoordinates clamped_coordinates(ReferenceCondition condition, int nodes,
 
 /// Nodes of a beam that joints and loads act on, or next to which they do.
 std::vector<int> held_nodes(const BeamBody& beam, const Body& body, const BuildContext& context,
-                            const Beam<double>& elements) {
+                            const BeamMesh& mesh) {
   std::vector<int> nodes;
-  for (const AttachedPoint& point : attached_points(context.scene)) {
-    if (point.body != body.name) continue;
-    const BeamPlace place = find_place(elements, share_along(beam, point.at, context.start));
+  for (const AttachedPoint& point : attached_points(context.scene, body.name)) {
+    const ElementPlace place = find_place(mesh, share_along(beam, point.at, context.start));
     if (place.is_node()) {
       nodes.push_back(place.node());
     } else {
@@ -191,7 +191,7 @@ class BasisBuilder {
   /// The families are axial vibration, torsion, and bending in each plane of symmetry.
   KeptCoordinates boundary_and_families() const {
     constexpr std::array<std::size_t, 6> family_of = {0, 1, 2, 3, 2, 1};  // u v w θx θy θz
-    const std::vector<int> attached = held_nodes(beam_, body_, context_, model_.beam);
+    const std::vector<int> attached = held_nodes(beam_, body_, context_, model_.mesh);
     KeptCoordinates kept;
     kept.families.resize(4);
     for (int node = 0; node < clamped_.node_count(); ++node) {
@@ -245,6 +245,18 @@ SparseMatrix identity(int size) {
   return matrix;
 }
 
+/// With those of the places that its mesh follows.
+std::set<int> beam_variables(const Body& body, const BeamMesh& mesh, const Scene& scene) {
+  std::set<int> variables = variables_of(body, scene);
+  for (const MeshKnot& knot : mesh.knots) {
+    if (!knot.at) continue;
+    for (const Number& number : *knot.at) {
+      for (const int variable : number.variables()) variables.insert(variable);
+    }
+  }
+  return variables;
+}
+
 }  // namespace
 
 void set_beam(const BeamBody& beam, const Body& body, const BuildContext& context,
@@ -257,7 +269,8 @@ void set_beam(const BeamBody& beam, const Body& body, const BuildContext& contex
   }
   model.mesh = make_mesh(body, context.scene, context.start, effects.elasticity);
   model.beam = resolve_beam(beam, model.mesh, context.scene, context.design);
-  for (int variable : variables_of(body, context.scene)) {
+  const std::set<int> variables = beam_variables(body, model.mesh, context.scene);
+  for (const int variable : variables) {
     model.beam_x.emplace_back(
         variable, resolve_beam(beam, model.mesh, context.scene, context.seeded(variable)));
   }
@@ -276,7 +289,7 @@ void set_beam(const BeamBody& beam, const Body& body, const BuildContext& contex
       effects.rotary_inertia ? RotaryInertia::included : RotaryInertia::neglected;
   const Invariants<double> nodal = beam_invariants(model.beam, model.coordinates, rotary);
   std::vector<DesignDerivative<Invariants<double>>> nodal_x;
-  for (int variable : variables_of(body, context.scene)) {
+  for (const int variable : variables) {
     nodal_x.push_back(
         {variable, differentiate_invariants(context, variable, [&](const auto& design) {
            return varied_invariants(resolve_beam(beam, model.mesh, context.scene, design),

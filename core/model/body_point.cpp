@@ -31,19 +31,38 @@ BodyPoint point_of(const BodyModel& body, int place) {
   return point;
 }
 
+BeamPlace place_at(const BodyModel& beam, double share) {
+  BeamPlace place{find_place(beam.beam, share)};
+  if (!beam.mesh.depends_on_design()) return place;
+  const int elements = beam.beam.node_count() - 1;
+  for (const auto& [variable, along] : beam.beam_x) {
+    const Dual length = along.node_position(elements), first = along.node_position(place.element);
+    const Dual xi = (share * length - first) / along.elements[place.element].length;
+    place.xi_x.push_back(derivative_of(xi));
+  }
+  return place;
+}
+
+BeamPlace held_place(const BodyModel& beam, double share) {
+  return {find_place(beam.mesh, share)};
+}
+
 BodyPoint point_of(const BodyModel& body, const BeamPlace& place) {
-  if (place.is_node()) return point_of(body, place.node());
+  const bool is_node = place.is_node() && place.xi_x.empty();
+  if (is_node) return point_of(body, place.node());
   const NodePair nodes(body.places, place.element);
-  const MatrixXd shape = place_shape(place, form_of(body.beam.elements[place.element]));
+  const MatrixXd shape = place_shape(place.xi, form_of(body.beam.elements[place.element]));
   BodyPoint point{{nodes.start + place.xi * nodes.way, (shape * nodes.rows).sparseView()}, {}};
   for (std::size_t k = 0; k < body.places_x.size(); ++k) {
     const auto& [variable, of_places] = body.places_x[k];
     const NodePair change(of_places, place.element);
     const BeamElement<Dual>& element = body.beam_x[k].second.elements[place.element];
-    const MatrixXd shape_x = derivative_matrix(place_shape(place, form_of(element)));
+    const double slope = place.xi_x.empty() ? 0.0 : place.xi_x[k];
+    const Dual xi(place.xi, Dual::Derivatives::Constant(slope));
+    const MatrixXd shape_x = derivative_matrix(place_shape(xi, form_of(element)));
     point.derivatives.push_back(
         {variable,
-         {change.start + place.xi * change.way,
+         {change.start + place.xi * change.way + slope * nodes.way,
           MatrixXd(shape_x * nodes.rows + shape * change.rows).sparseView()}});
   }
   return point;

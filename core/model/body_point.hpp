@@ -18,6 +18,12 @@ struct BodyPoint : PointShape {
   std::vector<DesignDerivative<PointShape>> derivatives;  ///< as those of the body
 };
 
+/// A share of the length of a beam, whatever its elements are.
+BeamPlace place_at(const BodyModel& beam, double share);
+
+/// Where joints and loads hold on to an elastic beam that lie at a share of its length at the start.
+BeamPlace held_place(const BodyModel& beam, double share);
+
 /// One of the places of a body.
 BodyPoint point_of(const BodyModel& body, int place);
 

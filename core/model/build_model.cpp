@@ -347,7 +347,9 @@ class ModelBuilder {
       for (int k = 0; k < built.elastic_size(); ++k) {
         mechanism.elastic.push_back(built.elastic_offset() + k);
       }
-      set_initial_deflections(i, model_.bodies, context_, mechanism);
+      const double deflection = elastic_scale * size;
+      set_initial_deflections(i, model_.bodies, context_, 1.0 / (deflection * deflection),
+                              mechanism);
     }
     mechanism.assembly_weight.array() /= mechanism.scale.array().square();
     set_reaction_weight(sizes);

@@ -8,9 +8,9 @@
 
 #include "core/base/find_named.hpp"
 #include "core/base/int_size.hpp"
-#include "core/model/beam_mesh.hpp"
 #include "core/model/effect_decisions.hpp"
 #include "core/model/scene_geometry.hpp"
+#include "core/scene/beam_mesh.hpp"
 #include "core/scene/held_points.hpp"
 
 namespace pleuel {

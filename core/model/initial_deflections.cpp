@@ -77,20 +77,28 @@ class InitialShape {
     find_shape(linear_->solve(none, given_.measures.col(0)));
   }
 
+  /// What the weights of the assembly are made with.
+  struct Scale {
+    double factor;  ///< of the stiffness
+    VectorXd held;  ///< besides, on the diagonal: places are held
+  };
   /// @param weight  of the softest of the given displacements
-  BentStart start(double weight) const {
+  Scale scale(double weight) const {
     const MatrixXd& rows = given_.rows;
     const double stiffness = linear_->compliance().diagonal().cwiseInverse().minCoeff();
     const double factor = weight / stiffness;
-    BentStart bent{model_.elastic_offset(), factor * elastic_.linear(), {}, rows};
-    VectorXd held = VectorXd::Zero(rows.cols());
-    for (const auto& row : rows.rowwise()) held += row.transpose().cwiseAbs2();
-    const double hold = held_place * bent.weight.diagonal().maxCoeff();
-    for (Eigen::Index i = 0; i < held.size(); ++i) {
-      if (held(i) > 0.0) bent.weight.coeffRef(i, i) += hold * held(i);
+    const double stiffest = factor * elastic_.linear().diagonal().maxCoeff();
+    return {factor, held_place * stiffest * rows.cwiseAbs2().colwise().sum().transpose()};
+  }
+
+  /// @param scale  of the start: weights differ between designs as the stiffness does
+  BentStart start(const Scale& scale) const {
+    BentStart bent{model_.elastic_offset(), scale.factor * elastic_.linear(), {}, given_.rows};
+    for (Eigen::Index i = 0; i < scale.held.size(); ++i) {
+      if (scale.held(i) > 0.0) bent.weight.coeffRef(i, i) += scale.held(i);
     }
     for (const auto& [variable, change] : model_.invariants_x) {
-      bent.weight_x.emplace_back(variable, factor * stiffness_of(change));
+      bent.weight_x.emplace_back(variable, scale.factor * stiffness_of(change));
     }
     return bent;
   }
@@ -241,8 +249,24 @@ class InitialShape {
 
 }  // namespace
 
+namespace {
+
+/// @param weight  of the softest of the given displacements
+InitialShape::Scale scale_at_start(std::size_t body, std::size_t bodies,
+                                   const BuildContext& context, const State& size, double weight) {
+  const BuildContext start{context.scene,           context.effects,     context.start,
+                           context.start,           context.plane,       context.gravity,
+                           context.differentiation, context.beam_effects};
+  std::vector<BodyModel> models(bodies);
+  const int offset = 0;
+  models[body] = make_body_model(context.scene.bodies[body], start, offset);
+  return InitialShape(body, models, start, size).scale(weight);
+}
+
+}  // namespace
+
 void set_initial_deflections(std::size_t body, const std::vector<BodyModel>& bodies,
-                             const BuildContext& context, Mechanism& mechanism) {
+                             const BuildContext& context, double weight, Mechanism& mechanism) {
   const Body& of = context.scene.bodies[body];
   const BodyModel& model = bodies[body];
   if (of.initial_deflections.empty() || model.elastic_size() == 0) return;
@@ -250,9 +274,10 @@ void set_initial_deflections(std::size_t body, const std::vector<BodyModel>& bod
   const int offset = model.elastic_offset(), size = model.elastic_size();
   mechanism.guess.q.segment(offset, size) = initial.shape();
   mechanism.guess.v.segment(offset, size) = initial.rate();
-  const double scale = mechanism.scale(offset);
-  mechanism.bent_starts.push_back(initial.start(1.0 / (scale * scale)));
-  const std::set<int> variables = variables_of(of, context.scene);
+  mechanism.bent_starts.push_back(
+      initial.start(scale_at_start(body, bodies.size(), context, mechanism.guess, weight)));
+  std::set<int> variables = variables_of(of, context.scene);
+  for (const auto& [variable, change] : model.invariants_x) variables.insert(variable);
   const std::vector<MatrixXd> changes = initial.derivatives(variables);
   std::size_t k = 0;
   for (const int variable : variables) {

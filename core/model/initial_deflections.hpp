@@ -13,9 +13,11 @@ namespace pleuel {
 /// and their derivatives. f are the elastic forces with geometric stiffening, so that no axial force
 /// comes of bending; rates have the linear shape.
 /// @param body    number of the body, in the scene and among the bodies
-/// @param guess   of the mechanism: its q, v and their derivatives are set
+/// @param weight  of the softest of the given displacements in the assembly [1/m²]; those of the others
+///                are as their stiffness
+/// @param mechanism  whose guess of q, v and their derivatives is set
 /// @throws InputError if a place cannot move along its direction, or if two say the same
 void set_initial_deflections(std::size_t body, const std::vector<BodyModel>& bodies,
-                             const BuildContext& context, Mechanism& mechanism);
+                             const BuildContext& context, double weight, Mechanism& mechanism);
 
 }  // namespace pleuel

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "core/beam/beam.hpp"
-#include "core/model/beam_mesh.hpp"
 #include "core/model/scene_geometry.hpp"
 #include "core/model/shear_area.hpp"
+#include "core/scene/beam_mesh.hpp"
 
 namespace pleuel {
 
@@ -32,7 +32,9 @@ Beam<Scalar> resolve_beam(const BeamBody& body, const BeamMesh& mesh, const Scen
   element.fatigue_exponent = material.fatigue_exponent.value_or(0.0);
   Beam<Scalar> beam;
   int segment = -1;
-  for (const MeshElement& part : mesh.elements) {
+  const std::vector<Scalar> shares = element_shares(body, mesh, design);
+  for (std::size_t e = 0; e < mesh.elements.size(); ++e) {
+    const MeshElement& part = mesh.elements[e];
     if (part.segment != segment) {
       segment = part.segment;
       const Section& section = body.segments[segment].section;
@@ -43,7 +45,7 @@ Beam<Scalar> resolve_beam(const BeamBody& body, const BeamMesh& mesh, const Scen
         element.shear_compliance_z = 1.0 / (element.shear * area.along_z);
       }
     }
-    element.length = length * part.share;
+    element.length = length * shares[e];
     beam.elements.push_back(element);
   }
   beam.mass_damping = resolve(body.damping.mass, design);

@@ -11,7 +11,9 @@
 #include "core/base/time_law.hpp"
 #include "core/beam/beam.hpp"
 #include "core/frame/body_frame.hpp"
+#include "core/scene/beam_mesh.hpp"
 #include "core/scene/body_axes.hpp"
+#include "core/scene/point.hpp"
 #include "core/scene/scene.hpp"
 #include "core/section/box_section.hpp"
 #include "core/section/ellipse_section.hpp"
@@ -21,11 +23,6 @@
 
 /// From the plain structs of a scene to vectors, sections and beams, for any scalar type.
 namespace pleuel {
-
-template <class Scalar>
-Vector3<Scalar> resolve_point(const Point& point, const Design<Scalar>& design) {
-  return {resolve(point[0], design), resolve(point[1], design), resolve(point[2], design)};
-}
 
 inline Eigen::Vector3d to_vector(const std::array<double, 3>& array) {
   return {array[0], array[1], array[2]};
@@ -199,17 +196,6 @@ inline const Material& find_material(const Scene& scene, const std::string& name
   const Material* found = find_named(scene.materials, name);
   assert(found);
   return *found;
-}
-
-/// Shares of a beam's length that its segments take.
-inline std::vector<double> length_fractions(const BeamBody& body) {
-  double elements = 0.0;
-  for (const Segment& segment : body.segments) elements += segment.elements;
-  std::vector<double> fractions;
-  for (const Segment& segment : body.segments) {
-    fractions.push_back(segment.fraction.value_or(segment.elements / elements));
-  }
-  return fractions;
 }
 
 /// Position and orientation of a body at t = 0.

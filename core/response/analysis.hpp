@@ -54,7 +54,8 @@ Eigen::VectorXd values_of(const Analysis& analysis);
 std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::VectorXd& x);
 
 /// The problem with the steps of a trajectory in place of those that the control of the local error
-/// would find: so that values at neighbouring designs differ smoothly. Without control, as it is.
+/// or the windows of responses would ask for: so that values at neighbouring designs differ smoothly.
+/// Where neither changes the steps, the problem as it is.
 ProblemFile with_steps_of(const Trajectory& trajectory, ProblemFile problem);
 
 /// The start values of the design variables.

@@ -40,7 +40,7 @@ class BodyModes {
       }
       counted += shapes.cols();
     }
-    throw InputError(missing_mode(fmt::format("the body \"{}\"", body_.name), counted, choice));
+    refuse_mode(fmt::format("the body \"{}\"", body_.name), counted, choice);
   }
 
  private:

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/base/int_size.hpp"
-#include "core/beam/beam_place.hpp"
+#include "core/model/body_point.hpp"
 #include "core/response/recovered_signal.hpp"
 #include "core/response/section_forces.hpp"
 #include "core/response/signal_list.hpp"
@@ -188,9 +188,19 @@ LateralMember::LateralMember(const std::string& name, const Model& model, Bendin
       forces_(plane_forces(parts_, model, plane)),
       load_(4, beam_.elements.size()) {}
 
+std::vector<JointHold> LateralMember::holds() const {
+  std::vector<JointHold> holds = model_.holds.of(name_);
+  const BodyModel& first = *parts_.front();
+  if (!first.mesh.depends_on_design()) return holds;
+  for (JointHold& hold : holds) {
+    hold.at = position_of(beam_, held_place(first, hold.at)) / length_;
+  }
+  return holds;
+}
+
 LateralBuckling& LateralMember::buckling() {
   if (buckling_) return *buckling_;
-  const std::vector<JointHold> alone = model_.holds.of(name_);
+  const std::vector<JointHold> alone = holds();
   const auto found = model_.fittings.find(name_);
   if (found == model_.fittings.end()) {
     return buckling_.emplace(beam_, plane_, lateral_supports(beam_, plane_, alone));

@@ -39,6 +39,9 @@ class LateralMember {
   const std::vector<std::pair<int, Beam<Dual>>>& beam_x();
 
  private:
+  /// Of the joints, where they are at the design of the model.
+  std::vector<JointHold> holds() const;
+
   std::string name_;
   const Model& model_;
   BendingPlane plane_;

@@ -46,12 +46,14 @@ std::string quoted(const std::vector<std::string>& names) {
 }  // namespace
 
 std::string Misalignment::text() const {
+  const std::string motion =
+      bodies.empty() ? "one deformation" : fmt::format("a motion of {}", quoted(bodies));
   return fmt::format(
-      "the joints {} would hold a motion of {} twice if they were aligned; they are out of line by "
+      "the joints {} would hold {} twice if they were aligned; they are out of line by "
       "only {:.1g} (rad, or of the mechanism's size), which blocks that motion or makes the forces "
       "in them huge. Align their points and axes exactly, or let one of them free what the others "
       "hold.",
-      quoted(joints), quoted(bodies), size);
+      quoted(joints), motion, size);
 }
 
 std::vector<Misalignment> find_misalignments(const Model& model, const State& state,

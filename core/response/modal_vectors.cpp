@@ -50,10 +50,6 @@ std::vector<int> coinciding(const Eigen::VectorXcd& modes, int mode) {
   return found;
 }
 
-[[noreturn]] void refuse_mode(Eigen::Index count, const ModeChoice& choice) {
-  throw InputError(missing_mode("the mechanism", count, choice));
-}
-
 }  // namespace
 
 ModalVectors modal_vectors(const FrozenMechanism& frozen, const Eigen::VectorXcd& modes, int mode) {
@@ -84,7 +80,7 @@ FrozenModes::FrozenModes(const Model& frozen_model, const State& at)
 int find_mode(const FrozenModes& mechanism, const ModeChoice& choice) {
   const auto& [model, state, frozen, modes] = mechanism;
   if (!choice.axis) {
-    if (choice.number >= modes.size()) refuse_mode(modes.size(), choice);
+    if (choice.number >= modes.size()) refuse_mode("the mechanism", modes.size(), choice);
     return choice.number;
   }
   const Eigen::MatrixXd along =
@@ -96,7 +92,7 @@ int find_mode(const FrozenModes& mechanism, const ModeChoice& choice) {
     counted += combinations_along(vectors, frozen.M, along).cols();
     if (choice.number < counted) return mode;
   }
-  refuse_mode(counted, choice);
+  refuse_mode("the mechanism", counted, choice);
 }
 
 }  // namespace pleuel

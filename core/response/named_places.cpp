@@ -5,8 +5,9 @@
 #include <fmt/format.h>
 
 #include "core/base/find_named.hpp"
-#include "core/model/attached_points.hpp"
-#include "core/model/beam_mesh.hpp"
+#include "core/model/body_point.hpp"
+#include "core/scene/attached_points.hpp"
+#include "core/scene/beam_mesh.hpp"
 #include "core/scene/response_kind.hpp"
 
 namespace pleuel {
@@ -19,13 +20,13 @@ class PlaceFinder {
   PlaceFinder(const ProblemFile& problem, const BodyModel& body) : body_(body) {
     for (const DesignVariable& variable : problem.variables) start_.push_back(variable.start);
     beam_ = &std::get<BeamBody>(find_named(problem.scene.bodies, body.name)->shape);
-    for (const AttachedPoint& point : attached_points(problem.scene)) {
-      if (point.body != body.name) continue;
-      add(point.name, find_place(body.beam, share_along(*beam_, point.at, start_)));
+    for (const AttachedPoint& point : attached_points(problem.scene, body.name)) {
+      add(point.name, held_place(body, share_along(*beam_, point.at, start_)));
     }
     for (const ResponseSettings& response : problem.responses) add_response(response);
     for (int node = 0; node < body.beam.node_count(); ++node) {
-      add(fmt::format("node {}", node), node == 0 ? BeamPlace{0, 0.0} : BeamPlace{node - 1, 1.0});
+      add(fmt::format("node {}", node),
+          node == 0 ? BeamPlace{{0, 0.0}} : BeamPlace{{node - 1, 1.0}});
     }
     std::stable_sort(places_.begin(), places_.end(),
                      [](const NamedPlace& a, const NamedPlace& b) { return a.x < b.x; });
@@ -36,7 +37,7 @@ class PlaceFinder {
  private:
   void add_response(const ResponseSettings& response) {
     if (!kind_of(response.type).is_of_point || response.bodies.front() != body_.name) return;
-    add(response.name, find_place(body_.beam, response.at));
+    add(response.name, place_at(body_, response.at));
   }
 
   void add(const std::string& name, const BeamPlace& place) {

@@ -15,8 +15,8 @@ constexpr int axial = 0, moment_y = 1, moment_z = 2, torque = 3;
 /// ends that do not move apart, ∫ (ℓ − x) M/EI dx = ΔM/(κGA), ask for c = −(1/40 + Φ/24)/(1 + Φ).
 /// @param shear  Φ/(1 + Φ) of the plane
 template <class Scalar>
-Scalar clamped_change(double xi, const Scalar& shear) {
-  return xi * xi * xi / 6 - 3 * xi / 20 + 1.0 / 30 - shear * ((xi - 0.5) / 60);
+Scalar clamped_change(const Scalar& xi, const Scalar& shear) {
+  return xi * xi * xi / 6.0 - 3.0 * xi / 20.0 + 1.0 / 30.0 - shear * ((xi - 0.5) / 60.0);
 }
 
 /// The section forces at a place of an element, as rows.
@@ -26,14 +26,15 @@ struct ElementForces {
   /// Of those of both nodes against free fall, local axes.
   Eigen::Matrix<Scalar, section_force_count, 6> of_accelerations;
 
-  ElementForces(const BeamElement<Scalar>& element, double xi) {
+  ElementForces(const BeamElement<Scalar>& element, const Scalar& xi) {
     const ElementForm<Scalar> form = form_of(element);
     set_strain(element, form, xi);
     set_inertia(element, form, xi);
   }
 
  private:
-  void set_strain(const BeamElement<Scalar>& element, const ElementForm<Scalar>& form, double xi) {
+  void set_strain(const BeamElement<Scalar>& element, const ElementForm<Scalar>& form,
+                  const Scalar& xi) {
     const SectionProperties<Scalar>& section = element.section;
     const Scalar& length = element.length;
     of_coordinates.setConstant(Scalar(0));
@@ -49,11 +50,12 @@ struct ElementForces {
 
   /// What the linear load w = w₁ + ξ Δ does in a clamped element: EI θ' and EA u' with M″ = w,
   /// N' = −w, and no displacement and rotation at the ends.
-  void set_inertia(const BeamElement<Scalar>& element, const ElementForm<Scalar>& form, double xi) {
+  void set_inertia(const BeamElement<Scalar>& element, const ElementForm<Scalar>& form,
+                   const Scalar& xi) {
     const Scalar density = -element.density * element.section.area;
     const Scalar along = density * element.length, across = along * element.length;
-    const double along_start = 0.5 - xi, along_change = 1.0 / 6 - xi * xi / 2;
-    const double start = xi * xi / 2 - xi / 2 + 1.0 / 12;
+    const Scalar along_start = 0.5 - xi, along_change = 1.0 / 6.0 - xi * xi / 2.0;
+    const Scalar start = xi * xi / 2.0 - xi / 2.0 + 1.0 / 12.0;
     const Scalar change_y = clamped_change(xi, form.shear_y);
     const Scalar change_z = clamped_change(xi, form.shear_z);
     of_accelerations.setConstant(Scalar(0));
@@ -72,7 +74,7 @@ struct ElementShear {
   Eigen::Matrix<Scalar, 1, 12> of_coordinates;
   Eigen::Matrix<Scalar, 1, 6> of_accelerations;
 
-  ElementShear(const BeamElement<Scalar>& element, double xi, int direction) {
+  ElementShear(const BeamElement<Scalar>& element, const Scalar& xi, int direction) {
     const SectionProperties<Scalar>& section = element.section;
     const Scalar& length = element.length;
     // v‴ of the cubic with the values and rotations at both nodes: (12, 6ℓ, −12, 6ℓ)/ℓ³ (1 − s).
@@ -90,8 +92,8 @@ struct ElementShear {
     of_coordinates(6 + direction) = -12.0 * third;
     of_coordinates(6 + turn) = turned;
     const Scalar across = -element.density * section.area * length;
-    const double start = xi - 0.5;
-    const Scalar change = xi * xi / 2 - 3.0 / 20 - shear / 60.0;
+    const Scalar start = xi - 0.5;
+    const Scalar change = xi * xi / 2.0 - 3.0 / 20.0 - shear / 60.0;
     of_accelerations.setConstant(Scalar(0));
     of_accelerations(direction) = across * (change - start);
     of_accelerations(3 + direction) = across * -change;
@@ -104,7 +106,7 @@ struct ElementShearing {
   Eigen::Matrix<Scalar, shearing_force_count, 12> of_coordinates;
   Eigen::Matrix<Scalar, shearing_force_count, 6> of_accelerations;
 
-  ElementShearing(const BeamElement<Scalar>& element, double xi) {
+  ElementShearing(const BeamElement<Scalar>& element, const Scalar& xi) {
     const ElementShear<Scalar> along_y(element, xi, 1), along_z(element, xi, 2);
     const ElementForces<Scalar> forces(element, xi);
     of_coordinates << along_y.of_coordinates, along_z.of_coordinates,
@@ -145,16 +147,17 @@ struct NodalRows {
 /// @param count   rows of a station
 /// @param of      element, place in it → its rows
 /// @param number  Scalar → double: value or derivative
-template <class Scalar, class OfElement, class Number>
+/// @param place   of a station, as Station::place
+template <class Scalar, class OfElement, class Number, class Place>
 NodalRows nodal_rows(const Beam<Scalar>& beam, const std::vector<Station>& stations, int count,
-                     const OfElement& of, const Number& number) {
+                     const OfElement& of, const Number& number, const Place& place) {
   const auto rows = count * static_cast<Eigen::Index>(stations.size());
   RowWriter displacements(rows, 6 * beam.node_count()), accelerations(rows, 3 * beam.node_count());
   Eigen::Index row = 0;
   for (const Station& station : stations) {
     const double share = 1.0 / static_cast<double>(station.elements.size());
     for (int e : station.elements) {
-      const auto forces = of(beam.elements[e], station.place - e);
+      const auto forces = of(beam.elements[e], Scalar(place(station) - double(e)));
       const auto scaled = [&](const Scalar& entry) { return share * number(entry); };
       displacements.add(row, 6 * e, forces.of_coordinates.unaryExpr(scaled).eval());
       accelerations.add(row, 3 * e, forces.of_accelerations.unaryExpr(scaled).eval());
@@ -167,29 +170,39 @@ NodalRows nodal_rows(const Beam<Scalar>& beam, const std::vector<Station>& stati
 constexpr auto value = [](double number) { return number; };
 constexpr auto derivative = [](const Dual& number) { return derivative_of(number); };
 
-constexpr auto forces_of = []<class Scalar>(const BeamElement<Scalar>& element, double xi) {
+constexpr auto forces_of = []<class Scalar>(const BeamElement<Scalar>& element, const Scalar& xi) {
   return ElementForces<Scalar>(element, xi);
 };
 
-constexpr auto shearing_of = []<class Scalar>(const BeamElement<Scalar>& element, double xi) {
+constexpr auto shearing_of = []<class Scalar>(const BeamElement<Scalar>& element,
+                                              const Scalar& xi) {
   return ElementShearing<Scalar>(element, xi);
 };
 
 auto shear_of(int direction) {
-  return [direction]<class Scalar>(const BeamElement<Scalar>& element, double xi) {
+  return [direction]<class Scalar>(const BeamElement<Scalar>& element, const Scalar& xi) {
     return ElementShear<Scalar>(element, xi, direction);
   };
 }
 
 /// @param count, of  as of nodal_rows()
 template <class OfElement>
+NodalRows value_rows(const BodyModel& body, const std::vector<Station>& stations, int count,
+                     const OfElement& of) {
+  return nodal_rows(body.beam, stations, count, of, value,
+                    [](const Station& station) { return station.place; });
+}
+
+/// @param count, of  as of nodal_rows()
+template <class OfElement>
 Recovery derivative_rows(const BodyModel& body, const std::vector<Station>& stations, int count,
                          const OfElement& of, std::size_t k) {
-  NodalRows change = nodal_rows(body.beam_x[k].second, stations, count, of, derivative);
+  NodalRows change = nodal_rows(body.beam_x[k].second, stations, count, of, derivative,
+                                [k](const Station& station) { return station.place_along(k); });
   SparseMatrix of_coordinates = change.of_displacements * body.places.shape;
   const SparseMatrix& shape_x = body.places_x[k].data.shape;
   if (shape_x.nonZeros() > 0) {
-    const NodalRows rows = nodal_rows(body.beam, stations, count, of, value);
+    const NodalRows rows = value_rows(body, stations, count, of);
     of_coordinates += SparseMatrix(rows.of_displacements * shape_x);
   }
   SparseMatrix of_stretching(of_coordinates.rows(), body.stretching.elements.size());
@@ -200,7 +213,7 @@ Recovery derivative_rows(const BodyModel& body, const std::vector<Station>& stat
 template <class OfElement>
 Recovery bending_recovery(const BodyModel& body, const std::vector<Station>& stations, int count,
                           const OfElement& of) {
-  NodalRows rows = nodal_rows(body.beam, stations, count, of, value);
+  NodalRows rows = value_rows(body, stations, count, of);
   SparseMatrix of_stretching(rows.of_displacements.rows(), body.stretching.elements.size());
   return {rows.of_displacements * body.places.shape, std::move(rows.of_accelerations),
           std::move(of_stretching)};
@@ -209,7 +222,7 @@ Recovery bending_recovery(const BodyModel& body, const std::vector<Station>& sta
 }  // namespace
 
 Recovery section_force_recovery(const BodyModel& body, const std::vector<Station>& stations) {
-  NodalRows rows = nodal_rows(body.beam, stations, section_force_count, forces_of, value);
+  NodalRows rows = value_rows(body, stations, section_force_count, forces_of);
   RowWriter stretching(rows.of_displacements.rows(), body.stretching.elements.size());
   for (std::size_t s = 0; body.has_stiffening && s < stations.size(); ++s) {
     const double share = 1.0 / static_cast<double>(stations[s].elements.size());

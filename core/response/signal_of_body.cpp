@@ -202,7 +202,7 @@ class BodySignalMaker {
   }
 
   NamedPoint point_along(double share) const {
-    return {point_of(body_, find_place(body_.beam, share)),
+    return {point_of(body_, place_at(body_, share)),
             fmt::format("at {:g} of the length", body_.stretch.of_whole(share))};
   }
 

@@ -1,11 +1,12 @@
 #include "core/response/station.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
 #include "core/base/int_size.hpp"
-#include "core/beam/beam_place.hpp"
+#include "core/model/body_point.hpp"
 
 namespace pleuel {
 
@@ -31,17 +32,30 @@ class StationFinder {
   }
 
   std::vector<Station> at(double share) const {
-    const BeamPlace place = find_place(body_.beam, share);
-    if (!place.is_node()) return {{{place.element}, place.element + place.xi}};
+    const BeamPlace place = place_at(body_, share);
+    const std::vector<double>& change = place.xi_x;
+    if (!place.is_node() && !is_beside_attached(place)) {
+      return {{{place.element}, place.element + place.xi, change}};
+    }
     const int node = place.node();
-    if (node == 0) return {{{0}, 0.0}};
-    if (node == elements()) return {{{node - 1}, double(node)}};
-    if (continues(node)) return {{{node - 1, node}, double(node)}};
-    return {{{node - 1}, double(node)}, {{node}, double(node)}};
+    if (node == 0) return {{{0}, 0.0, change}};
+    if (node == elements()) return {{{node - 1}, double(node), change}};
+    if (continues(node)) return {{{node - 1, node}, double(node), change}};
+    return {{{node - 1}, double(node), change}, {{node}, double(node), change}};
   }
 
  private:
   int elements() const { return int_size(body_.beam.elements); }
+  /// Whether the place of a joint or load is meant, which section forces may jump at: written numbers
+  /// are rounded.
+  bool is_beside_attached(const BeamPlace& place) const {
+    constexpr double rounding = 1e-5;  // of the length
+    const std::vector<int>& attached = body_.mesh.attached_nodes;
+    if (body_.mesh.depends_on_design()) return false;
+    if (std::find(attached.begin(), attached.end(), place.node()) == attached.end()) return false;
+    const double distance = body_.beam.node_position(place.node()) - position_of(body_.beam, place);
+    return std::abs(distance) <= rounding * body_.beam.node_position(elements());
+  }
   int segment_of(int e) const { return body_.mesh.elements[e].segment; }
   /// Whether an element continues the segment of the one before, and nothing acts between them.
   bool continues(int e) const {

@@ -22,6 +22,13 @@ struct StationChoice {
 struct Station {
   std::vector<int> elements;  ///< adjacent, ascending
   double place;               ///< counted in elements: 2 is node 2, 2.5 half an element further
+  /// Its derivatives, in the order of those of the body; empty: it does not depend on the design.
+  std::vector<double> place_x = {};
+
+  /// With the derivative number k of the body.
+  Dual place_along(std::size_t k) const {
+    return {place, Dual::Derivatives::Constant(place_x.empty() ? 0.0 : place_x[k])};
+  }
 };
 
 /// By default every node and quarter point of the elements. Nodes between two elements of one

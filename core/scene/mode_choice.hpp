@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/error.hpp"
+
 namespace pleuel {
 
 /// Which natural frequency is meant.
@@ -38,6 +40,15 @@ inline std::string missing_mode(const std::string& owner, std::ptrdiff_t count,
                   : std::string();
   return fmt::format("{} has {} natural frequenc{}{}, not {}", owner, count,
                      count == 1 ? "y" : "ies", which, choice.number + 1);
+}
+
+/// @throws InputError; of modes along an axis SimulationError: how many there are changes with the
+///         design
+[[noreturn]] inline void refuse_mode(const std::string& owner, std::ptrdiff_t count,
+                                     const ModeChoice& choice) {
+  const std::string text = missing_mode(owner, count, choice);
+  if (choice.axis) throw SimulationError(text);
+  throw InputError(text);
 }
 
 }  // namespace pleuel

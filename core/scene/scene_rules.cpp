@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
 #include "core/scene/body_constants.hpp"
 #include "core/scene/held_points.hpp"
+#include "core/scene/reading/beam_places.hpp"
 #include "core/scene/reading/geometry.hpp"
 #include "core/scene/reading/limits.hpp"
 #include "core/scene/reading/placed_points.hpp"
@@ -18,25 +20,28 @@ namespace {
 /// Of the value at the start: so that differences may step across the limit of a range.
 constexpr double range_tolerance = 1e-6;
 
-bool is_formula(const Point& point) {
+bool has_formula(const Point& point) {
   return std::any_of(point.begin(), point.end(),
                      [](const Number& number) { return number.expression != nullptr; });
 }
 
-bool has_point_formulas(const Scene& scene) {
+bool has_bound_points(const Scene& scene) {
   const auto of_body = [](const Body& body) {
     if (const auto* beam = std::get_if<BeamBody>(&body.shape)) {
-      return is_formula(beam->from) || is_formula(beam->to);
+      return is_bound(beam->from) || is_bound(beam->to);
+    }
+    if (const auto* imported = std::get_if<ImportedBody>(&body.shape)) {
+      return is_bound(imported->from) || is_bound(imported->to) || !imported->variables.empty();
     }
     const auto* mass = std::get_if<PointMass>(&body.shape);
-    return mass != nullptr && is_formula(mass->at);
+    return mass != nullptr && is_bound(mass->at);
   };
   const auto of_holder = [](const auto& holder) {
-    bool has_formula = false;
+    bool has_bound = false;
     visit_held_points(holder, [&](const std::string&, const Point& at, const PointKey&) {
-      has_formula = has_formula || is_formula(at);
+      has_bound = has_bound || is_bound(at);
     });
-    return has_formula;
+    return has_bound;
   };
   return std::any_of(scene.bodies.begin(), scene.bodies.end(), of_body) ||
          std::any_of(scene.joints.begin(), scene.joints.end(), of_holder) ||
@@ -54,41 +59,57 @@ std::optional<std::string> complaint(const RangedFormula& formula, const Design<
   return fmt::format("{} {}, is {:.6g}", formula.place, formula.rule, value);
 }
 
+/// The places of all elastic beams at which something is held, as they are asked for.
+class PlacesOfBeams {
+ public:
+  PlacesOfBeams(const Scene& scene, const Design<double>& start) : scene_(scene), start_(start) {}
+
+  const BeamPlaces& of(const Body& body) {
+    return places_.try_emplace(body.name, body, scene_, start_).first->second;
+  }
+
+ private:
+  const Scene& scene_;
+  const Design<double>& start_;
+  std::map<std::string, BeamPlaces> places_;
+};
+
 std::optional<std::string> complaint(const PlacedPoint& placed, const BeamBody& beam,
-                                     const Design<double>& start, const Design<double>& design) {
+                                     PlacesOfBeams& places, const Design<double>& design) {
   if (beam.is_rigid) return std::nullopt;
-  if (!is_formula(*placed.point) && !is_formula(beam.from) && !is_formula(beam.to)) {
+  if (!is_bound(*placed.point) && !is_bound(beam.from) && !is_bound(beam.to)) {
     return std::nullopt;
   }
-  const double share = nearest_share(beam, position(*placed.point, start), start);
-  const Eigen::Vector3d at = position(*placed.point, design);
-  if (is_on_beam(beam, share, at, design)) return std::nullopt;
-  return fmt::format(
-      "{} must stay at the share {:.6g} of the length of the beam \"{}\", which is {} "
-      "[m], is {}",
-      placed.pointer(), share, placed.body->name, describe(point_at(beam, share, design)),
-      describe(at));
+  // Whether it stays on the axis is known at both bounds of a plain variable, and so between them.
+  const bool is_formula =
+      has_formula(*placed.point) || has_formula(beam.from) || has_formula(beam.to);
+  const BeamPlaces& of_beam = places.of(*placed.body);
+  const auto found = is_formula ? of_beam.find_misplaced(*placed.point, design)
+                                : of_beam.find_disorder(*placed.point, design);
+  if (!found) return std::nullopt;
+  return fmt::format("{} {}, is {}", placed.pointer(), *found,
+                     describe(position(*placed.point, design)));
 }
 
 std::optional<std::string> complaint(const PlacedPoint& placed, const PointMass& mass,
                                      const Scene& scene, const Design<double>& design) {
-  if (!is_formula(*placed.point) && !is_formula(mass.at)) return std::nullopt;
+  if (!is_bound(*placed.point) && !is_bound(mass.at)) return std::nullopt;
   const Eigen::Vector3d at = position(*placed.point, design);
   if (is_on_mass(mass, at, scene, design)) return std::nullopt;
   return fmt::format("{} must be where the point mass \"{}\" is, {} [m], is {}", placed.pointer(),
                      placed.body->name, describe(position(mass.at, design)), describe(at));
 }
 
-/// Whether a place of an elastic body is another one of it at another design.
-bool is_moved_along(const PlacedPoint& placed, const Design<double>& start,
-                    const Design<double>& moved) {
+/// Whether a place of an elastic body becomes another one of it that the model does not follow.
+bool is_moved_along(const PlacedPoint& placed, PlacesOfBeams& places, const Design<double>& start,
+                    std::size_t variable, double change) {
   const Point& point = *placed.point;
   if (const auto* beam = std::get_if<BeamBody>(&placed.body->shape)) {
-    if (beam->is_rigid) return false;
-    const double share = nearest_share(*beam, position(point, start), start);
-    return !is_on_beam(*beam, share, position(point, moved), moved);
+    return !beam->is_rigid && places.of(*placed.body).leaves(point, variable, change);
   }
   if (const auto* imported = std::get_if<ImportedBody>(&placed.body->shape)) {
+    Design<double> moved = start;
+    moved[variable] += change;
     const Eigen::Vector3d before = local_point(*imported, position(point, start), start);
     const Eigen::Vector3d after = local_point(*imported, position(point, moved), moved);
     return (after - before).stableNorm() > placement_tolerance * size_of(imported->file->constants);
@@ -107,15 +128,13 @@ std::vector<double> changes_of(double value, double change) {
 
 std::optional<std::string> find_point_moved_along(const Scene& scene, const Design<double>& start,
                                                   std::size_t variable, double change) {
+  PlacesOfBeams places(scene, start);
   for (const double by : changes_of(start[variable], change)) {
-    Design<double> moved = start;
-    moved[variable] += by;
     for (const PlacedPoint& placed : placed_points(scene)) {
-      if (placed.body == nullptr || !is_moved_along(placed, start, moved)) continue;
+      if (placed.body == nullptr || !is_moved_along(placed, places, start, variable, by)) continue;
       return fmt::format(
-          "moves {} along the elastic body \"{}\", or the body under it, but a place of an elastic "
-          "body stays what it is (of a beam its share of the length): what that changes is not "
-          "known",
+          "moves {} along the elastic body \"{}\", or the body under it, where nothing follows it: "
+          "what that changes is not known",
           placed.pointer(), placed.body->name);
     }
   }
@@ -127,14 +146,18 @@ std::optional<std::string> find_impossible(const Scene& scene, const Design<doub
   for (const RangedFormula& formula : scene.formulas) {
     if (auto found = complaint(formula, start, design)) return found;
   }
-  if (!has_point_formulas(scene)) return std::nullopt;
+  if (!has_bound_points(scene)) return std::nullopt;
+  PlacesOfBeams places(scene, start);
   for (const PlacedPoint& placed : placed_points(scene)) {
     if (placed.body == nullptr) continue;
     std::optional<std::string> found;
     if (const auto* beam = std::get_if<BeamBody>(&placed.body->shape)) {
-      found = complaint(placed, *beam, start, design);
+      found = complaint(placed, *beam, places, design);
     } else if (const auto* mass = std::get_if<PointMass>(&placed.body->shape)) {
       found = complaint(placed, *mass, scene, design);
+    } else if (std::holds_alternative<ImportedBody>(placed.body->shape)) {
+      found = find_off_place(*placed.body, *placed.point, start, design);
+      if (found) found = placed.pointer() + " " + *found;
     }
     if (found) return found;
   }

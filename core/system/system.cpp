@@ -150,11 +150,11 @@ Eigen::MatrixXd System::design_gradients(const ConstColumns& sums) const {
   return gradients;
 }
 
-void scale_dynamic_block(int coordinates, double factor, System::Matrix& matrix) {
+void clear_dynamic_block(int coordinates, System::Matrix& matrix) {
   for (int col = 0; col < coordinates; ++col) {
     for (int i = matrix.outerIndexPtr()[col]; i < matrix.outerIndexPtr()[col + 1]; ++i) {
       if (matrix.innerIndexPtr()[i] >= coordinates) break;  // rows are sorted
-      matrix.valuePtr()[i] *= factor;
+      matrix.valuePtr()[i] = 0.0;
     }
   }
 }

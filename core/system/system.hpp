@@ -83,8 +83,7 @@ class System {
   Eigen::MatrixXd kept_mu_;  ///< scratch, without the rows of what is left out
 };
 
-/// matrix.row(0 … n−1) of coordinate columns *= factor: the scaling of the dynamic rows by βh²,
-/// with λ scaled by the same factor (Bottasso, Dopico & Trainelli 2008).
-void scale_dynamic_block(int coordinates, double factor, System::Matrix& matrix);
+/// Sets the rows of the equations of motion to zero in the columns of coordinates.
+void clear_dynamic_block(int coordinates, System::Matrix& matrix);
 
 }  // namespace pleuel

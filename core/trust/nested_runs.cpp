@@ -8,7 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/base/int_size.hpp"
 #include "core/base/parallel.hpp"
-#include "core/model/beam_mesh.hpp"
+#include "core/scene/beam_mesh.hpp"
 #include "core/model/divided_beams.hpp"
 
 namespace pleuel {

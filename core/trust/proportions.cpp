@@ -74,7 +74,10 @@ class Proportions {
         place(at + "/from", beam->from);
         place(at + "/to", beam->to);
       } else if (const auto* imported = std::get_if<ImportedBody>(&body.shape)) {
-        place(at + "/from", imported->from);
+        const Pose<double> pose = beam_pose(*imported, design_);
+        for (const BodyPlace& one : imported->file->constants.places) {
+          places_.push_back({at, pose.origin + pose.rotation * one.position});
+        }
       } else if (const auto* rigid = std::get_if<RigidBody>(&body.shape)) {
         place(at + "/at", rigid->at);
       } else {

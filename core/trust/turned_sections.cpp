@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/beam/beam_place.hpp"
 #include "core/response/make_responses.hpp"
 #include "core/trust/beam_state.hpp"
 
@@ -42,8 +43,7 @@ TurnedForce turned_force(const TrustedRun& run, const ResponseSettings& settings
   const Trajectory& trajectory = run.analysis.trajectory;
   const Response along_y = shear_force(settings, SectionForcePart::shear_y, model),
                  along_z = shear_force(settings, SectionForcePart::shear_z, model);
-  const int last = body.beam.node_count() - 1;
-  const int node = static_cast<int>(std::lround(settings.station.value_or(settings.at) * last));
+  const int node = find_place(body.beam, settings.station.value_or(settings.at)).node();
   TurnedForce largest;
   State state;
   for (int i = 0; i <= instants; ++i) {

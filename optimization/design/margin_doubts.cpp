@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -69,27 +70,36 @@ void refuse_impossible(const DesignProblem& design, const UncertainParameter& pa
   }
 }
 
-/// Of one parameter, into `margins`.
+void judge(Margin& margin, double above, double below, const std::string& parameter) {
+  const double mean = 0.5 * (above + below);
+  const double missed = margin.side() * (mean - margin.value) / std::abs(margin.limit());
+  const double seen = 0.5 * std::abs(above - below) / std::abs(margin.limit());
+  if (missed > notable_kink && missed > 0.7 * seen && missed < 1.4 * seen) margin.kink = parameter;
+  if (!(missed > margin.missed)) return;
+  margin.missed = missed;
+  margin.parameter = parameter;
+}
+
+/// Of one parameter, into `margins`: two designs for all of them that ask for the same deviations.
 void look_beside(DesignProblem& design, const Eigen::VectorXd& x,
                  const UncertainParameter& parameter, std::vector<Margin>& margins) {
+  std::map<double, std::vector<Margin*>> by_change;
   for (Margin& margin : margins) {
-    const double change = looked_at(parameter, margin.constraint->deviations);
-    Eigen::VectorXd above = x, below = x;
-    above(parameter.variable) += change;
-    below(parameter.variable) -= change;
-    refuse_impossible(design, parameter, above);
-    refuse_impossible(design, parameter, below);
-    const double value_above = design.value_at(above, margin.response),
-                 value_below = design.value_at(below, margin.response);
-    const double mean = 0.5 * (value_above + value_below);
-    const double missed = margin.side() * (mean - margin.value) / std::abs(margin.limit());
-    const double seen = 0.5 * std::abs(value_above - value_below) / std::abs(margin.limit());
-    if (missed > notable_kink && missed > 0.7 * seen && missed < 1.4 * seen) {
-      margin.kink = name_of(design, parameter);
+    by_change[looked_at(parameter, margin.constraint->deviations)].push_back(&margin);
+  }
+  const auto values_at = [&](double change, const std::vector<Margin*>& alike) {
+    Eigen::VectorXd beside = x;
+    beside(parameter.variable) += change;
+    refuse_impossible(design, parameter, beside);
+    std::vector<double> values;
+    for (const Margin* margin : alike) values.push_back(design.value_at(beside, margin->response));
+    return values;
+  };
+  for (const auto& [change, alike] : by_change) {
+    const std::vector<double> above = values_at(change, alike), below = values_at(-change, alike);
+    for (std::size_t i = 0; i < alike.size(); ++i) {
+      judge(*alike[i], above[i], below[i], name_of(design, parameter));
     }
-    if (!(missed > margin.missed)) continue;
-    margin.missed = missed;
-    margin.parameter = name_of(design, parameter);
   }
 }
 

@@ -72,8 +72,7 @@ void for_each_objective(DesignProblem& design, const Result& result, const Add& 
 }
 
 /// Calls add(response, factor) for what f + Σ μ c is made of: the objective and what is limited, each a
-/// response of one case. Of a
-/// response f that is maximized f − Σ μ c, as the multipliers are of −f.
+/// response of one case. Where f is maximized it is f − Σ μ c, as the multipliers are those of −f.
 template <class Add>
 void for_each_share(DesignProblem& design, const Result& result, const Add& add) {
   for_each_objective(design, result, add);

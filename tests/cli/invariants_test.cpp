@@ -73,6 +73,30 @@ TEST(Invariants, TakeThePlaceOfTheBeam) {
   EXPECT_THAT(moved.err, HasSubstr("imported.json: /scene/bodies/rod/file is known at the design"));
 }
 
+/// A rod of a file has its pin where the file says, at every design.
+TEST(Invariants, HoldPointsAtTheirPlaces) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_program(folder.path(),
+                        {"invariants", problem("slider_crank"), "--body", "rod", "-o", "rod.json"})
+                .exit_code,
+            0);
+  auto document = nlohmann::json::parse(read_file(problem("slider_crank")));
+  nlohmann::json& scene = document["scene"];
+  const nlohmann::json reach = {{{"variable", "reach"}}, 0, 0};
+  document["variables"]["reach"] = {{"start", "300 mm"}, {"lower", "290 mm"}, {"upper", "310 mm"}};
+  document["responses"]["rod_bow"]["at"] = "rod_bow";
+  scene["bodies"]["rod"] = {
+      {"type", "invariants"}, {"file", "rod.json"}, {"from", {"120 mm", 0, 0}}, {"to", reach}};
+  scene["bodies"]["slider"]["at"] = scene["joints"]["slider_pin"]["at"] = reach;
+  scene["joints"]["guide"]["at"] = reach;
+  std::ofstream(folder.path() / "moved.json") << document;
+  const ProgramRun run = run_program(folder.path(), {"check", "moved.json"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err,
+              HasSubstr("/scene/joints/slider_pin/at must be at a place of the body \"rod\""));
+  EXPECT_THAT(run.err, HasSubstr("with the variable \"reach\" at its lower bound"));
+}
+
 TEST(Invariants, RefuseWhatHasNone) {
   const TemporaryFolder folder;
   const auto complaint = [&](const std::vector<std::string>& words) {

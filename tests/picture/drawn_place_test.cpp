@@ -33,13 +33,13 @@ TEST(DrawnPlace, LiesWhereTheFilePutsIt) {
   const Design<double> x = start_of(problem);
   const Point quarter = {Number(0.1), Number(0.0), Number(0.0)};
   for (const char* body : {"arm", "ball", "ground"}) {
-    const DrawnPlace place = drawn_place(problem.scene, body, quarter, x, x);
+    const DrawnPlace place = drawn_place(problem.scene, body, quarter, x);
     EXPECT_LT((position_at_start(problem.scene, place, x) - Eigen::Vector3d(0.1, 0, 0)).norm(),
               1e-15)
         << body;
   }
-  EXPECT_DOUBLE_EQ(drawn_place(problem.scene, "arm", quarter, x, x).share, 0.25);
-  EXPECT_EQ(drawn_place(problem.scene, "ground", quarter, x, x).body, -1);
+  EXPECT_DOUBLE_EQ(drawn_place(problem.scene, "arm", quarter, x).share, 0.25);
+  EXPECT_EQ(drawn_place(problem.scene, "ground", quarter, x).body, -1);
 }
 
 /// A rigid beam holds points beside its axis, too.
@@ -47,7 +47,7 @@ TEST(DrawnPlace, BesideARigidBeamIsAPointOfItsFrame) {
   const ProblemFile problem = turning_arm(R"("rigid": true)");
   const Design<double> x = start_of(problem);
   const Point beside = {Number(0.1), Number(0.05), Number(0.0)};
-  const DrawnPlace place = drawn_place(problem.scene, "arm", beside, x, x);
+  const DrawnPlace place = drawn_place(problem.scene, "arm", beside, x);
   EXPECT_LT(place.share, 0.0);
   EXPECT_LT((position_at_start(problem.scene, place, x) - Eigen::Vector3d(0.1, 0.05, 0)).norm(),
             1e-15);

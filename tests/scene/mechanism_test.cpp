@@ -368,11 +368,13 @@ TEST_F(Mechanism, MayMoveALoadWithItsBeam) {
   document["responses"].erase("thrust");
   document["scene"]["loads"].erase("cord");
   EXPECT_EQ(complaint(document), "");
-  document["scene"]["loads"]["push"]["at"][0] = 0.5;
+  document["scene"]["loads"]["push"]["at"][0] = 0.5;  // another share of the length
+  EXPECT_EQ(complaint(document), "");
+  document["scene"]["loads"]["push"]["at"][0] = 0.9;  // which is 0.8 long at the lower bound
   EXPECT_EQ(complaint(document),
-            "bad.json: /scene/loads/push/at must stay at the share 0.5 of the length of the beam "
-            "\"arm\", which is (0.4, 0, 0) [m], got (0.5, 0, 0), with the variable \"place\" at "
-            "its lower bound");
+            "bad.json: /scene/loads/push/at must be on the axis of the beam \"arm\", the nearest "
+            "point is (0.8, 0, 0) [m], got (0.9, 0, 0), with the variable \"place\" at its lower "
+            "bound");
 }
 
 TEST_F(Mechanism, MayHaveLegsDrivenSideBySide) {  // as in a hexapod

@@ -213,14 +213,27 @@ TEST(PricedNumbers, LeaveOutPointsThatFormulasMove) {
   EXPECT_THAT(names_of(groups), testing::Contains("/scene/bodies/bar/from/0"));
 }
 
-/// A load between the ends of an elastic beam keeps its share of the length: neither it nor the end
-/// of the beam has a price that anyone knows. (Of the formula F a² (3 L − a)/(6 E I) both move the
-/// sag.)
-TEST(PricedNumbers, LeaveOutPlacesOnElasticBeams) {
+/// A load F at a place of a bar bends what carries it, M = F a with the height h = √(6 F a/(b σ)): the
+/// mass goes with √a. What is at the end of the beam stays there.
+TEST(NumberPrices, AreThoseOfPlacesOnElasticBeams) {
   const std::vector<std::string> overrides = {"/scene/loads/press/at/0=0.3"};
+  const ProblemText text{bar, "bar.json", overrides};
+  const ProblemFile problem = read_problem_text(bar, "bar.json", overrides).complete();
+  const double height = std::sqrt(6 * 500 * 0.3 / (0.03 * 1e8));
+  const PriceList list = number_prices(text, problem, Eigen::VectorXd::Constant(1, height));
+  const auto exponent = [&](const std::string& name) {
+    const NumberPrice* price = find(list, name);
+    return price ? price->per_percent() / (0.01 * list.objective) : 0.0;
+  };
+  EXPECT_NEAR(exponent("/scene/loads/press/at/0"), 0.5, 1e-6);
+  EXPECT_NEAR(exponent("/scene/bodies/bar/to/0"), 1.0, 1e-6);
+}
+
+/// What a load at the end does when it leaves the end is not known.
+TEST(PricedNumbers, LeaveOutPlacesThatLeaveAnEnd) {
+  const std::vector<std::string> overrides = {"/scene/loads/press/at/0== 0.4 m + 0*height"};
   const PricedNumbers numbers = priced_numbers(
       {bar, "bar.json", overrides}, read_problem_text(bar, "bar.json", overrides).complete());
-  EXPECT_THAT(numbers.left_out, testing::Contains("/scene/loads/press/at/0"));
   EXPECT_THAT(numbers.left_out, testing::Contains("/scene/bodies/bar/to/0"));
   EXPECT_THAT(names_of(numbers.groups), testing::Contains("/scene/loads/press/value"));
 }

@@ -20,7 +20,7 @@ inline FrameMotion<double> frame_of(const BodyModel& body, const State& state) {
 
 /// Displacement in local axes of the axis of a beam at a share of its length.
 inline Eigen::Vector3d deflection_at(const BodyModel& body, const State& state, double at) {
-  const BeamPlace place = find_place(body.beam, at);
+  const ElementPlace place = find_place(body.beam, at);
   return axis_shape(place.xi, form_of(body.beam.elements[place.element])) *
          stacked_displacements(body, state).segment<12>(6 * place.element);
 }

@@ -370,7 +370,7 @@ Json without_across_cases(Json document, const std::string& load_case) {
   const AcrossCases across = across_cases(document);
   ask_for_parts(document, across, load_case);
   const std::set<std::string> variables = variables_in(document, across);
-  if (!variables.empty()) document["mentioned"] = variables;
+  if (!variables.empty()) document[mentioned_key] = variables;
   for (const std::string& name : across.responses) document["responses"].erase(name);
   for (const std::string& name : across.constraints) document["constraints"].erase(name);
   if (across.has_objective) document.erase("objective");

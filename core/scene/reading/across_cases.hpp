@@ -21,8 +21,11 @@ struct AcrossCases {
 /// Which formulas and names of a document name cases, themselves or by a response that does.
 AcrossCases across_cases(const Json& document);
 
+/// Of documents that the program makes: names of variables that count as used.
+inline constexpr const char* mentioned_key = "$mentioned";
+
 /// The document without them, as it is for each case. The design variables that they name are listed
-/// under "mentioned", so that they count as used. Where an accuracy is asked for them, it is asked for
+/// under `mentioned_key`, so that they count as used. Where an accuracy is asked for them, it is asked for
 /// their parts in this case.
 Json without_across_cases(Json document, const std::string& load_case);
 

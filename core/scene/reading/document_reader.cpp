@@ -7,6 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/machine_memory.hpp"
+#include "core/scene/reading/across_cases.hpp"
 #include "core/scene/reading/catalogue.hpp"
 #include "core/scene/reading/effects_reader.hpp"
 #include "core/scene/reading/goal_reader.hpp"
@@ -28,7 +29,7 @@ void read_heading(const JsonNode& root, ProblemFile& problem) {
                                         "effects",   "simulation", "sensitivity", "constants",
                                         "variables", "responses",  "objective",   "constraints",
                                         "optimizer", "pareto",     "accuracy",    "uncertainty"};
-  if (root.find("mentioned")) keys.push_back("mentioned");  // not the user's
+  if (root.find(mentioned_key)) keys.push_back(mentioned_key);
   root.allow_keys(keys);
   if (const auto schema = root.find("$schema")) schema->text();
   if (const auto name = root.find("name")) problem.name = name->text();
@@ -109,7 +110,7 @@ Json whole_document(const ProblemText& text, const UnitSystem& units) {
 
 /// Variables that only formulas over several load cases name (across_cases.hpp).
 void count_mentioned(const JsonNode& root, NumberReader& numbers) {
-  const auto mentioned = root.find("mentioned");
+  const auto mentioned = root.find(mentioned_key);
   if (!mentioned) return;
   for (const JsonNode& name : mentioned->items()) {
     numbers.count_as_used(numbers.variable(name, name.text()));

@@ -51,6 +51,30 @@ bool is_on_beam(const BeamBody& beam, double share, const Eigen::Vector3d& at,
   return (at - point_at(beam, share, design)).stableNorm() <= placement_tolerance * length;
 }
 
+std::optional<std::string> find_off_place(const Body& body, const Point& at,
+                                          const Design<double>& start,
+                                          const Design<double>& design) {
+  const auto& imported = std::get<ImportedBody>(body.shape);
+  const BodyConstants& constants = imported.file->constants;
+  const auto number = static_cast<std::size_t>(
+      nearest_place(constants, local_point(imported, position(at, start), start)));
+  const BodyPlace& place = constants.places[number];
+  Eigen::Vector3d there = place.position;
+  for (const ImportedVariable& of : imported.variables) {
+    const ConstantsDerivative& derivative = imported.file->design[of.in_design];
+    if (!derivative.derivative) continue;
+    there += (resolve(of.number, design) - derivative.value) *
+             derivative.derivative->places[number].position;
+  }
+  const Eigen::Vector3d local = local_point(imported, position(at, design), design);
+  if ((local - there).stableNorm() <= placement_tolerance * size_of(constants)) return std::nullopt;
+  return fmt::format(
+      "must be at a place of the body \"{}\"; in its axes, the nearest one is \"{}\" at {} [m], "
+      "got "
+      "{}",
+      body.name, place.name, describe(there), describe(local));
+}
+
 bool is_on_mass(const PointMass& mass, const Eigen::Vector3d& at, const Scene& scene,
                 const Design<double>& design) {
   return (at - position(mass.at, design)).stableNorm() <=

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,12 @@ std::vector<PlacedPoint> placed_points(const Scene& scene);
 /// Whether a place is at the share of the length of a beam, up to the rounding of written numbers.
 bool is_on_beam(const BeamBody& beam, double share, const Eigen::Vector3d& at,
                 const Design<double>& design);
+
+/// What is wrong with a point of an imported body at a design: "must …, got …"; none if it is where
+/// the place of the file is that is nearest at the start.
+std::optional<std::string> find_off_place(const Body& body, const Point& at,
+                                          const Design<double>& start,
+                                          const Design<double>& design);
 
 /// Whether a place is that of a point mass, likewise.
 bool is_on_mass(const PointMass& mass, const Eigen::Vector3d& at, const Scene& scene,

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/scene/joint_kind.hpp"
+#include "core/scene/reading/beam_places.hpp"
 #include "core/scene/reading/geometry.hpp"
 #include "core/scene/reading/limits.hpp"
 #include "core/scene/reading/placed_points.hpp"
@@ -45,37 +46,34 @@ std::vector<PointPair> pairs_of(const JsonNode& node, const Scene& scene) {
   return pairs;
 }
 
-void check_on_beam(const JsonNode& node, const PlacedPoint& place, const BeamBody& beam,
+void check_on_beam(const JsonNode& node, const PlacedPoint& place, const Scene& scene,
                    const std::vector<SampleDesign>& samples) {
+  const auto& beam = std::get<BeamBody>(place.body->shape);
   const Design<double>& start = samples.front().design;
   const Eigen::Vector3d at_start = position(*place.point, start);
   const double share = nearest_share(beam, at_start, start);
-  const std::string& name = place.body->name;
   if (!is_on_beam(beam, share, at_start, start)) {
     node.fail(
         fmt::format("must be on the axis of the beam \"{}\", the nearest point is {} [m], got {}",
-                    name, describe(point_at(beam, share, start)), describe(at_start)));
+                    place.body->name, describe(point_at(beam, share, start)), describe(at_start)));
   }
+  if (!is_bound(*place.point) && !is_bound(beam.from) && !is_bound(beam.to)) return;
+  const BeamPlaces places(*place.body, scene, start);
   for (const SampleDesign& sample : samples) {
-    const Eigen::Vector3d at = position(*place.point, sample.design);
-    if (is_on_beam(beam, share, at, sample.design)) continue;
-    node.fail(fmt::format(
-        "must stay at the share {:.6g} of the length of the beam \"{}\", which is {} [m], got {}{}",
-        share, name, describe(point_at(beam, share, sample.design)), describe(at), sample.where));
+    const auto found = places.find_misplaced(*place.point, sample.design);
+    if (!found) continue;
+    node.fail(fmt::format("{}, got {}{}", *found, describe(position(*place.point, sample.design)),
+                          sample.where));
   }
 }
 
-/// In the axes of the body frame at the start.
-void check_on_imported(const JsonNode& node, const PlacedPoint& place, const ImportedBody& body,
-                       const Design<double>& start) {
-  const BodyConstants& constants = body.file->constants;
-  const Eigen::Vector3d at = local_point(body, position(*place.point, start), start);
-  const BodyPlace& nearest = constants.places[nearest_place(constants, at)];
-  if ((at - nearest.position).stableNorm() <= placement_tolerance * size_of(constants)) return;
-  node.fail(fmt::format(
-      "must be at a place of the body \"{}\"; in its axes, the nearest one is \"{}\" at "
-      "{} [m], got {}",
-      place.body->name, nearest.name, describe(nearest.position), describe(at)));
+void check_on_imported(const JsonNode& node, const PlacedPoint& place,
+                       const std::vector<SampleDesign>& samples) {
+  const Design<double>& start = samples.front().design;
+  for (const SampleDesign& sample : samples) {
+    const auto found = find_off_place(*place.body, *place.point, start, sample.design);
+    if (found) node.fail(*found + sample.where);
+  }
 }
 
 void check_on_mass(const JsonNode& node, const PlacedPoint& place, const PointMass& mass,
@@ -107,11 +105,11 @@ void check_placement(const JsonNode& node, const Scene& scene,
     if (place.body == nullptr) continue;
     const JsonNode at = node_of(node, place);
     if (const auto* beam = std::get_if<BeamBody>(&place.body->shape)) {
-      if (!beam->is_rigid) check_on_beam(at, place, *beam, samples);
+      if (!beam->is_rigid) check_on_beam(at, place, scene, samples);
     } else if (const auto* mass = std::get_if<PointMass>(&place.body->shape)) {
       check_on_mass(at, place, *mass, scene, samples);
-    } else if (const auto* imported = std::get_if<ImportedBody>(&place.body->shape)) {
-      check_on_imported(at, place, *imported, samples.front().design);
+    } else if (std::holds_alternative<ImportedBody>(place.body->shape)) {
+      check_on_imported(at, place, samples);
     }
   }
   for (const PointPair& pair : pairs_of(node, scene)) check_pair(pair, samples);

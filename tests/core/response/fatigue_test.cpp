@@ -76,7 +76,8 @@ TEST(Cycle, TakesThePointThatIsUsedMost) {
       reduce_cycle(FatigueCriterion::goodman, time, two_points(time), whole_range(time));
   EXPECT_NEAR(goodman.value, 0.4, 1e-6);
   for (const Sample& sample : goodman.samples) EXPECT_LT(sample.channel, 2);
-  EXPECT_TRUE(goodman.ties.empty() || goodman.ties.front().gap < 1e-3);
+  // 0.4 and 0.35 do not tie; the peaks of the first point do with each other.
+  for (const PeakTie& tie : goodman.ties) EXPECT_LT(tie.other_channel, 2);
 }
 
 /// The samples say how the value changes with what is observed.

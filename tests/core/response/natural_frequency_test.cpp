@@ -100,7 +100,7 @@ TEST(Frequency, ThatIsNotAlongAnAxisIsAnErrorThatSaysSo) {
   try {
     body_frequency(model.body("beam"), {0, {{0, 0, 1}}}, 0);
     FAIL();
-  } catch (const InputError& error) {
+  } catch (const SimulationError& error) {  // how many there are changes with the design
     EXPECT_STREQ(
         error.what(),
         "the body \"beam\" has 0 natural frequencies along z (modes with more than half of "
@@ -113,9 +113,8 @@ TEST(Frequency, OfABodyThatIsRigidIsAnErrorThatSaysSo) {
   EffectSettings effects;
   effects.elasticity = EffectChoice::off;
   const Model model = build_model(cantilever(), effects, {}, {});
-  for (const ModeChoice& choice : {ModeChoice{0}, ModeChoice{0, {{0, 1, 0}}}}) {
-    EXPECT_THROW(body_frequency(model.body("beam"), choice, 0), InputError);
-  }
+  EXPECT_THROW(body_frequency(model.body("beam"), ModeChoice{0}, 0), InputError);
+  EXPECT_THROW(body_frequency(model.body("beam"), ModeChoice{0, {{0, 1, 0}}}, 0), SimulationError);
 }
 
 Scene hanging_body() {

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <memory>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+namespace pleuel {
+
+/// P R A C = L U of a sparse square matrix, with diagonal R and C that bring the largest entry of each
+/// row and column near one (Ruiz 2001): rows and columns of different units do not decide the pivots.
+class BalancedLu {
+ public:
+  BalancedLu();
+  ~BalancedLu();
+
+  /// @return whether the matrix is regular. Matrices that follow have the pattern of the first one.
+  bool factorize(const Eigen::SparseMatrix<double>& matrix);
+  /// x of A x = b, for each column.
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
+
+ private:
+  struct Factors;
+  std::unique_ptr<Factors> factors_;
+  Eigen::VectorXd rows_, columns_;
+};
+
+}  // namespace pleuel
