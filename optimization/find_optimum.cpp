@@ -173,6 +173,7 @@ class Search {
       const bool is_first = !has_design();
       Result before = std::move(total_);
       continue_from(before, next);
+      ++next.restarts;
       total_ = is_first || is_better(next, before)
                    ? std::move(next)
                    : with_effort_of(std::move(next), std::move(before));
@@ -226,7 +227,6 @@ class Search {
     effort.seconds = problem.seconds();
     if (!effort.history.empty()) {
       continue_from(total_, effort);
-      --effort.restarts;
       total_ = with_effort_of(std::move(effort), std::move(total_));
     }
     return std::pair(std::move(outcome), std::move(part));

@@ -10,7 +10,7 @@ void continue_from(const Result& before, Result& result) {
   result.evaluations += before.evaluations;
   result.gradient_evaluations += before.gradient_evaluations;
   result.iterations += before.iterations;
-  result.restarts += before.restarts + 1;
+  result.restarts += before.restarts;
   result.seconds += before.seconds;
 }
 

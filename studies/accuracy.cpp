@@ -309,7 +309,8 @@ void vary_settings(const ProblemFile& problem, const PricedDesign& design, Accur
     Variations variations(problem, design, study, observer, parts);
     variations.add_knobs();
     variations.add_effects();
-  } catch (const SimulationError&) {  // the setting of the file cannot be simulated
+  } catch (const SimulationError& error) {  // the setting of the file cannot be simulated
+    study.failure = error.what();
   } catch (const Stopped&) {
     study.is_interrupted = true;
   }

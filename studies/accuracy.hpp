@@ -53,6 +53,8 @@ struct AccuracyStudy {
   /// The run that knobs are turned at: the first that is recommended, or the most accurate one.
   std::optional<std::size_t> base;
   std::vector<VariedRun> knobs, effects;
+  /// Why some of these are missing: the setting that they vary cannot be simulated.
+  std::string failure;
   bool is_interrupted = false;  ///< some runs are missing
 
   /// Largest of the errors that count; 0 of none.

@@ -183,6 +183,9 @@ std::vector<std::string> warnings_of(const AccuracyStudy& study) {
   if (!study.recommendations.empty() && study.recommendations.front().values) {
     add_new(warnings, texts_of(study.runs[*study.recommendations.front().values].doubts));
   }
+  if (!study.failure.empty()) {
+    warnings.push_back("other knobs and effects are not known: " + study.failure);
+  }
   return warnings;
 }
 

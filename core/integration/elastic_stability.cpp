@@ -299,9 +299,24 @@ Eigen::MatrixXd in_turning_axes(const Mechanism& mechanism, const State& state,
   return DenseLu(T).solve(deformations);
 }
 
+/// Whether a body that deforms turns, and not only rigid ones, as an unbalanced mass in a machine that
+/// shakes.
+bool turns_what_deforms(const Mechanism& mechanism, const State& state, const FastestTurn& turn) {
+  constexpr double standing = 0.01;
+  const std::vector<int>& elastic = mechanism.elastic;
+  return std::any_of(mechanism.rotations.begin(), mechanism.rotations.end(), [&](int rotation) {
+    // Elastic coordinates stand behind the rotation of their frame.
+    return state.v.segment<3>(rotation).norm() > standing * turn.omega.norm() &&
+           std::find(elastic.begin(), elastic.end(), rotation + 3) != elastic.end();
+  });
+}
+
 /// Of the parts in which something turns.
 ElasticStability stability_of_turning(const Mechanism& mechanism, const State& state,
                                       const FastestTurn& turn, const std::vector<int>& fixed) {
+  if (!mechanism.elastic.empty() && !turns_what_deforms(mechanism, state, turn)) {
+    return standing_stability(mechanism, state, free_deformations(mechanism, state, fixed));
+  }
   if (is_steady(mechanism, state, turn) || turns_alike(mechanism, state, turn)) {
     return turning_stability(mechanism, state, nullptr, fixed);
   }

@@ -305,7 +305,7 @@ Eigen::SparseMatrix<double> Equilibrium::mixed_jacobian(const InitialState& at,
 bool Equilibrium::solve_from(const Eigen::VectorXd& target, InitialState& at) {
   BalancedLu factors;
   Eigen::VectorXd strains = strains_.at(at.state.q);
-  double previous = std::numeric_limits<double>::infinity();
+  double previous = std::numeric_limits<double>::infinity(), least = previous;
   int stuck_steps = 0;
   for (int iteration = 0; iteration < max_newton_steps; ++iteration) {
     const Eigen::SparseMatrix<double> matrix = mixed_jacobian(at, strains);
@@ -318,9 +318,12 @@ bool Equilibrium::solve_from(const Eigen::VectorXd& target, InitialState& at) {
     const bool is_met = is_stuck && backward_error(matrix, unknowns(at), left) < balance_round_off;
     strains = strains_.predicted(at.state.q, step.head(n_));
     advance_by(step, at);
-    stuck_steps = is_stuck ? stuck_steps + 1 : 0;
-    const double share = stuck_steps < most_stuck_steps ? stuck_share : long_stuck_share;
-    const bool is_round_off = is_stuck && size < share * std::max(1.0, deformation(at.state));
+    stuck_steps = size > 0.3 * least ? stuck_steps + 1 : 0;
+    least = std::min(least, size);
+    const double deformed = std::max(1.0, deformation(at.state));
+    const bool is_round_off = stuck_steps < most_stuck_steps
+                                  ? is_stuck && size < stuck_share * deformed
+                                  : size < long_stuck_share * deformed;
     if (size < newton_tolerance || is_round_off || is_met) return true;
     previous = size;
   }

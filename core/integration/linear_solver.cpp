@@ -181,7 +181,9 @@ struct LinearSolver::Implementation {
       summed_residual += rhs.col(j) / size;
     }
     subtract_product(is_transposed, summed_x, summed_residual);
-    backward_error = summed_residual.lpNorm<Eigen::Infinity>();
+    // Round-off of many columns adds up as its root does.
+    const double columns = std::max<double>(1.0, static_cast<double>(x.cols()));
+    backward_error = summed_residual.lpNorm<Eigen::Infinity>() / std::sqrt(columns);
   }
 
   /// With the scaled rhs in x.

@@ -1,5 +1,9 @@
 #include "core/integration/period_map.hpp"
 
+#include <cmath>
+#include <tuple>
+#include <utility>
+
 #include "core/integration/configuration.hpp"
 #include "core/integration/step_differentiation.hpp"
 
@@ -33,6 +37,23 @@ Eigen::MatrixXd one_minus(const Eigen::MatrixXd& matrix) {
   return Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols()) - matrix;
 }
 
+/// Brings the largest entry of each row and column near one (Ruiz 2001): the condition of 1 − M then
+/// says nothing of how accelerations are counted.
+std::pair<Eigen::VectorXd, Eigen::VectorXd> balance(Eigen::MatrixXd& matrix) {
+  constexpr int passes = 8;
+  Eigen::VectorXd rows = Eigen::VectorXd::Ones(matrix.rows()), columns = rows;
+  const auto inverse_root = [](double x) { return x > 0.0 ? 1.0 / std::sqrt(x) : 1.0; };
+  for (int pass = 0; pass < passes; ++pass) {
+    const Eigen::VectorXd row = matrix.cwiseAbs().rowwise().maxCoeff().unaryExpr(inverse_root);
+    const Eigen::VectorXd column =
+        matrix.cwiseAbs().colwise().maxCoeff().transpose().unaryExpr(inverse_root);
+    matrix = row.asDiagonal() * matrix * column.asDiagonal();
+    rows.array() *= row.array();
+    columns.array() *= column.array();
+  }
+  return {rows, columns};
+}
+
 }  // namespace
 
 PeriodMap::PeriodMap(Mechanism& mechanism, const Trajectory& trajectory, int steps)
@@ -42,8 +63,15 @@ PeriodMap::PeriodMap(Mechanism& mechanism, const Trajectory& trajectory, int ste
       increment_(first_increment(mechanism, trajectory)),
       basis_(row_basis(trajectory.scheme_of(1))),
       map_(differentiate(mechanism, trajectory, steps)),
-      reduced_(project(map_)),
-      rest_(one_minus(reduced_)) {}
+      reduced_(project(map_)) {
+  Eigen::MatrixXd rest = one_minus(reduced_);
+  std::tie(row_scale_, column_scale_) = balance(rest);
+  rest_.emplace(rest);
+}
+
+Eigen::MatrixXd PeriodMap::solve_rest(const Eigen::MatrixXd& b) const {
+  return column_scale_.asDiagonal() * rest_->solve(row_scale_.asDiagonal() * b);
+}
 
 Eigen::MatrixXd PeriodMap::differentiate(Mechanism& mechanism, const Trajectory& trajectory,
                                          int steps) {
@@ -84,12 +112,13 @@ Eigen::MatrixXd PeriodMap::unproject(const Eigen::MatrixXd& reduced) const {
 }
 
 Eigen::MatrixXd PeriodMap::solve(const Eigen::MatrixXd& columns) const {
-  return columns + map_ * rest_.solve(project(columns));
+  return columns + map_ * solve_rest(project(columns));
 }
 
 Eigen::MatrixXd PeriodMap::solve_transposed(const Eigen::MatrixXd& columns) const {
   // What project() does, transposed.
-  Eigen::MatrixXd back = combine(rest_.solve_transposed(map_.transpose() * columns));
+  const Eigen::MatrixXd scaled = column_scale_.asDiagonal() * (map_.transpose() * columns);
+  Eigen::MatrixXd back = combine(row_scale_.asDiagonal() * rest_->solve_transposed(scaled));
   pull_back_transposed(rotations_, increment_, back.topRows(n_));
   return columns + back;
 }
@@ -101,7 +130,7 @@ double PeriodMap::growth() const {
 Eigen::Index PeriodMap::freest_coordinate() const {
   Eigen::MatrixXd z = Eigen::VectorXd::Ones(reduced_.rows());
   for (int i = 0; i < 3; ++i) {  // inverse iteration
-    z = rest_.solve(z);
+    z = solve_rest(z);
     z /= z.norm();
   }
   Eigen::Index freest = 0;

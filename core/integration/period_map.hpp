@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "core/base/dense_solvers.hpp"
 #include "core/integration/mechanism.hpp"
 #include "core/integration/stacked_states.hpp"
@@ -36,14 +38,16 @@ class PeriodMap {
   /// By what a disturbance grows in a period, in the long run: the spectral radius of M. Below 1 the
   /// motion is stable.
   double growth() const;
-  /// Estimate of 1/condition of 1 − Vᵀ M V: zero where something moves freely.
-  double reciprocal_condition() const { return rest_.reciprocal_condition(); }
+  /// Estimate of 1/condition of 1 − Vᵀ M V, however its rows and columns are scaled: zero where something moves freely.
+  double reciprocal_condition() const { return rest_->reciprocal_condition(); }
   /// The coordinate that moves most in the motion that the period brings back most closely.
   Eigen::Index freest_coordinate() const;
 
  private:
   Eigen::MatrixXd project(Eigen::MatrixXd columns) const;           ///< Vᵀ
   Eigen::MatrixXd unproject(const Eigen::MatrixXd& reduced) const;  ///< V
+  /// (1 − Vᵀ M V)⁻¹ b
+  Eigen::MatrixXd solve_rest(const Eigen::MatrixXd& b) const;
   /// V without the rotations of the first step.
   Eigen::MatrixXd combine(const Eigen::MatrixXd& reduced) const;
   /// M V.
@@ -56,7 +60,8 @@ class PeriodMap {
   Eigen::MatrixXd basis_;      ///< of the rows of the history, 4 × r
   Eigen::MatrixXd map_;        ///< M V, 4n × r n
   Eigen::MatrixXd reduced_;    ///< Vᵀ M V
-  DenseLu rest_;               ///< of 1 − Vᵀ M V
+  Eigen::VectorXd row_scale_, column_scale_;
+  std::optional<DenseLu> rest_;  ///< of 1 − Vᵀ M V, with its rows and columns scaled
 };
 
 }  // namespace pleuel

@@ -5,9 +5,12 @@
 
 namespace pleuel {
 
+double steps_within(double time, double step) {
+  return std::ceil(time / step * (1.0 - 1e-12));
+}
+
 int step_count(const TimeIntegration& options) {
-  // A step that divides the time up to round-off is not shortened.
-  return std::max(1, static_cast<int>(std::ceil(options.end_time / options.step * (1 - 1e-12))));
+  return std::max(1, static_cast<int>(steps_within(options.end_time, options.step)));
 }
 
 std::vector<double> regular_instants(const SimulationOptions& options) {

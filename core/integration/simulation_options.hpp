@@ -22,6 +22,10 @@ struct SimulationOptions : TimeIntegration {
 /// on the way that the states do not fit into the memory).
 using InstantObserver = std::function<void(int step, const State& state)>;
 
+/// How many steps of a size a time takes, rounded up. A step that divides the time up to round-off is
+/// not shortened.
+double steps_within(double time, double step);
+
 /// Number of equal steps of a simulation without breaks: the last time is end_time exactly.
 int step_count(const TimeIntegration& options);
 

@@ -67,7 +67,7 @@ void TimeLoop::advance(int unit) {
   check_stop();
   const double end = grid_[unit];
   const bool is_repeated = !options_.instants.empty();
-  step_ = is_repeated ? static_cast<int>(std::ceil(end / regular_step() * (1 - 1e-12))) : unit;
+  step_ = is_repeated ? static_cast<int>(steps_within(end, regular_step())) : unit;
   if (options_.local_error > 0.0 && !is_repeated) {
     advance_controlled(end);
   } else {

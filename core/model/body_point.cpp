@@ -31,16 +31,20 @@ BodyPoint point_of(const BodyModel& body, int place) {
   return point;
 }
 
-BeamPlace place_at(const BodyModel& beam, double share) {
-  BeamPlace place{find_place(beam.beam, share)};
-  if (!beam.mesh.depends_on_design()) return place;
+std::vector<double> slopes_in_element(const BodyModel& beam, double share, int element) {
+  std::vector<double> slopes;
+  if (!beam.mesh.depends_on_design()) return slopes;
   const int elements = beam.beam.node_count() - 1;
   for (const auto& [variable, along] : beam.beam_x) {
-    const Dual length = along.node_position(elements), first = along.node_position(place.element);
-    const Dual xi = (share * length - first) / along.elements[place.element].length;
-    place.xi_x.push_back(derivative_of(xi));
+    const Dual length = along.node_position(elements), first = along.node_position(element);
+    slopes.push_back(derivative_of((share * length - first) / along.elements[element].length));
   }
-  return place;
+  return slopes;
+}
+
+BeamPlace place_at(const BodyModel& beam, double share) {
+  const ElementPlace place = find_place(beam.beam, share);
+  return {place, slopes_in_element(beam, share, place.element)};
 }
 
 BeamPlace held_place(const BodyModel& beam, double share) {

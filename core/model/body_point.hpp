@@ -21,6 +21,10 @@ struct BodyPoint : PointShape {
 /// A share of the length of a beam, whatever its elements are.
 BeamPlace place_at(const BodyModel& beam, double share);
 
+/// Derivatives of where that is in an element (0 … 1, or beside it), in the order of those of the body;
+/// none where they are zero, as all elements keep their shares of the length.
+std::vector<double> slopes_in_element(const BodyModel& beam, double share, int element);
+
 /// Where joints and loads hold on to an elastic beam that lie at a share of its length at the start.
 BeamPlace held_place(const BodyModel& beam, double share);
 

@@ -232,8 +232,8 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
                                 problem.sensitivity.invariants);
   analysis->model.mechanism.starts_in_equilibrium = problem.simulation.quasi_static_start;
   set_full_mechanism(problem, start_values, design, *analysis);
-  analysis->responses = make_responses(problem.responses, analysis->model,
-                                       analysis->full ? analysis->full->model : analysis->model);
+  analysis->responses =
+      make_responses(problem.responses, analysis->model, model_of_modes(*analysis));
   const SimulationOptions options = options_of(problem);
   require_memory(analysis->responses, options);
   Recorder recorder(analysis->responses, step_count(options) + 1);

@@ -147,7 +147,7 @@ struct NodalRows {
 /// @param count   rows of a station
 /// @param of      element, place in it → its rows
 /// @param number  Scalar → double: value or derivative
-/// @param place   of a station, as Station::place
+/// @param place   station, number of one of its elements → where it is in it, 0 … 1
 template <class Scalar, class OfElement, class Number, class Place>
 NodalRows nodal_rows(const Beam<Scalar>& beam, const std::vector<Station>& stations, int count,
                      const OfElement& of, const Number& number, const Place& place) {
@@ -156,8 +156,9 @@ NodalRows nodal_rows(const Beam<Scalar>& beam, const std::vector<Station>& stati
   Eigen::Index row = 0;
   for (const Station& station : stations) {
     const double share = 1.0 / static_cast<double>(station.elements.size());
-    for (int e : station.elements) {
-      const auto forces = of(beam.elements[e], Scalar(place(station) - double(e)));
+    for (std::size_t i = 0; i < station.elements.size(); ++i) {
+      const int e = station.elements[i];
+      const auto forces = of(beam.elements[e], place(station, i));
       const auto scaled = [&](const Scalar& entry) { return share * number(entry); };
       displacements.add(row, 6 * e, forces.of_coordinates.unaryExpr(scaled).eval());
       accelerations.add(row, 3 * e, forces.of_accelerations.unaryExpr(scaled).eval());
@@ -190,15 +191,18 @@ template <class OfElement>
 NodalRows value_rows(const BodyModel& body, const std::vector<Station>& stations, int count,
                      const OfElement& of) {
   return nodal_rows(body.beam, stations, count, of, value,
-                    [](const Station& station) { return station.place; });
+                    [](const Station& station, std::size_t i) -> double {
+                      return station.place - station.elements[i];
+                    });
 }
 
 /// @param count, of  as of nodal_rows()
 template <class OfElement>
 Recovery derivative_rows(const BodyModel& body, const std::vector<Station>& stations, int count,
                          const OfElement& of, std::size_t k) {
-  NodalRows change = nodal_rows(body.beam_x[k].second, stations, count, of, derivative,
-                                [k](const Station& station) { return station.place_along(k); });
+  NodalRows change =
+      nodal_rows(body.beam_x[k].second, stations, count, of, derivative,
+                 [k](const Station& station, std::size_t i) { return station.xi_along(i, k); });
   SparseMatrix of_coordinates = change.of_displacements * body.places.shape;
   const SparseMatrix& shape_x = body.places_x[k].data.shape;
   if (shape_x.nonZeros() > 0) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -33,25 +34,34 @@ class StationFinder {
 
   std::vector<Station> at(double share) const {
     const BeamPlace place = place_at(body_, share);
-    const std::vector<double>& change = place.xi_x;
     if (!place.is_node() && !is_beside_attached(place)) {
-      return {{{place.element}, place.element + place.xi, change}};
+      return {station({place.element}, place.element + place.xi, share)};
     }
     const int node = place.node();
-    if (node == 0) return {{{0}, 0.0, change}};
-    if (node == elements()) return {{{node - 1}, double(node), change}};
-    if (continues(node)) return {{{node - 1, node}, double(node), change}};
-    return {{{node - 1}, double(node), change}, {{node}, double(node), change}};
+    if (node == 0) return {station({0}, 0.0, share)};
+    if (node == elements()) return {station({node - 1}, double(node), share)};
+    if (continues(node)) return {station({node - 1, node}, double(node), share)};
+    return {station({node - 1}, double(node), share), station({node}, double(node), share)};
   }
 
  private:
   int elements() const { return int_size(body_.beam.elements); }
+  Station station(std::vector<int> adjacent, double place, double share) const {
+    Station result{std::move(adjacent), place};
+    for (const int element : result.elements) {
+      std::vector<double> slopes = slopes_in_element(body_, share, element);
+      if (!slopes.empty()) result.place_x.push_back(std::move(slopes));
+    }
+    return result;
+  }
   /// Whether the place of a joint or load is meant, which section forces may jump at: written numbers
   /// are rounded.
   bool is_beside_attached(const BeamPlace& place) const {
     constexpr double rounding = 1e-5;  // of the length
     const std::vector<int>& attached = body_.mesh.attached_nodes;
-    if (body_.mesh.depends_on_design()) return false;
+    for (const MeshKnot& knot : body_.mesh.knots) {
+      if (knot.node == place.node() && knot.at) return false;  // it moves
+    }
     if (std::find(attached.begin(), attached.end(), place.node()) == attached.end()) return false;
     const double distance = body_.beam.node_position(place.node()) - position_of(body_.beam, place);
     return std::abs(distance) <= rounding * body_.beam.node_position(elements());

@@ -22,12 +22,14 @@ struct StationChoice {
 struct Station {
   std::vector<int> elements;  ///< adjacent, ascending
   double place;               ///< counted in elements: 2 is node 2, 2.5 half an element further
-  /// Its derivatives, in the order of those of the body; empty: it does not depend on the design.
-  std::vector<double> place_x = {};
+  /// Derivatives of the place in each of the elements, in the order of those of the body; empty: it does
+  /// not depend on the design.
+  std::vector<std::vector<double>> place_x = {};
 
-  /// With the derivative number k of the body.
-  Dual place_along(std::size_t k) const {
-    return {place, Dual::Derivatives::Constant(place_x.empty() ? 0.0 : place_x[k])};
+  /// In one of the elements, 0 … 1, with the derivative number k of the body.
+  Dual xi_along(std::size_t element, std::size_t k) const {
+    return {place - elements[element],
+            Dual::Derivatives::Constant(place_x.empty() ? 0.0 : place_x[element][k])};
   }
 };
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include <fmt/format.h>
 
@@ -59,33 +58,16 @@ std::optional<std::string> complaint(const RangedFormula& formula, const Design<
   return fmt::format("{} {}, is {:.6g}", formula.place, formula.rule, value);
 }
 
-/// The places of all elastic beams at which something is held, as they are asked for.
-class PlacesOfBeams {
- public:
-  PlacesOfBeams(const Scene& scene, const Design<double>& start) : scene_(scene), start_(start) {}
-
-  const BeamPlaces& of(const Body& body) {
-    return places_.try_emplace(body.name, body, scene_, start_).first->second;
-  }
-
- private:
-  const Scene& scene_;
-  const Design<double>& start_;
-  std::map<std::string, BeamPlaces> places_;
-};
-
 std::optional<std::string> complaint(const PlacedPoint& placed, const BeamBody& beam,
                                      PlacesOfBeams& places, const Design<double>& design) {
   if (beam.is_rigid) return std::nullopt;
-  if (!is_bound(*placed.point) && !is_bound(beam.from) && !is_bound(beam.to)) {
-    return std::nullopt;
-  }
   // Whether it stays on the axis is known at both bounds of a plain variable, and so between them.
   const bool is_formula =
       has_formula(*placed.point) || has_formula(beam.from) || has_formula(beam.to);
   const BeamPlaces& of_beam = places.of(*placed.body);
-  const auto found = is_formula ? of_beam.find_misplaced(*placed.point, design)
-                                : of_beam.find_disorder(*placed.point, design);
+  const bool is_known = !is_formula && !of_beam.depends_on_design();
+  if (is_known) return std::nullopt;
+  const auto found = of_beam.find_misplaced(*placed.point, design);
   if (!found) return std::nullopt;
   return fmt::format("{} {}, is {}", placed.pointer(), *found,
                      describe(position(*placed.point, design)));

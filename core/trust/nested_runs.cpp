@@ -8,16 +8,17 @@
 #include "core/base/error.hpp"
 #include "core/base/int_size.hpp"
 #include "core/base/parallel.hpp"
-#include "core/scene/beam_mesh.hpp"
+#include "core/integration/simulation_options.hpp"
 #include "core/model/divided_beams.hpp"
+#include "core/scene/beam_mesh.hpp"
 
 namespace pleuel {
 
 namespace {
 
 void change_steps(SimulationSettings& settings, double factor) {
-  const double steps = std::ceil(settings.end_time / settings.step * (1 - 1e-12));
-  settings.step = settings.end_time / std::ceil(steps / factor * (1 - 1e-12));
+  const double steps = steps_within(settings.end_time, settings.step);
+  settings.step = settings.end_time / steps_within(steps, factor);
   settings.local_error = std::min(settings.local_error * factor * factor, 0.5);
   settings.smallest_step *= factor;
 }

@@ -11,6 +11,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/relative_error.hpp"
+#include "core/integration/simulation_options.hpp"
 #include "core/response/effect_measurement.hpp"
 #include "core/trust/asked_responses.hpp"
 #include "core/trust/doubts.hpp"
@@ -55,7 +56,7 @@ constexpr double most_missing_energy = 0.03;
 constexpr double effects_share = 0.2;
 
 double number_of_steps(const SimulationSettings& settings) {
-  return std::ceil(settings.end_time / settings.step * (1 - 1e-12));
+  return steps_within(settings.end_time, settings.step);
 }
 
 /// A setting that was tried, with what the next one follows from.

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/base/find_named.hpp"
 #include "core/base/int_size.hpp"
@@ -190,6 +191,7 @@ class ShearDoubts {
     }
     std::vector<Doubt> doubts;
     for (const auto& [body, share] : shares_) add_doubt(body, share, doubts);
+    add_sums(doubts);
     return doubts;
   }
 
@@ -268,6 +270,47 @@ class ShearDoubts {
              body, names, is_held_twice_ ? "up to" : "some", 100.0 * worst,
              is_serious ? " of what it is with shear" : "", advice(body, is_serious)),
          is_serious, responses});
+  }
+
+  /// Where the shear of several beams adds up to more than is told of each.
+  void add_sums(std::vector<Doubt>& doubts) {
+    for (std::size_t i = 0; i < run_.problem.responses.size(); ++i) {
+      const ResponseSettings& response = run_.problem.responses[i];
+      if (!is_of_all_bodies(response)) continue;
+      double sum = 0.0, largest = 0.0;
+      std::vector<std::string> bodies;
+      for (const auto& [body, share] : shares_) {
+        const double error = error_of(i, body, share);
+        if (error > 0.1 * tolerable_shear) bodies.push_back(fmt::format("\"{}\"", body));
+        sum += error;
+        largest = std::max(largest, error);
+      }
+      const bool is_serious = sum > alarming;
+      const double told = is_serious ? alarming : tolerable_shear;
+      if (sum <= told || largest > told) continue;
+      doubts.push_back(
+          {fmt::format("shear, which {} leave out, would change \"{}\" by some {:.2g} % together. "
+                       "{}: set their \"shear\" to true.",
+                       fmt::join(bodies, ", "), response.name, 100.0 * sum,
+                       is_serious ? "Do not trust that" : "Where that matters"),
+           is_serious,
+           {response.name}});
+    }
+  }
+
+  /// Whether the deformation of all bodies moves it.
+  static bool is_of_all_bodies(const ResponseSettings& response) {
+    switch (response.type) {
+      case ResponseType::position:
+        return true;
+      case ResponseType::deflection:
+        return response.against == DeflectionReference::rigid_mechanism;
+      case ResponseType::elastic_energy:
+      case ResponseType::frequency:
+        return response.bodies.empty();
+      default:
+        return false;
+    }
   }
 
   std::string advice(const std::string& body, bool is_serious) const {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -11,6 +12,7 @@
 #include "core/response/describe_tie.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/response_parts.hpp"
+#include "core/trust/asked_responses.hpp"
 #include "core/trust/doubts.hpp"
 #include "core/trust/nested_runs.hpp"
 #include "optimization/broken_limits.hpp"
@@ -271,6 +273,7 @@ Result attempt_optimum(DesignProblem& design, const SolveOptions& options, const
     }
     Result on_peaks = solve_peaks(design, windows, rest, result, observer);
     continue_from(result, on_peaks);
+    ++on_peaks.restarts;
     result = std::move(on_peaks);
   }
   if (result.status == Status::stalled) {
@@ -373,6 +376,22 @@ Eigen::VectorXd objectives_in_cases(DesignProblem& design, const Eigen::VectorXd
   return values;
 }
 
+/// The first serious doubt about what is minimized, limited or asked for; those about other responses do
+/// not touch an optimum. Of files with cases all count.
+const Doubt* find_serious(const std::vector<Doubt>& doubts, const ProblemFile& file) {
+  std::set<std::string> asked;
+  for (const std::size_t i : asked_responses(file)) asked.insert(file.responses[i].name);
+  for (const std::size_t i : asked_parts(file)) asked.insert(file.responses[i].name);
+  const auto counts = [&](const Doubt& doubt) {
+    return doubt.is_serious &&
+           (file.has_cases() || doubt.responses.empty() ||
+            std::any_of(doubt.responses.begin(), doubt.responses.end(),
+                        [&](const std::string& name) { return asked.contains(name); }));
+  };
+  const auto found = std::find_if(doubts.begin(), doubts.end(), counts);
+  return found == doubts.end() ? nullptr : &*found;
+}
+
 /// Doubts about the numbers of the last design, and their errors: no optimum that rests on numbers
 /// which are not to be trusted, or not known as well as the file asks for, is verified.
 void judge_numbers(DesignProblem& design, Result& result) {
@@ -386,10 +405,9 @@ void judge_numbers(DesignProblem& design, Result& result) {
   result.error = optimum_error(design, result, trust);
   if (result.status == Status::verified) {
     const std::string inaccurate = inaccuracy(design, result, trust);
-    if (has_serious(trust.doubts)) {
+    if (const Doubt* serious = find_serious(trust.doubts, design.file())) {
       result.status = Status::unresolved;
-      result.message =
-          "optimal by its numbers, but these are not to be trusted: " + trust.doubts.front().text;
+      result.message = "optimal by its numbers, but these are not to be trusted: " + serious->text;
     } else if (!inaccurate.empty()) {
       result.status = Status::unresolved;
       result.message = "optimal by its numbers, but " + inaccurate;

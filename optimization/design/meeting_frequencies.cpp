@@ -29,7 +29,7 @@ std::optional<double> frequency_of_mode(const Analysis& analysis, const Response
     const Eigen::VectorXd& all = analysis.mechanism_frequencies;
     return number < all.size() ? std::optional(all(number)) : std::nullopt;
   }
-  const Model& model = analysis.full ? analysis.full->model : analysis.model;
+  const Model& model = model_of_modes(analysis);
   const BodyModel& body = model.body(response.bodies.front());
   if (number >= body.elastic_size()) return std::nullopt;
   return std::sqrt(body_mode(body, {number}).square);

@@ -82,7 +82,6 @@ Result effort_of(const std::vector<StagedSolution>& solutions) {
   Result all;
   for (const StagedSolution& solution : solutions) {
     Result next = with_effort_of(solution.result, {});
-    --next.restarts;  // continue_from() counts this run as one
     continue_from(all, next);
     all = std::move(next);
   }

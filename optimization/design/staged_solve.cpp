@@ -190,8 +190,9 @@ class StagedSolve {
     Stage& stage = solution_.stages.back();
     stage.evaluations = result.evaluations;
     stage.seconds = result.seconds;
-    if (solution_.result.history.empty()) --result.restarts;  // the first run is none
+    const bool is_first = solution_.result.history.empty();
     continue_from(solution_.result, result);
+    if (!is_first) ++result.restarts;
     solution_.result = std::move(result);
   }
 

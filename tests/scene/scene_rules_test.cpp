@@ -144,6 +144,23 @@ TEST(PlaceOfALoad, IsNotFollowedAwayFromWhatIsThere) {
   EXPECT_FALSE(find_point_moved_along(cantilever(two).scene, {1.0, 0.5}, 1));
 }
 
+/// Else the model would take the other one along.
+TEST(PlaceOfALoad, MayNotBeWhereOneThatMovesStarts) {
+  for (const char* place : {"0.5", "0.50004"}) {
+    const std::string other = fmt::format(
+        R"(/scene/loads/other={{"type": "force", "body": "tube", "at": [{}, 0, 0],
+           "direction": [0, 1, 0], "value": 1}})",
+        place);
+    try {
+      cantilever({other, "/scene/loads/push/at/0== b*1 m"});
+      FAIL() << place;
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(),
+                  HasSubstr("/scene/loads/other/at must stay with what moves from its place"));
+    }
+  }
+}
+
 TEST(PlaceOfALoad, KeepsItsOrderAlongAnElasticBeam) {
   const ProblemFile problem =
       cantilever({R"(/scene/loads/first={"type": "force", "body": "tube", "at": ["= a*0.3 m", 0, 0],
@@ -153,8 +170,11 @@ TEST(PlaceOfALoad, KeepsItsOrderAlongAnElasticBeam) {
   EXPECT_FALSE(find_impossible(problem.scene, start, {1.5, 0.5}));
   const auto found = find_impossible(problem.scene, start, {1.5, 0.4});
   ASSERT_TRUE(found);
-  EXPECT_THAT(*found, HasSubstr("/at must not reach or pass the next place of a joint, load or "
-                                "section of the beam \"tube\""));
+  EXPECT_THAT(
+      *found,
+      HasSubstr(
+          "/scene/loads/push/at must not come nearer to the place of \"first\" "
+          "of the beam \"tube\" than a hundredth of its distance at the start, which is 0.2"));
 }
 
 TEST(PlaceOfALoad, DoesNotScatterAlongAnElasticBeamFromItsEnd) {

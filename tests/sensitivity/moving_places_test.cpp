@@ -95,6 +95,7 @@ ProblemFile loaded_arm(const Arm& arm) {
     "at_a_node": {{"type": "deflection", "body": "arm", "at": 0.5, "direction": "y", "over_time": "final"}},
     "between": {{"type": "velocity", "body": "arm", "at": 0.27, "direction": "x", "over_time": "final"}},
     "moment": {{"type": "section-force", "body": "arm", "part": "moment-z", "at": 0.4, "over_time": "rms"}},
+    "moment_at_a_node": {{"type": "section-force", "body": "arm", "part": "moment-z", "at": 0.5, "over_time": "rms"}},
     "shear": {{"type": "section-force", "body": "arm", "part": "shear-y", "at": 0.9, "over_time": "final"}},
     "stress": {{"type": "stress", "body": "arm", "over_time": "max"}},
     "pull": {{"type": "reaction-force", "joint": "pin", "direction": "x", "over_time": "final"}},

@@ -115,5 +115,42 @@ TEST(SteadyMachineErrors, AreNoneOfAMotionThatIsFoundFromOneThatGrows) {
   }
 }
 
+/// A screen on two leaf springs, shaken by a mass that turns in it.
+ProblemFile screen(int revolutions_per_minute) {
+  return read_problem_text(
+             fmt::format(R"j({{"constants": {{"n": "{} rpm", "tilt": "25 deg", "len": "350 mm"}},
+    "scene": {{"bodies": {{
+      "left": {{"type": "beam", "from": [0, 0, 0], "to": ["= -len*sin(tilt)", "= len*cos(tilt)", 0],
+        "material": "steel", "elements": 4, "damping": {{"stiffness": "0.5 ms"}},
+        "section": {{"type": "rectangle", "width": "120 mm", "height": "5 mm"}}}},
+      "right": {{"type": "beam", "from": [0.8, 0, 0], "to": ["= 800 mm - len*sin(tilt)", "= len*cos(tilt)", 0],
+        "material": "steel", "elements": 4, "damping": {{"stiffness": "0.5 ms"}},
+        "section": {{"type": "rectangle", "width": "120 mm", "height": "5 mm"}}}},
+      "trough": {{"type": "rigid", "at": ["= 400 mm - len*sin(tilt)", "= len*cos(tilt) + 50 mm", 0], "mass": 80,
+        "inertia": [0, 0, 8, 0, 0, 0]}},
+      "unbalance": {{"type": "rigid", "at": ["= 460 mm - len*sin(tilt)", "= len*cos(tilt) + 50 mm", 0], "mass": 5,
+        "inertia": [0, 0, 0.002, 0, 0, 0], "angular_velocity": [0, 0, "= n"], "velocity": [0, "= 60 mm*n/(1 rad)", 0]}}}},
+    "joints": {{
+      "foot_left": {{"type": "fixed", "bodies": ["ground", "left"], "at": [0, 0, 0]}},
+      "foot_right": {{"type": "fixed", "bodies": ["ground", "right"], "at": [0.8, 0, 0]}},
+      "top_left": {{"type": "fixed", "bodies": ["left", "trough"], "at": ["= -len*sin(tilt)", "= len*cos(tilt)", 0]}},
+      "top_right": {{"type": "fixed", "bodies": ["right", "trough"],
+        "at": ["= 800 mm - len*sin(tilt)", "= len*cos(tilt)", 0]}},
+      "motor": {{"type": "revolute", "bodies": ["trough", "unbalance"],
+        "at": ["= 400 mm - len*sin(tilt)", "= len*cos(tilt) + 50 mm", 0],
+        "drive": {{"type": "constant-speed", "speed": "= n"}}}}}}}},
+  "simulation": {{"end_time": "= 2*pi*1 rad/n", "step": "0.2 ms", "initial_state": "periodic"}},
+  "responses": {{"mass": {{"type": "mass"}}}}}})j",
+                         revolutions_per_minute),
+             "screen.json")
+      .complete();
+}
+
+/// Stiff coordinates are counted in units far from those of the soft ones: that is no round-off.
+TEST(SteadyMachines, AreFoundAtAnySpeed) {
+  for (const int speed : {360, 380, 400, 450, 480})
+    EXPECT_EQ(failure_of(screen(speed)), "none") << speed;
+}
+
 }  // namespace
 }  // namespace pleuel::test::periodic_errors_test

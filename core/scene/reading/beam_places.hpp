@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 
@@ -9,12 +10,16 @@ namespace pleuel {
 
 /// Where joints, loads and initial deflections may lie on an elastic beam. A node of its mesh follows
 /// a place that moves along the beam (core/scene/beam_mesh.hpp), as long as the order of the places
-/// stays what it is at the start; all others keep their share of the length.
+/// stays what it is at the start; all others keep their share of the length, and may not start where
+/// one that moves does, or right beside it.
 class BeamPlaces {
  public:
   /// @param body, scene  must outlive this
   /// @param start        at which the mesh is made
   BeamPlaces(const Body& body, const Scene& scene, const Design<double>& start);
+
+  /// Whether a node follows some place.
+  bool depends_on_design() const { return mesh_.depends_on_design(); }
 
   /// What is wrong with a place at a design: "must …, which is … [m]"; none if nothing is.
   std::optional<std::string> find_misplaced(const Point& at, const Design<double>& design) const;
@@ -27,15 +32,41 @@ class BeamPlaces {
   bool leaves(const Point& at, std::size_t variable, double change) const;
 
  private:
-  /// Which place a node follows where this place is; null: it keeps its share.
-  const Point* followed_at(double share) const;
-  std::optional<std::string> find_moved(double share, const Eigen::Vector3d& there,
-                                        const Design<double>& design, const char* why) const;
+  /// The share of the length where the model has at a design what is at a share at the start.
+  template <class Scalar>
+  Scalar modelled_share(double at_start, const Design<Scalar>& design) const {
+    if (!mesh_.depends_on_design()) return Scalar(at_start);
+    const ElementPlace place = find_place(mesh_, at_start);
+    const std::vector<Scalar> shares = element_shares(beam_, mesh_, design);
+    Scalar share = place.xi * shares[static_cast<std::size_t>(place.element)];
+    for (int e = 0; e < place.element; ++e) share += shares[static_cast<std::size_t>(e)];
+    return share;
+  }
+
+  /// A node that places must not pass.
+  std::string describe(int node) const;
 
   const Body& body_;
+  const Scene& scene_;
   const BeamBody& beam_;
   const Design<double> start_;
   BeamMesh mesh_;
+};
+
+/// The places of all elastic beams, as they are asked for.
+class PlacesOfBeams {
+ public:
+  /// @param scene, start  must outlive this
+  PlacesOfBeams(const Scene& scene, const Design<double>& start) : scene_(scene), start_(start) {}
+
+  const BeamPlaces& of(const Body& body) {
+    return places_.try_emplace(body.name, body, scene_, start_).first->second;
+  }
+
+ private:
+  const Scene& scene_;
+  const Design<double>& start_;
+  std::map<std::string, BeamPlaces> places_;
 };
 
 }  // namespace pleuel

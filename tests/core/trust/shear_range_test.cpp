@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/section/shear_coefficient.hpp"
+#include "tests/core/trust/doubts_of.hpp"
 #include "tests/support/bent_cantilever.hpp"
 #include "tests/support/problem_runs.hpp"
 
@@ -355,6 +356,37 @@ TEST(ShearCoefficient, OfSectionsThatAreTheSameIsTheSame) {
   const double rectangle = rectangle_shear_coefficient(nu);
   EXPECT_NEAR(box_shear_coefficient(nu, {1.0, 1e-9, 0.01, 0.01}), rectangle, 1e-6);
   EXPECT_NEAR(i_shear_coefficient(nu, {1.0, 1e-9, 0.01, 0.01}), rectangle, 1e-6);
+}
+
+/// A cantilever of two beams that are welded in its middle, 200 mm long and 80 mm deep, and what a force
+/// at its tip moves with shear over that without: (h/L)² E/(4 κ G) = 0.12, half of it in each beam.
+TEST(ShearOfSeveralBeams, AddsUp) {
+  const auto doubts = [](const std::string& shear) {
+    return doubts_of(read_scene(fmt::format(R"j({{"scene": {{"bodies": {{
+        "first": {{"type": "beam", "from": [0, 0, 0], "to": [0.1, 0, 0], "material": "steel", "elements": 2, {0},
+                   "section": {{"type": "rectangle", "width": "20 mm", "height": "80 mm"}}}},
+        "second": {{"type": "beam", "from": [0.1, 0, 0], "to": [0.2, 0, 0], "material": "steel", "elements": 2, {0},
+                    "section": {{"type": "rectangle", "width": "20 mm", "height": "80 mm"}}}}}},
+      "joints": {{"wall": {{"type": "fixed", "bodies": ["ground", "first"], "at": [0, 0, 0]}},
+                 "weld": {{"type": "fixed", "bodies": ["first", "second"], "at": [0.1, 0, 0]}}}},
+      "loads": {{"push": {{"type": "force", "body": "second", "at": [0.2, 0, 0], "direction": [0, -1, 0],
+                          "value": {{"type": "ramp", "to": 1000, "end": 0.01}}}}}}}},
+      "simulation": {{"end_time": 0.01, "step": 0.001}},
+      "responses": {{"tip": {{"type": "position", "body": "second", "at": 1, "direction": "y",
+                              "over_time": "min"}}}}}})j",
+                                            shear)),
+                     doubt_shear_range);
+  };
+  const std::vector<Doubt> found = doubts(R"("shear": false)");
+  ASSERT_EQ(found.size(), 3U);  // of each, and of both
+  EXPECT_FALSE(found[0].is_serious);
+  EXPECT_FALSE(found[1].is_serious);
+  EXPECT_TRUE(found[2].is_serious);
+  EXPECT_NE(
+      found[2].text.find("\"first\", \"second\" leave out, would change \"tip\" by some 12 %"),
+      std::string::npos)
+      << found[2].text;
+  EXPECT_TRUE(doubts(R"("shear": true)").empty());
 }
 
 }  // namespace
