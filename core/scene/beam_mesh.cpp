@@ -43,7 +43,7 @@ std::vector<HeldPlace> held_places(const Body& body, const Scene& scene,
 /// Elements with nodes at places.
 class PlacedElements {
  public:
-  PlacedElements(std::vector<MeshElement> elements) : elements_(std::move(elements)) {
+  explicit PlacedElements(std::vector<MeshElement> elements) : elements_(std::move(elements)) {
     is_fixed_.assign(elements_.size() + 1, false);
     is_fixed_.front() = is_fixed_.back() = true;
     for (std::size_t e = 1; e < elements_.size(); ++e) {
@@ -144,11 +144,12 @@ bool moves_along(const BeamBody& beam, const Point& at, const Design<double>& st
   const double share = variables.empty() ? 0.0 : share_along(beam, at, start);
   return std::any_of(variables.begin(), variables.end(), [&](int variable) {
     const double step = start[variable] == 0.0 ? change : change * start[variable];
-    return std::any_of(std::begin({step, -step}), std::end({step, -step}), [&](double by) {
+    const auto moves_by = [&](double by) {
       Design<double> moved = start;
       moved[variable] += by;
       return !(std::abs(share_along(beam, at, moved) - share) <= rounding);
-    });
+    };
+    return moves_by(step) || moves_by(-step);
   });
 }
 

@@ -65,9 +65,8 @@ std::optional<std::string> complaint(const PlacedPoint& placed, const BeamBody& 
   const bool is_formula =
       has_formula(*placed.point) || has_formula(beam.from) || has_formula(beam.to);
   const BeamPlaces& of_beam = places.of(*placed.body);
-  const bool is_known = !is_formula && !of_beam.depends_on_design();
-  if (is_known) return std::nullopt;
-  const auto found = of_beam.find_misplaced(*placed.point, design);
+  const auto found = is_formula ? of_beam.find_misplaced(*placed.point, design)
+                                : of_beam.find_taken_along(*placed.point, design);
   if (!found) return std::nullopt;
   return fmt::format("{} {}, is {}", placed.pointer(), *found,
                      describe(position(*placed.point, design)));

@@ -272,7 +272,7 @@ class ShearDoubts {
          is_serious, responses});
   }
 
-  /// Where the shear of several beams adds up to more than is told of each.
+  /// Where the shear of several beams adds up to more than is tolerable of each.
   void add_sums(std::vector<Doubt>& doubts) {
     for (std::size_t i = 0; i < run_.problem.responses.size(); ++i) {
       const ResponseSettings& response = run_.problem.responses[i];
@@ -285,15 +285,12 @@ class ShearDoubts {
         sum += error;
         largest = std::max(largest, error);
       }
-      const bool is_serious = sum > alarming;
-      const double told = is_serious ? alarming : tolerable_shear;
-      if (sum <= told || largest > told) continue;
+      if (sum <= alarming || largest > alarming) continue;
       doubts.push_back(
           {fmt::format("shear, which {} leave out, would change \"{}\" by some {:.2g} % together. "
-                       "{}: set their \"shear\" to true.",
-                       fmt::join(bodies, ", "), response.name, 100.0 * sum,
-                       is_serious ? "Do not trust that" : "Where that matters"),
-           is_serious,
+                       "Do not trust that: set their \"shear\" to true.",
+                       fmt::join(bodies, ", "), response.name, 100.0 * sum),
+           true,
            {response.name}});
     }
   }

@@ -371,10 +371,11 @@ TEST_F(Mechanism, MayMoveALoadWithItsBeam) {
   document["scene"]["loads"]["push"]["at"][0] = 0.5;  // another share of the length
   EXPECT_EQ(complaint(document), "");
   document["scene"]["loads"]["push"]["at"][0] = 0.9;  // which is 0.8 long at the lower bound
-  EXPECT_EQ(complaint(document),
-            "bad.json: /scene/loads/push/at must be on the axis of the beam \"arm\", the nearest "
-            "point is (0.8, 0, 0) [m], got (0.9, 0, 0), with the variable \"place\" at its lower "
-            "bound");
+  EXPECT_EQ(
+      complaint(document),
+      "bad.json: /scene/loads/push/at must not come nearer to the end of the beam \"arm\" than a "
+      "hundredth of its distance at the start, which is 0.1 of the length, got (0.9, 0, 0), "
+      "with the variable \"place\" at its lower bound");
 }
 
 TEST_F(Mechanism, MayHaveLegsDrivenSideBySide) {  // as in a hexapod

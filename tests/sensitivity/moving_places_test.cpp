@@ -20,10 +20,10 @@ ProblemFile bar_on_two_supports(double a) {
       "right": {{"type": "point-on-line", "bodies": ["ground", "bar"], "at": ["= 2 m - a", 0, 0],
                  "axis": [1, 0, 0]}}}}}},
   "simulation": {{"end_time": "2 ms", "step": "1 ms", "initial_state": "quasi-static"}},
-  "variables": {{"a": {{"start": {}, "lower": 0.1, "upper": 0.9}}}},
+  "variables": {{"a": {{"start": "{} m", "lower": "0.1 m", "upper": "0.9 m"}}}},
   "responses": {{
     "middle": {{"type": "section-force", "body": "bar", "part": "moment-z", "at": 0.5, "over_time": "final"}},
-    "beside": {{"type": "section-force", "body": "bar", "part": "moment-z", "at": 0.3, "over_time": "final"}},
+    "beside": {{"type": "section-force", "body": "bar", "part": "moment-z", "at": 0.25, "over_time": "final"}},
     "sag": {{"type": "position", "body": "bar", "at": 0.5, "direction": "y", "over_time": "final"}},
     "end": {{"type": "position", "body": "bar", "at": 0, "direction": "y", "over_time": "final"}}}}}})j",
                                        a),
@@ -33,6 +33,7 @@ ProblemFile bar_on_two_supports(double a) {
 
 /// With q the weight per length and l = 2 m − 2a between the supports, from statics and tables of beams:
 ///     M(x) = q x²/2 − (q L/2) (x − a),     dM/da = q L/2 between the supports
+/// At a quarter there is a node between elements of different lengths.
 ///     v(L/2) = −q l² (5 l² − 24 a²)/(384 E I),   v(0) = −q a (6 a² l + 3 a³ − l³)/(24 E I)
 TEST(MovingSupports, HaveTheDerivativesOfStatics) {
   const double q = 7850 * 0.04 * 0.02 * 9.81, bending = 210e9 * 0.04 * 8e-6 / 12, a = 0.3;
@@ -41,10 +42,11 @@ TEST(MovingSupports, HaveTheDerivativesOfStatics) {
   const Eigen::VectorXd values = values_of(*analysis);
   const Eigen::MatrixXd slopes = direct_gradients(*analysis);
   const auto moment = [&](double x) { return std::abs(q * x * x / 2 - q * (x - a)); };
-  EXPECT_NEAR(std::abs(values(0)), moment(1.0), 1e-6 * moment(1.0));
-  EXPECT_NEAR(std::abs(values(1)), moment(0.6), 1e-6 * moment(1.0));
-  EXPECT_NEAR(std::abs(slopes(0, 0)), q, 1e-6 * q);
-  EXPECT_NEAR(std::abs(slopes(1, 0)), q, 1e-6 * q);
+  // Sections are turned by some 2e-3, of which the square counts.
+  EXPECT_NEAR(std::abs(values(0)), moment(1.0), 1e-5 * moment(1.0));
+  EXPECT_NEAR(std::abs(values(1)), moment(0.5), 1e-5 * moment(1.0));
+  EXPECT_NEAR(std::abs(slopes(0, 0)), q, 1e-5 * q);
+  EXPECT_NEAR(std::abs(slopes(1, 0)), q, 1e-5 * q);
   const auto sag = [&](double at) {
     const double l = 2 - 2 * at;
     return -q * l * l * (5 * l * l - 24 * at * at) / (384 * bending);
@@ -92,10 +94,9 @@ ProblemFile loaded_arm(const Arm& arm) {
     "h": {{"start": 0.02, "lower": 0.01, "upper": 0.03}}}},
   "responses": {{
     "tip": {{"type": "deflection", "body": "arm", "at": 1, "over_time": "rms"}},
-    "at_a_node": {{"type": "deflection", "body": "arm", "at": 0.5, "direction": "y", "over_time": "final"}},
+    "inside": {{"type": "deflection", "body": "arm", "at": 0.47, "direction": "y", "over_time": "final"}},
     "between": {{"type": "velocity", "body": "arm", "at": 0.27, "direction": "x", "over_time": "final"}},
     "moment": {{"type": "section-force", "body": "arm", "part": "moment-z", "at": 0.4, "over_time": "rms"}},
-    "moment_at_a_node": {{"type": "section-force", "body": "arm", "part": "moment-z", "at": 0.5, "over_time": "rms"}},
     "shear": {{"type": "section-force", "body": "arm", "part": "shear-y", "at": 0.9, "over_time": "final"}},
     "stress": {{"type": "stress", "body": "arm", "over_time": "max"}},
     "pull": {{"type": "reaction-force", "joint": "pin", "direction": "x", "over_time": "final"}},

@@ -229,15 +229,6 @@ TEST(NumberPrices, AreThoseOfPlacesOnElasticBeams) {
   EXPECT_NEAR(exponent("/scene/bodies/bar/to/0"), 1.0, 1e-6);
 }
 
-/// What a load at the end does when it leaves the end is not known.
-TEST(PricedNumbers, LeaveOutPlacesThatLeaveAnEnd) {
-  const std::vector<std::string> overrides = {"/scene/loads/press/at/0== 0.4 m + 0*height"};
-  const PricedNumbers numbers = priced_numbers(
-      {bar, "bar.json", overrides}, read_problem_text(bar, "bar.json", overrides).complete());
-  EXPECT_THAT(numbers.left_out, testing::Contains("/scene/bodies/bar/to/0"));
-  EXPECT_THAT(names_of(numbers.groups), testing::Contains("/scene/loads/press/value"));
-}
-
 /// Binding a number to a variable that is fixed at its value changes no response.
 TEST(PricedNumbers, LeaveTheMechanismAsItIsWhenTheyAreBound) {
   const std::string path = source_folder() + "/problems/slider_crank.json";

@@ -1,5 +1,6 @@
 #include "core/scene/reading/beam_places.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -49,6 +50,16 @@ std::optional<std::string> BeamPlaces::find_misplaced(const Point& at,
       body_.name, pleuel::describe(point_at(beam_, modelled, design)));
 }
 
+std::optional<std::string> BeamPlaces::find_taken_along(const Point& at,
+                                                        const Design<double>& design) const {
+  const double before = nearest_share(beam_, position(at, start_), start_);
+  const double modelled = modelled_share(before, design);
+  const double now = nearest_share(beam_, position(at, design), design);
+  const bool is_taken_along = std::abs(modelled - before) > placement_tolerance &&
+                              std::abs(std::clamp(modelled, 0.0, 1.0) - now) > placement_tolerance;
+  return is_taken_along ? find_misplaced(at, design) : find_disorder(at, design);
+}
+
 bool BeamPlaces::leaves(const Point& at, std::size_t variable, double change) const {
   Design<Dual> seeded(start_.begin(), start_.end());
   seeded[variable].derivatives()[0] = 1.0;
@@ -75,11 +86,16 @@ std::string BeamPlaces::describe(int node) const {
 std::optional<std::string> BeamPlaces::find_disorder(const Point& at,
                                                      const Design<double>& design) const {
   const ElementPlace place = find_place(mesh_, nearest_share(beam_, position(at, start_), start_));
+  const bool moves = place.is_node() &&
+                     std::any_of(mesh_.knots.begin(), mesh_.knots.end(), [&](const MeshKnot& knot) {
+                       return knot.node == place.node() && knot.at;
+                     });
+  if (!moves) return std::nullopt;
   const std::vector<double> at_start = knot_distances(beam_, mesh_, start_);
   const std::vector<double> distances = knot_distances(beam_, mesh_, design);
   for (std::size_t i = 0; i < distances.size(); ++i) {
-    const bool is_beside = place.is_node() && (mesh_.knots[i].node == place.node() ||
-                                               mesh_.knots[i + 1].node == place.node());
+    const bool is_beside =
+        mesh_.knots[i].node == place.node() || mesh_.knots[i + 1].node == place.node();
     if (is_beside && !(distances[i] >= least_gap * at_start[i])) {
       return fmt::format(
           "must not come nearer to {} of the beam \"{}\" than a hundredth of its distance at the "

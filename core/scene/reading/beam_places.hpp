@@ -24,6 +24,10 @@ class BeamPlaces {
   /// What is wrong with a place at a design: "must …, which is … [m]"; none if nothing is.
   std::optional<std::string> find_misplaced(const Point& at, const Design<double>& design) const;
 
+  /// The same of places that the mesh would take along and of their order: whether they stay on the axis
+  /// of the beam is not looked at.
+  std::optional<std::string> find_taken_along(const Point& at, const Design<double>& design) const;
+
   /// The same of the order of places alone.
   std::optional<std::string> find_disorder(const Point& at, const Design<double>& design) const;
 
