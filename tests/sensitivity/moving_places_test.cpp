@@ -98,7 +98,7 @@ ProblemFile loaded_arm(const Arm& arm) {
     "between": {{"type": "velocity", "body": "arm", "at": 0.27, "direction": "x", "over_time": "final"}},
     "moment": {{"type": "section-force", "body": "arm", "part": "moment-z", "at": 0.4, "over_time": "rms"}},
     "shear": {{"type": "section-force", "body": "arm", "part": "shear-y", "at": 0.9, "over_time": "final"}},
-    "stress": {{"type": "stress", "body": "arm", "over_time": "max"}},
+    "stress": {{"type": "stress", "body": "arm", "over_time": "final"}},
     "pull": {{"type": "reaction-force", "joint": "pin", "direction": "x", "over_time": "final"}},
     "frequency": {{"type": "frequency", "body": "arm"}},
     "energy": {{"type": "elastic-energy", "over_time": "mean"}}}}}})j",
