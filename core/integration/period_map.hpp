@@ -38,7 +38,8 @@ class PeriodMap {
   /// By what a disturbance grows in a period, in the long run: the spectral radius of M. Below 1 the
   /// motion is stable.
   double growth() const;
-  /// Estimate of 1/condition of 1 − Vᵀ M V, however its rows and columns are scaled: zero where something moves freely.
+  /// Estimate of 1/condition of 1 − Vᵀ M V, however its rows and columns are scaled: zero where
+  /// something moves freely.
   double reciprocal_condition() const { return rest_->reciprocal_condition(); }
   /// The coordinate that moves most in the motion that the period brings back most closely.
   Eigen::Index freest_coordinate() const;
