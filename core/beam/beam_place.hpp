@@ -11,8 +11,8 @@
 
 namespace pleuel {
 
-/// A place along the axis of a beam. All elements scale with the beam: where places keep their shares
-/// of the length, they do not depend on the design.
+/// A place along the axis of a beam. ξ depends on the design only where nodes of the mesh follow places
+/// that design variables move (core/scene/beam_mesh.hpp).
 struct BeamPlace : ElementPlace {
   std::vector<double> xi_x = {};  ///< derivatives of ξ, in the order of those of the body; or none
 };

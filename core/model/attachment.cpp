@@ -101,9 +101,7 @@ void Attachment::add_variables(std::set<int>& variables) const {
   if (point_) {
     for (const auto& [variable, change] : point_->derivatives) variables.insert(variable);
   }
-  for (const Number& number : at_) {
-    for (const int variable : number.variables()) variables.insert(variable);
-  }
+  add_variables_of(at_, variables);
 }
 
 namespace {

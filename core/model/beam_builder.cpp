@@ -249,10 +249,7 @@ SparseMatrix identity(int size) {
 std::set<int> beam_variables(const Body& body, const BeamMesh& mesh, const Scene& scene) {
   std::set<int> variables = variables_of(body, scene);
   for (const MeshKnot& knot : mesh.knots) {
-    if (!knot.at) continue;
-    for (const Number& number : *knot.at) {
-      for (const int variable : number.variables()) variables.insert(variable);
-    }
+    if (knot.at) add_variables_of(*knot.at, variables);
   }
   return variables;
 }

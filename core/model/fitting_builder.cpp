@@ -164,14 +164,9 @@ class EndFittings::Builder {
   EndDistance differentiated(int end, const Place& place) const {
     EndDistance result{distance(beam_, end, place, context_.design), {}};
     std::set<int> variables;
-    const auto collect = [&](const Point& point) {
-      for (const Number& number : point) {
-        for (const int variable : number.variables()) variables.insert(variable);
-      }
-    };
-    collect(beam_.from);
-    collect(beam_.to);
-    if (place.point) collect(*place.point);
+    add_variables_of(beam_.from, variables);
+    add_variables_of(beam_.to, variables);
+    if (place.point) add_variables_of(*place.point, variables);
     if (place.beam) variables.merge(variables_of(*place.beam, scene_));
     for (const int variable : variables) {
       const Dual dual = distance(beam_, end, place, context_.seeded(variable));

@@ -126,21 +126,12 @@ std::vector<int> nodes_at(const std::vector<HeldPlace>& places,
   return nodes;
 }
 
-std::set<int> variables_of(const Point& at, const BeamBody& beam) {
-  std::set<int> variables;
-  for (const Point* point : {&at, &beam.from, &beam.to}) {
-    for (const Number& number : *point) {
-      for (const int variable : number.variables()) variables.insert(variable);
-    }
-  }
-  return variables;
-}
-
 /// Whether the share of the length of a point depends on the design: about the start, and where its
 /// slope there may vanish.
 bool moves_along(const BeamBody& beam, const Point& at, const Design<double>& start) {
   constexpr double change = 1e-2, rounding = 1e-12;
-  const std::set<int> variables = variables_of(at, beam);
+  std::set<int> variables;
+  for (const Point* point : {&at, &beam.from, &beam.to}) add_variables_of(*point, variables);
   const double share = variables.empty() ? 0.0 : share_along(beam, at, start);
   return std::any_of(variables.begin(), variables.end(), [&](int variable) {
     const double step = start[variable] == 0.0 ? change : change * start[variable];

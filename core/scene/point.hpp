@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <set>
 
 #include <Eigen/Core>
 
@@ -12,6 +13,13 @@ namespace pleuel {
 inline bool is_bound(const Point& point) {
   return std::any_of(point.begin(), point.end(),
                      [](const Number& number) { return number.is_bound(); });
+}
+
+/// Adds the design variables that it depends on.
+inline void add_variables_of(const Point& point, std::set<int>& variables) {
+  for (const Number& number : point) {
+    for (const int variable : number.variables()) variables.insert(variable);
+  }
 }
 
 /// [m], global axes
