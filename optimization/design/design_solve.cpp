@@ -4,7 +4,6 @@
 #include <cmath>
 #include <memory>
 #include <optional>
-#include <set>
 
 #include <fmt/format.h>
 
@@ -12,15 +11,11 @@
 #include "core/response/describe_tie.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/response_parts.hpp"
-#include "core/trust/asked_responses.hpp"
-#include "core/trust/doubts.hpp"
 #include "core/trust/nested_runs.hpp"
 #include "optimization/broken_limits.hpp"
-#include "optimization/design/case_trust.hpp"
-#include "optimization/design/margin_doubts.hpp"
 #include "optimization/design/margin_problem.hpp"
 #include "optimization/design/meeting_frequencies.hpp"
-#include "optimization/design/optimum_error.hpp"
+#include "optimization/design/number_judgement.hpp"
 #include "optimization/design/peak_problem.hpp"
 #include "optimization/design/peak_windows.hpp"
 #include "optimization/designs_to_try.hpp"
@@ -363,62 +358,6 @@ void return_to_best(DesignProblem& design, const Tolerances& tolerances, Result&
   if (result.status != Status::failed) {
     result.status = is_within ? Status::stalled : Status::infeasible;
   }
-}
-
-/// The response of an objective over cases in each of them; empty elsewhere.
-Eigen::VectorXd objectives_in_cases(DesignProblem& design, const Eigen::VectorXd& x) {
-  if (design.file().objective->over_cases == OverCases::same) return {};
-  Eigen::VectorXd values(design.case_count());
-  for (std::size_t c = 0; c < design.case_count(); ++c) {
-    DesignCase& one = design.load_case(c);
-    values(c) = one.analysis_at(x).reductions[*one.response_of({})].value;
-  }
-  return values;
-}
-
-/// The first serious doubt about what is minimized, limited or asked for; those about other responses do
-/// not touch an optimum. Of files with cases all count.
-const Doubt* find_serious(const std::vector<Doubt>& doubts, const ProblemFile& file) {
-  std::set<std::string> asked;
-  for (const std::size_t i : asked_responses(file)) asked.insert(file.responses[i].name);
-  for (const std::size_t i : asked_parts(file)) asked.insert(file.responses[i].name);
-  const auto counts = [&](const Doubt& doubt) {
-    return doubt.is_serious &&
-           (file.has_cases() || doubt.responses.empty() ||
-            std::any_of(doubt.responses.begin(), doubt.responses.end(),
-                        [&](const std::string& name) { return asked.contains(name); }));
-  };
-  const auto found = std::find_if(doubts.begin(), doubts.end(), counts);
-  return found == doubts.end() ? nullptr : &*found;
-}
-
-/// Doubts about the numbers of the last design, and their errors: no optimum that rests on numbers
-/// which are not to be trusted, or not known as well as the file asks for, is verified.
-void judge_numbers(DesignProblem& design, Result& result) {
-  if (!result.evaluation.has_gradients()) return;
-  result.case_objectives = objectives_in_cases(design, result.x);
-  Trust trust = judge_cases(design, result.x, Scrutiny::close);
-  const std::vector<Doubt> of_margins = doubt_margins(design, result.x);
-  trust.doubts.insert(has_serious(of_margins) ? trust.doubts.begin() : trust.doubts.end(),
-                      of_margins.begin(), of_margins.end());
-  result.warnings = texts_of(trust.doubts);
-  result.error = optimum_error(design, result, trust);
-  if (result.status == Status::verified) {
-    const std::string inaccurate = inaccuracy(design, result, trust);
-    if (const Doubt* serious = find_serious(trust.doubts, design.file())) {
-      result.status = Status::unresolved;
-      result.message = "optimal by its numbers, but these are not to be trusted: " + serious->text;
-    } else if (!inaccurate.empty()) {
-      result.status = Status::unresolved;
-      result.message = "optimal by its numbers, but " + inaccurate;
-    } else if (result.error && result.evaluation.objective != 0.0) {
-      result.message += fmt::format(
-          "; steps and elements: to ± {} %",
-          significant(100.0 * result.error->bound() / std::abs(result.evaluation.objective), 2));
-    }
-  }
-  result.response_errors = std::move(trust.errors);
-  result.response_bands = std::move(trust.bands);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "core/section/shear_coefficient.hpp"
+#include "core/trust/shear_share.hpp"
 #include "tests/core/trust/doubts_of.hpp"
 #include "tests/support/bent_cantilever.hpp"
 #include "tests/support/problem_runs.hpp"

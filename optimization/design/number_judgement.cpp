@@ -1,0 +1,78 @@
+#include "optimization/design/number_judgement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "core/base/number_text.hpp"
+#include "core/trust/asked_responses.hpp"
+#include "core/trust/doubts.hpp"
+#include "optimization/design/case_trust.hpp"
+#include "optimization/design/margin_doubts.hpp"
+#include "optimization/design/optimum_error.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// The response of an objective over cases in each of them; empty elsewhere.
+Eigen::VectorXd objectives_in_cases(DesignProblem& design, const Eigen::VectorXd& x) {
+  if (design.file().objective->over_cases == OverCases::same) return {};
+  Eigen::VectorXd values(design.case_count());
+  for (std::size_t c = 0; c < design.case_count(); ++c) {
+    DesignCase& one = design.load_case(c);
+    values(c) = one.analysis_at(x).reductions[*one.response_of({})].value;
+  }
+  return values;
+}
+
+/// The first serious doubt about what is minimized, limited or asked for; those about other responses do
+/// not touch an optimum. Of files with cases all count.
+const Doubt* find_serious(const std::vector<Doubt>& doubts, const ProblemFile& file) {
+  std::set<std::string> asked;
+  for (const std::size_t i : asked_responses(file)) asked.insert(file.responses[i].name);
+  for (const std::size_t i : asked_parts(file)) asked.insert(file.responses[i].name);
+  const auto counts = [&](const Doubt& doubt) {
+    return doubt.is_serious &&
+           (file.has_cases() || doubt.responses.empty() ||
+            std::any_of(doubt.responses.begin(), doubt.responses.end(),
+                        [&](const std::string& name) { return asked.contains(name); }));
+  };
+  const auto found = std::find_if(doubts.begin(), doubts.end(), counts);
+  return found == doubts.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+void judge_numbers(DesignProblem& design, Result& result) {
+  if (!result.evaluation.has_gradients()) return;
+  result.case_objectives = objectives_in_cases(design, result.x);
+  Trust trust = judge_cases(design, result.x, Scrutiny::close);
+  const std::vector<Doubt> of_margins = doubt_margins(design, result.x);
+  trust.doubts.insert(has_serious(of_margins) ? trust.doubts.begin() : trust.doubts.end(),
+                      of_margins.begin(), of_margins.end());
+  result.warnings = texts_of(trust.doubts);
+  result.error = optimum_error(design, result, trust);
+  if (result.status == Status::verified) {
+    const std::string inaccurate = inaccuracy(design, result, trust);
+    if (const Doubt* serious = find_serious(trust.doubts, design.file())) {
+      result.status = Status::unresolved;
+      result.message = "optimal by its numbers, but these are not to be trusted: " + serious->text;
+    } else if (!inaccurate.empty()) {
+      result.status = Status::unresolved;
+      result.message = "optimal by its numbers, but " + inaccurate;
+    } else if (result.error && result.evaluation.objective != 0.0) {
+      result.message += fmt::format(
+          "; steps and elements: to ± {} %",
+          significant(100.0 * result.error->bound() / std::abs(result.evaluation.objective), 2));
+    }
+  }
+  result.response_errors = std::move(trust.errors);
+  result.response_bands = std::move(trust.bands);
+}
+
+}  // namespace pleuel
