@@ -15,6 +15,9 @@ using Complex = std::complex<double>;
 /// Size of the steps of differences, relative to the scales of the coordinates.
 constexpr double step_size = 1e-3;
 
+/// Elastic coordinates are scaled to displacements of this share of a body's length.
+constexpr double elastic_scale = 1e-3;
+
 /// A direction in the space of states.
 struct Direction {
   Eigen::VectorXd q, v, a, lambda;
@@ -60,25 +63,29 @@ class FrequencySensitivity {
   }
 
  private:
-  /// d/dε of a function along a direction, from what it is at ± two steps.
+  /// d/dε of a function along a direction. All of them are linear in accelerations and multipliers, so
+  /// these take no small steps, which would drown in the round-off of the stiffness of short elements.
   template <class Function>
   auto derivative_along(const Direction& direction, const Function& function) const {
-    const double step = step_size / std::max(size_of(direction), 1e-300);
-    const auto central = [&](double h) {
-      return ((function(moved(direction, h)) - function(moved(direction, -h))) / (2.0 * h)).eval();
+    Direction motion = direction, forces = nowhere();
+    std::swap(motion.a, forces.a);
+    std::swap(motion.lambda, forces.lambda);
+    const auto central = [&](const Direction& along, double h) {
+      return ((function(moved(along, h)) - function(moved(along, -h))) / (2.0 * h)).eval();
     };
-    const auto wide = central(step), narrow = central(0.5 * step);
-    return ((4.0 * narrow - wide) / 3.0).eval();
+    const double step = step_size / std::max(size_of(motion), 1e-300);
+    const auto wide = central(motion, step), narrow = central(motion, 0.5 * step);
+    return ((4.0 * narrow - wide) / 3.0 + central(forces, 1.0)).eval();
   }
 
-  double size_of(const Direction& direction) const {
-    const auto share = [](const Eigen::VectorXd& part, const Eigen::VectorXd& of) {
-      if (part.size() == 0) return 0.0;
-      return part.lpNorm<Eigen::Infinity>() / (1.0 + of.lpNorm<Eigen::Infinity>());
+  /// Deflections of a thousandth of a body's length are as far from linear as rotations of that size.
+  double size_of(const Direction& motion) const {
+    const auto largest = [](const auto& vector) {
+      return vector.template lpNorm<Eigen::Infinity>();
     };
-    const double positions = direction.q.cwiseQuotient(mechanism_.scale).lpNorm<Eigen::Infinity>();
-    return std::max({positions, share(direction.v, state_.v), share(direction.a, state_.a),
-                     share(direction.lambda, state_.lambda)});
+    Eigen::VectorXd positions = motion.q.cwiseQuotient(mechanism_.scale);
+    positions(mechanism_.elastic) *= elastic_scale;
+    return std::max(largest(positions), largest(motion.v) / (1.0 + largest(state_.v)));
   }
 
   State moved(const Direction& direction, double step) const {
