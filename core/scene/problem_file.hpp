@@ -195,7 +195,7 @@ struct ResponseSettings {
   OverTime over_time = OverTime::max;
   std::optional<double> from, to;                     ///< window of time [s]
   std::shared_ptr<const Expression> expression = {};  ///< expression
-  std::string unit;         ///< expression: as the user wants to see it; may be empty
+  std::string unit;         ///< as the user wants to see it: said, or that of a limit; may be empty
   double unit_scale = 1.0;  ///< SI value of that unit
 };
 

@@ -206,17 +206,17 @@ ResponseSettings read_expression_response(const std::string& name, const JsonNod
   return response;
 }
 
-const ResponseSettings& read_response_or_formula(const JsonNode& node,
-                                                 std::vector<ResponseSettings>& responses,
-                                                 NumberReader& numbers) {
+ResponseSettings& read_response_or_formula(const JsonNode& node,
+                                           std::vector<ResponseSettings>& responses,
+                                           NumberReader& numbers) {
   if (!is_formula(node)) {
     for (const std::string& name : {node.text(), spaced_case(node.text())}) {
-      if (const ResponseSettings* known = find_named(responses, name)) return *known;
+      if (ResponseSettings* known = find_named(responses, name)) return *known;
     }
     return *find_named(responses, read_known_name(node, "response", names_of(responses)));
   }
   const std::string name = formula_name(node);
-  if (const ResponseSettings* known = find_named(responses, name)) {
+  if (ResponseSettings* known = find_named(responses, name)) {
     if (known->type == ResponseType::expression) return *known;
   }
   ResponseSettings response = make_response(name, node, responses, numbers);

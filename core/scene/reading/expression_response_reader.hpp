@@ -17,8 +17,8 @@ ResponseSettings read_expression_response(const std::string& name, const JsonNod
 /// The response that a node names; where it is a formula ("= a - b"), that is made a response of
 /// its own, called by its text, at the end of the list; of max(…) and min(…) the formulas in it, too.
 /// @throws InputError
-const ResponseSettings& read_response_or_formula(const JsonNode& node,
-                                                 std::vector<ResponseSettings>& responses,
-                                                 NumberReader& numbers);
+ResponseSettings& read_response_or_formula(const JsonNode& node,
+                                           std::vector<ResponseSettings>& responses,
+                                           NumberReader& numbers);
 
 }  // namespace pleuel

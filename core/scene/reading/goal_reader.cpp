@@ -11,6 +11,7 @@
 #include "core/scene/reading/expression_response_reader.hpp"
 #include "core/scene/reading/mistakes.hpp"
 #include "core/scene/reading/scene_reader.hpp"
+#include "core/scene/reading/symbols.hpp"
 #include "core/scene/response_quantity.hpp"
 
 namespace pleuel {
@@ -61,6 +62,18 @@ void read_limits(const JsonNode& node, const Quantity& quantity, const NumberRea
     constraint.deviations = deviations->number();
     if (constraint.deviations <= 0.0) deviations->fail_with_value("must be positive");
     if (lower && upper) deviations->fail("is for one limit; this constraint has two");
+  }
+}
+
+/// People see a response in the unit of its first limit, unless it says its own.
+void show_as_limited(const JsonNode& node, ResponseSettings& response,
+                     const NumberReader& numbers) {
+  for (const char* key : {"upper", "lower"}) {
+    const std::optional<JsonNode> limit = node.find(key);
+    if (!limit || !response.unit.empty()) continue;
+    response.unit = written_unit({*limit});
+    if (response.unit.empty()) continue;
+    response.unit_scale = numbers.scale(response.unit, quantity_of(response));
   }
 }
 
@@ -139,10 +152,10 @@ ConstraintSettings read_constraint(const std::string& name, const JsonNode& node
     read_limits(node, read_linear(*linear, constraint, numbers), numbers, constraint);
     return constraint;
   }
-  const ResponseSettings& response =
-      read_response_or_formula(node.at("response"), responses, numbers);
+  ResponseSettings& response = read_response_or_formula(node.at("response"), responses, numbers);
   constraint.response = response.name;
   read_limits(node, quantity_of(response), numbers, constraint);
+  show_as_limited(node, response, numbers);
   return constraint;
 }
 

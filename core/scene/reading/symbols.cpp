@@ -88,6 +88,15 @@ bool is_formula(const JsonNode& node) {
   return first != std::string::npos && text[first] == '=';
 }
 
+std::string written_unit(std::initializer_list<JsonNode> nodes) {
+  for (const JsonNode& node : nodes) {
+    if (!node.value().is_string() || is_formula(node)) continue;
+    const std::string unit = split_quantity(node.value().get<std::string>()).unit;
+    if (!unit.empty()) return unit;
+  }
+  return "";
+}
+
 ReadExpression read_formula(const JsonNode& node, const std::vector<Symbol>& symbols,
                             const UnitSystem& units) {
   const std::string text = node.text();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,9 @@ namespace pleuel {
 
 /// Whether the value is a text that begins with "=": a formula where a number could stand.
 bool is_formula(const JsonNode& node);
+
+/// The unit in the first of the texts that has one; empty if none does. Formulas have none.
+std::string written_unit(std::initializer_list<JsonNode> nodes);
 
 /// The end of a message about a text that is no number: `; a formula begins with "=": …` with the
 /// column of its first sign, where the text looks like one; else empty.

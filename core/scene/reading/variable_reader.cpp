@@ -11,16 +11,6 @@
 namespace pleuel {
 namespace {
 
-/// The unit in the first of the texts that has one.
-std::string written_unit(std::initializer_list<JsonNode> nodes) {
-  for (const JsonNode& node : nodes) {
-    if (!node.value().is_string() || is_formula(node)) continue;
-    const std::string unit = split_quantity(node.value().get<std::string>()).unit;
-    if (!unit.empty()) return unit;
-  }
-  return "";
-}
-
 /// As the user wrote it, if with its unit.
 std::string choice_text(const JsonNode& node, double value) {
   if (node.value().is_string() && !is_formula(node)) return node.text();
