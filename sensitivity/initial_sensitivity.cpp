@@ -26,7 +26,7 @@ class InitialDifferentiation {
         solver_(matrix_, mechanism.elastic) {}
 
   StateSensitivity run() {
-    if (mechanism_.starts_in_equilibrium) {
+    if (initial_.is_equilibrium) {
       return of_equilibrium();
     }
     differentiate_positions();

@@ -166,11 +166,9 @@ class SampledGradients {
   Eigen::RowVectorXd frequency_gradient(const ModeChoice& choice) {
     if (gradients_.cols() == 0) return Eigen::RowVectorXd(0);
     Model& model = analysis_.full ? analysis_.full->model : analysis_.model;
-    if (!start_) {
-      start_ = analysis_.full ? *analysis_.full->initial : initial_state(model.mechanism);
-      start_sensitivity_ = initial_sensitivity(model.mechanism, *start_);
-    }
-    return frequency_sensitivity(model, start_->state, start_sensitivity_, choice).transpose();
+    const InitialState& about = analysis_.vibrating->initial;
+    if (!about_sensitivity_) about_sensitivity_ = initial_sensitivity(model.mechanism, about);
+    return frequency_sensitivity(model, about.state, *about_sensitivity_, choice).transpose();
   }
 
   /// Calls visit(use) for what is sampled at a step and wanted, with its derivatives in part_.
@@ -205,9 +203,8 @@ class SampledGradients {
   Gradients gradients_;
   std::map<int, std::vector<Use>> uses_;  ///< by step
   SignalGradient part_;                   ///< scratch
-  // Of the mechanism that frequencies are of, where there are any.
-  std::optional<InitialState> start_;
-  StateSensitivity start_sensitivity_;
+  /// Of the state about which the mechanism vibrates, where frequencies are asked for.
+  std::optional<StateSensitivity> about_sensitivity_;
 };
 
 /// What is measured in the mechanism without elasticity, and which of the values it is taken from.

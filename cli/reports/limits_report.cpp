@@ -28,10 +28,22 @@ double value_of(const ConstraintSettings& constraint, const ProblemFile& problem
                            index_of_named(problem.responses, constraint.response).value());
 }
 
-/// As exactly as a verified optimum keeps its limits.
-bool is_kept(const ConstraintSettings& constraint, double value) {
-  const auto exceeds = [](double excess, double limit) {
-    return excess > Tolerances().violation * std::abs(limit);
+/// The sum of the magnitudes of what a limit on variables adds up; zero of one on a response.
+double terms_of(const ConstraintSettings& constraint, const Eigen::VectorXd& x) {
+  double size = 0.0;
+  for (const auto& [variable, coefficient] : constraint.linear) {
+    size += std::abs(coefficient * x(variable));
+  }
+  return size;
+}
+
+/// As exactly as a verified optimum keeps its limits; of a limit on variables, which may be zero,
+/// to the round-off of its terms.
+bool is_kept(const ConstraintSettings& constraint, const Eigen::VectorXd& x, double value) {
+  constexpr double round_off = 1e-12;
+  const auto exceeds = [&](double excess, double limit) {
+    return excess >
+           std::max(Tolerances().violation * std::abs(limit), round_off * terms_of(constraint, x));
   };
   return !(constraint.upper && exceeds(value - *constraint.upper, *constraint.upper)) &&
          !(constraint.lower && exceeds(*constraint.lower - value, *constraint.lower));
@@ -62,7 +74,7 @@ std::string sum_text(const ProblemFile& problem, const Eigen::VectorXd& x,
                      const Analysis& analysis) {
   std::vector<std::string> broken;
   for (const ConstraintSettings& constraint : problem.constraints) {
-    if (is_kept(constraint, value_of(constraint, problem, x, analysis))) continue;
+    if (is_kept(constraint, x, value_of(constraint, problem, x, analysis))) continue;
     broken.push_back(constraint.name);
   }
   const std::size_t all = problem.constraints.size();
@@ -78,14 +90,14 @@ std::string sum_text(const ProblemFile& problem, const Eigen::VectorXd& x,
 }  // namespace
 
 Json limit_document(const ProblemFile& problem, const ConstraintSettings& constraint,
-                    double value) {
+                    const Eigen::VectorXd& x, double value) {
   const UsedLimit used = used_limit(constraint, value);
   Json entry = {{"value", value},
                 {"limit", used.limit},
                 {"side", used.is_upper ? "upper" : "lower"},
                 {"unit", unit_of(problem, constraint).si}};
   if (used.utilisation) entry["utilisation"] = *used.utilisation;
-  entry["kept"] = is_kept(constraint, value);
+  entry["kept"] = is_kept(constraint, x, value);
   return entry;
 }
 
@@ -94,8 +106,8 @@ Json limits_document(const ProblemFile& problem, const Eigen::VectorXd& x, const
   Json document = Json::object();
   for (const ConstraintSettings& constraint : problem.constraints) {
     const double value = value_of(constraint, problem, x, analysis);
-    Json& entry = document[constraint.name] = limit_document(problem, constraint, value);
-    if (is_kept(constraint, value)) continue;
+    Json& entry = document[constraint.name] = limit_document(problem, constraint, x, value);
+    if (is_kept(constraint, x, value)) continue;
     entry["within_error"] = is_within_error(problem, constraint, value, errors);
   }
   return document;
@@ -118,7 +130,7 @@ std::string limits_text(const ProblemFile& problem, const Eigen::VectorXd& x,
         {constraint.name, significant(unit.shown(value)),
          (used.is_upper ? "≤ " : "≥ ") + significant(unit.shown(used.limit)), unit.name,
          used.utilisation ? percent(*used.utilisation) : "–", margin_text(used, value, unit),
-         is_kept(constraint, value)                            ? "kept"
+         is_kept(constraint, x, value)                         ? "kept"
          : is_within_error(problem, constraint, value, errors) ? "BROKEN, within its error"
                                                                : "BROKEN"});
   }
@@ -128,7 +140,7 @@ std::string limits_text(const ProblemFile& problem, const Eigen::VectorXd& x,
 bool keeps_limits(const ProblemFile& problem, const Eigen::VectorXd& x, const Analysis& analysis) {
   return std::all_of(problem.constraints.begin(), problem.constraints.end(),
                      [&](const ConstraintSettings& constraint) {
-                       return is_kept(constraint, value_of(constraint, problem, x, analysis));
+                       return is_kept(constraint, x, value_of(constraint, problem, x, analysis));
                      });
 }
 

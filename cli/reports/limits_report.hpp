@@ -13,7 +13,8 @@
 namespace pleuel {
 
 /// {"value", "limit", "side", "unit", "utilisation", "kept"} of one limit [SI]
-Json limit_document(const ProblemFile& problem, const ConstraintSettings& constraint, double value);
+Json limit_document(const ProblemFile& problem, const ConstraintSettings& constraint,
+                    const Eigen::VectorXd& x, double value);
 
 /// {NAME: {"value", "limit", "side", "unit", "utilisation", "kept", "within_error"}} [SI]; the last of
 /// those that are broken: whether by less than the error of the response

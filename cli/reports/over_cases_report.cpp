@@ -131,7 +131,7 @@ Json over_cases_document(const ProblemFile& joined, const Eigen::VectorXd& x, co
     const std::size_t response = &limited - joined.responses.data();
     try {
       document["constraints"][constraint.name] =
-          limit_document(joined, constraint, value_over_cases(joined, response, x, value_of));
+          limit_document(joined, constraint, x, value_over_cases(joined, response, x, value_of));
     } catch (const SimulationError&) {  // its response says so
     }
   }

@@ -10,6 +10,8 @@ struct InitialState {
   State state;
   /// μ of  W (q − q̂) + Φ_qᵀ μ = 0  and of  W (v − v̂) + Φ_qᵀ μ = 0; zero if the guess is consistent.
   Eigen::VectorXd position_multipliers, velocity_multipliers;
+  /// Whether elastic coordinates are in equilibrium (equilibrium.hpp).
+  bool is_equilibrium = false;
 };
 
 /// W d, one change of the coordinates a column.

@@ -330,17 +330,30 @@ bool Equilibrium::solve_from(const Eigen::VectorXd& target, InitialState& at) {
   return false;
 }
 
-InitialState Equilibrium::solve(InitialState start) {
-  start.position_multipliers = of_frames(start.position_multipliers);
+Equilibrium::Found Equilibrium::look_for(const InitialState& start) {
   InitialState reached = follow(start, 1.0);
   const bool is_plausible = deformation(reached.state) < far_deformed &&
                             !is_dead_point(start, reached) &&
                             elastic_stability(mechanism_, reached.state).is_stable;
-  if (is_plausible) return reached;
+  if (is_plausible) return {std::move(reached), true};
   try {
-    reached = follow(start, slow_part);
+    return {follow(start, slow_part), false};
   } catch (const SimulationError&) {  // what was found at once is judged
+    return {std::move(reached), false};
   }
+}
+
+InitialState Equilibrium::find(InitialState start) {
+  start.position_multipliers = of_frames(start.position_multipliers);
+  start.is_equilibrium = true;
+  return look_for(start).state;
+}
+
+InitialState Equilibrium::solve(InitialState start) {
+  start.position_multipliers = of_frames(start.position_multipliers);
+  start.is_equilibrium = true;
+  auto [reached, is_plausible] = look_for(start);
+  if (is_plausible) return reached;
   if (is_dead_point(start, reached)) {
     throw UnstableEquilibrium(
         "the loads at t = 0 press the mechanism into a dead point, where its joints leave a motion "

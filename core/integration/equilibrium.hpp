@@ -37,8 +37,11 @@ class Equilibrium {
   explicit Equilibrium(Mechanism& mechanism);
 
   /// Starts from consistent initial values.
-  /// @throws SimulationError if Newton's method fails or the equilibrium is unstable
+  /// @throws SimulationError if Newton's method fails
+  /// @throws UnstableEquilibrium
   InitialState solve(InitialState start);
+  /// The same, stable or not.
+  InitialState find(InitialState start);
 
   /// ∂z/∂x at a solution.
   struct Derivatives {
@@ -68,6 +71,11 @@ class Equilibrium {
   /// Newton's method with loads that come in parts, of this share of them at most.
   /// @throws SimulationError if it fails
   InitialState follow(const InitialState& start, double largest_part);
+  struct Found {
+    InitialState state;
+    bool is_plausible;  ///< stable, and neither far deformed nor at a dead point
+  };
+  Found look_for(const InitialState& start);
   /// The largest elastic coordinate over its scale.
   double deformation(const State& state) const;
   /// At what share of the loads members buckle; not a number if that cannot be said.

@@ -20,4 +20,10 @@ bool jumps_at_start(Mechanism& mechanism, State state);
 /// @throws SimulationError if the mechanism cannot be assembled or is singular
 InitialState initial_state(Mechanism& mechanism);
 
+/// Elastic coordinates in equilibrium with what acts just before t = 0, and with nothing that jumps
+/// then, whether the mechanism asks for it or not; stable or not. Vibrations are small about such a
+/// state only.
+/// @throws SimulationError if none is found
+InitialState equilibrium_state(Mechanism& mechanism);
+
 }  // namespace pleuel

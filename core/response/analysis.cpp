@@ -48,10 +48,9 @@ void set_mechanism_frequencies(Analysis& analysis) {
                    [](const Response& response) { return response.frequency(); })) {
     return;
   }
-  if (analysis.trajectory.periodic && !analysis.full) {
-    analysis.placed = initial_state(analysis.model.mechanism).state;
-  }
-  const FrozenModes mechanism(model_of_modes(analysis), state_of_modes(analysis));
+  analysis.vibrating =
+      analysis.full ? analysis.full->vibrating : vibration_state(analysis.model.mechanism);
+  const FrozenModes mechanism(model_of_modes(analysis), analysis.vibrating->initial.state);
   analysis.mechanism_frequencies = mechanism.modes.unaryExpr(&frequency_of).real();
   for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
     const Response& response = analysis.responses[i];
@@ -204,14 +203,6 @@ ProblemFile with_steps_of(const Trajectory& trajectory, ProblemFile problem) {
 
 const Model& model_of_modes(const Analysis& analysis) {
   return analysis.full ? analysis.full->model : analysis.model;
-}
-
-State state_of_modes(const Analysis& analysis) {
-  if (analysis.full) return analysis.full->initial->state;
-  if (analysis.placed) return *analysis.placed;
-  State state;
-  analysis.trajectory.states->load(0, state);
-  return state;
 }
 
 Eigen::VectorXd values_of(const Analysis& analysis) {

@@ -25,9 +25,8 @@ struct Analysis {
   std::unique_ptr<FullMechanism> full;
   /// Why natural frequencies are those of the model, though it leaves modes out; else empty.
   std::string modes_left_out;
-  /// The state as the file places it, where frequencies of the mechanism are asked for of a motion
-  /// that begins elsewhere, as one that repeats itself.
-  std::optional<State> placed;
+  /// The state about which the mechanism vibrates, where its frequencies are asked for.
+  std::optional<VibrationState> vibrating;
   /// Natural frequencies of the whole mechanism, where a response asks for one
   /// (mechanism_modes.hpp).
   Eigen::VectorXd mechanism_frequencies;
@@ -39,9 +38,6 @@ struct Analysis {
 
 /// The model whose natural frequencies those of the mechanism are.
 const Model& model_of_modes(const Analysis& analysis);
-/// The state about which it vibrates: the initial one, and where that is one of a motion that repeats
-/// itself, the state as the file places it.
-State state_of_modes(const Analysis& analysis);
 
 /// One a response [SI].
 Eigen::VectorXd values_of(const Analysis& analysis);

@@ -74,8 +74,7 @@ std::unique_ptr<FullMechanism> make_full_mechanism(const ProblemFile& problem,
   auto full = std::make_unique<FullMechanism>();
   full->model = build_model(all.scene, all.effects, start, design, problem.sensitivity.invariants);
   if (!asks_for_mechanism_modes(problem)) return full;
-  full->model.mechanism.starts_in_equilibrium = problem.simulation.quasi_static_start;
-  full->initial = initial_state(full->model.mechanism);
+  full->vibrating = vibration_state(full->model.mechanism);
   return full;
 }
 

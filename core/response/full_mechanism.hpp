@@ -3,8 +3,8 @@
 #include <memory>
 #include <optional>
 
-#include "core/integration/initial_state.hpp"
 #include "core/model/model.hpp"
+#include "core/response/vibration_state.hpp"
 
 namespace pleuel {
 
@@ -14,7 +14,7 @@ namespace pleuel {
 struct FullMechanism {
   Model model;
   /// Where the whole mechanism's frequencies are asked for.
-  std::optional<InitialState> initial;
+  std::optional<VibrationState> vibrating;
 };
 
 /// Whether a model is that already.

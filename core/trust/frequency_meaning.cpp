@@ -74,43 +74,15 @@ void add_unstable(const TrustedRun& run, const std::vector<const Response*>& res
                     false, names_of(responses)});
 }
 
-/// Frequencies of the same mechanism whose members are in equilibrium with the motion.
-Eigen::VectorXd stressed_frequencies(ProblemFile problem, const Eigen::VectorXd& x) {
-  problem.simulation.quasi_static_start = true;
-  const Eigen::VectorXd start = start_design(problem);
-  const auto full = make_full_mechanism(problem, Design<double>(start.begin(), start.end()),
-                                        Design<double>(x.begin(), x.end()));
-  return mechanism_frequencies(full->model.mechanism, full->initial->state);
-}
-
 void add_missing_stress(const TrustedRun& run, const std::vector<const Response*>& responses,
                         std::vector<Doubt>& doubts) {
-  const Mechanism& mechanism = run.analysis.model.mechanism;
-  if (run.problem.simulation.quasi_static_start || mechanism.elastic.empty()) return;
-  if (!run.analysis.modes_left_out.empty()) return;
-  State state;
-  run.analysis.trajectory.states->load(0, state);
-  if (state.v.isZero(0.0) && state.a.isZero(0.0)) return;
-  Eigen::VectorXd stressed;
-  try {
-    stressed = stressed_frequencies(run.problem, run.x);
-  } catch (const SimulationError& error) {
-    doubts.push_back({fmt::format("natural frequencies are those of undeformed members; under the "
-                                  "motion and the loads at t = 0 they would be stressed, and with "
-                                  "that: {}",
-                                  error.what()),
-                      false, names_of(responses)});
-    return;
-  }
-  for (const auto& [response, shown, other] : shifts(run, responses, stressed)) {
-    doubts.push_back(
-        {fmt::format("the frequency \"{}\" is {} for members that start undeformed; the "
-                     "stress of the motion and the loads at t = 0 is missing in it, with which it "
-                     "is {}: /simulation/initial_state \"quasi-static\" has it.",
-                     response->name, shown, other),
-         false,
-         {response->name}});
-  }
+  const std::string& why = run.analysis.vibrating->without_equilibrium;
+  if (why.empty()) return;
+  doubts.push_back({fmt::format("natural frequencies are those of undeformed members: the "
+                                "equilibrium with the motion and the loads at t = 0, about which "
+                                "they would vibrate, was not found ({}).",
+                                why),
+                    true, names_of(responses)});
 }
 
 /// The problem with beams counted in other body frames, which leaves the mechanism the same.
@@ -125,18 +97,28 @@ ProblemFile with_other_frames(const ProblemFile& problem) {
   return other;
 }
 
+/// Of the same mechanism. @throws SimulationError if there is no equilibrium
+Eigen::VectorXd frequencies_in_equilibrium(const ProblemFile& problem, const Eigen::VectorXd& x) {
+  const Eigen::VectorXd start = start_design(problem);
+  const auto full = make_full_mechanism(problem, Design<double>(start.begin(), start.end()),
+                                        Design<double>(x.begin(), x.end()));
+  if (!full->vibrating->initial.is_equilibrium) {
+    throw SimulationError(full->vibrating->without_equilibrium);
+  }
+  return mechanism_frequencies(full->model.mechanism, full->vibrating->initial.state);
+}
+
 /// What moments do to the stiffness of a member that is bent or twisted is in the equations only as far as
 /// its frame turns with it: of first order in the load, and in none of the error bars of steps and
 /// elements. Other frames have another part of it.
 void add_frames(const TrustedRun& run, const std::vector<const Response*>& responses,
                 std::vector<Doubt>& doubts) {
-  const bool is_stressed =
-      run.problem.simulation.quasi_static_start && !run.analysis.model.mechanism.elastic.empty();
-  if (!is_stressed || !run.analysis.modes_left_out.empty()) return;
-  if (!state_of_modes(run.analysis).v.isZero(0.0)) return;  // where axes matter, too
+  const VibrationState& vibrating = *run.analysis.vibrating;
+  if (!vibrating.initial.is_equilibrium || !run.analysis.modes_left_out.empty()) return;
+  if (!vibrating.initial.state.v.isZero(0.0)) return;  // where axes matter, too
   Eigen::VectorXd found;
   try {
-    found = stressed_frequencies(with_other_frames(run.problem), run.x);
+    found = frequencies_in_equilibrium(with_other_frames(run.problem), run.x);
   } catch (const SimulationError&) {
     return;
   } catch (const InputError&) {  // reduced to modes that the frame has to suit
@@ -159,7 +141,7 @@ void add_frames(const TrustedRun& run, const std::vector<const Response*>& respo
 void add_flutter(const TrustedRun& run, const std::vector<const Response*>& responses,
                  std::vector<Doubt>& doubts) {
   constexpr double noise = 1e-4;
-  const State state = state_of_modes(run.analysis);
+  const State& state = run.analysis.vibrating->initial.state;
   if (!run.analysis.modes_left_out.empty() || !state.v.isZero(0.0)) return;
   const Eigen::VectorXcd modes = modes_of(freeze(model_of_modes(run.analysis).mechanism, state));
   for (const std::complex<double>& mode : modes) {
@@ -178,7 +160,7 @@ void add_flutter(const TrustedRun& run, const std::vector<const Response*>& resp
 void add_turning(const TrustedRun& run, const std::vector<const Response*>& responses,
                  std::vector<Doubt>& doubts) {
   const Analysis& analysis = run.analysis;
-  const State state = state_of_modes(analysis);
+  const State& state = analysis.vibrating->initial.state;
   if (!analysis.modes_left_out.empty() || state.v.isZero(0.0)) return;
   const Eigen::VectorXd turning = frequencies_in_turning_axes(model_of_modes(analysis), state);
   for (const auto& [response, shown, other] : shifts(run, responses, turning)) {

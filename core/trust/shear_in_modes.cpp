@@ -76,7 +76,9 @@ ShearInModes::LoweredMode ShearInModes::lowered_mode(const std::string& beam, in
 const ShearInModes::Vibration& ShearInModes::vibration(int number) {
   const auto known = vibrations_.find(number);
   if (known != vibrations_.end()) return known->second;
-  if (!frozen_) frozen_.emplace(model_of_modes(run_.analysis), state_of_modes(run_.analysis));
+  if (!frozen_) {
+    frozen_.emplace(model_of_modes(run_.analysis), run_.analysis.vibrating->initial.state);
+  }
   const ModalVectors vectors = modal_vectors(frozen_->frozen, frozen_->modes, number);
   const Eigen::VectorXcd first = vectors.right.col(0);
   Eigen::Index largest = 0;

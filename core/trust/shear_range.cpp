@@ -145,12 +145,15 @@ class ShearDoubts {
         sum += error;
         largest = std::max(largest, error);
       }
-      if (sum <= alarming || largest > alarming) continue;
+      const bool is_said = largest > alarming || (largest > tolerable_shear && sum <= alarming);
+      if (sum <= tolerable_shear || is_said) continue;
+      const bool is_serious = sum > alarming;
       doubts.push_back(
           {fmt::format("shear, which {} leave out, would change \"{}\" by some {:.2g} % together. "
-                       "Do not trust that: set their \"shear\" to true.",
-                       fmt::join(bodies, ", "), response.name, 100.0 * sum),
-           true,
+                       "{}: set their \"shear\" to true.",
+                       fmt::join(bodies, ", "), response.name, 100.0 * sum,
+                       is_serious ? "Do not trust that" : "Where that matters"),
+           is_serious,
            {response.name}});
     }
   }

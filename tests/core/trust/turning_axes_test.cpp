@@ -30,10 +30,7 @@ ProblemFile blade(const std::string& frame, double speed = 50.0) {
 }
 
 Eigen::VectorXd frequencies(const Analysis& analysis) {
-  State state;
-  analysis.trajectory.states->load(0, state);
-  if (analysis.full) state = analysis.full->initial->state;
-  return frequencies_in_turning_axes(analysis.full ? analysis.full->model : analysis.model, state);
+  return frequencies_in_turning_axes(model_of_modes(analysis), analysis.vibrating->initial.state);
 }
 
 /// Southwell: flapping ω₀² + 1.193 Ω² (Wright et al. 1982 to Ω = ω₀: 1.193 within 0.2 %), lagging
