@@ -3,312 +3,246 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <numbers>
-#include <optional>
+#include <memory>
 #include <string>
-#include <vector>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/base/error.hpp"
 #include "core/base/find_named.hpp"
 #include "core/base/int_size.hpp"
-#include "core/base/sparse_rows.hpp"
-#include "core/model/body_energy.hpp"
+#include "core/base/parallel.hpp"
+#include "core/response/effect_measurement.hpp"
 #include "core/scene/body_groups.hpp"
-#include "core/trust/beam_bending.hpp"
 #include "core/trust/beam_state.hpp"
-#include "core/trust/shear_in_modes.hpp"
-#include "core/trust/shear_share.hpp"
+#include "core/trust/round_off.hpp"
+#include "core/trust/stubby_beams.hpp"
 
 namespace pleuel {
 
 namespace {
 
-/// Errors that are as good as none, relative.
+/// Changes that are as good as none, relative.
 constexpr double tolerable_shear = 0.01;
 /// From here on numbers are those of another beam. Below, that shear is missing is a property of
 /// the theory that is used, as good as it is for most machines.
 constexpr double alarming = 0.1;
+/// A place that comes near to the zero of its axis: of its motion.
+constexpr double near_zero = 0.1;
+/// Motions that are none, of a coordinate.
+constexpr double least_motion = 1e-4;
+
+/// So many beams are told apart, each of which is simulated with shear alone.
+constexpr std::size_t most_told_apart = 8;
+/// Beams that make less of a change are not named.
+constexpr double told_part = 0.1;
+
+/// How far elastic bodies bend at most.
+struct Bending {
+  double deflection = 0.0;  ///< [m]
+  double rotation = 0.0;    ///< [rad]
+};
 
 class ShearDoubts {
  public:
-  explicit ShearDoubts(const TrustedRun& run)
-      : run_(run), model_(run.analysis.model), groups_(run.problem.scene), modes_(run) {}
+  ShearDoubts(const TrustedRun& run, std::vector<std::string> beams)
+      : run_(run),
+        beams_(std::move(beams)),
+        groups_(run.problem.scene),
+        bending_(largest_bending(run.analysis)) {}
 
   std::vector<Doubt> find() {
-    is_held_twice_ = is_held_twice();
-    const auto largest = largest_deformations(model_, run_.analysis.trajectory);
-    State state;
-    for (std::size_t i = 0; i < model_.bodies.size(); ++i) {
-      const BodyModel& body = model_.bodies[i];
-      if (!body.is_beam() || !body.is_elastic || largest[i].bending <= known_[body.name]) continue;
-      known_[body.name] = largest[i].bending;
-      steps_[body.name] = largest[i].bending_step;
-      run_.analysis.trajectory.states->load(largest[i].bending_step, state);
-      shares_[body.name] = shear_share(run_.problem, run_.x, model_, body.name, state);
+    try {
+      sheared_ = with_shear(beams_);
+    } catch (const SimulationError& error) {
+      return {{fmt::format("with shear, which {} {} out, this design cannot be simulated: {}",
+                           quoted(beams_), leave(beams_), error.what()),
+               true}};
     }
+    measure();
     std::vector<Doubt> doubts;
-    for (const auto& [body, share] : shares_) add_doubt(body, share, doubts);
-    add_sums(doubts);
+    add_doubt(alarming, std::numeric_limits<double>::infinity(), doubts);
+    add_doubt(tolerable_shear, alarming, doubts);
     return doubts;
   }
 
  private:
-  /// Whether joints and drives hold more than rigid bodies need, in every position, and that
-  /// bears something: then section forces are those of deformation. Five instants are enough, of
-  /// which not all are dead centres. A planar loop in space bears nothing across.
-  bool is_held_twice() const {
-    constexpr double nothing = 1e-6;
-    const int steps = run_.analysis.trajectory.steps();
-    double most = 0.0;
-    State state;
-    for (int i = 0; i <= 4; ++i) {
-      run_.analysis.trajectory.states->load(i * steps / 4, state);
-      const std::optional<double> share = share_beyond_need(state);
-      if (!share) return false;
-      most = std::max(most, *share);
+  /// @throws SimulationError
+  std::unique_ptr<Analysis> with_shear(const std::vector<std::string>& beams) const {
+    ProblemFile problem = with_steps_of(run_.analysis.trajectory, run_.problem);
+    for (Body& body : problem.scene.bodies) {
+      if (std::find(beams.begin(), beams.end(), body.name) == beams.end()) continue;
+      std::get<BeamBody>(body.shape).has_shear = true;
     }
-    return most > nothing;
+    return analyze(problem, run_.x);
   }
 
-  /// Of the multipliers, what rigid bodies could do without: combinations of constraints in which
-  /// the coordinates of frames cancel. None where there is no such combination.
-  std::optional<double> share_beyond_need(const State& state) const {
-    const Mechanism& mechanism = model_.mechanism;
-    System& system = *mechanism.system;
-    const int n = system.coordinates(), m = system.multipliers();
-    if (m == 0) return std::nullopt;
-    std::vector<int> place(m, 0), rows;
-    for (const int row : system.left_out()) place[row] = -1;
-    for (int row = 0; row < m; ++row) {
-      int& of_row = place[row];
-      if (of_row < 0) continue;
-      of_row = int_size(rows);
-      rows.push_back(row);
+  void measure() {
+    changes_ = changes_of(*sheared_);
+    if (changes_.maxCoeff() <= tolerable_shear) return;
+    const std::vector<bool> is_nothing = find_round_off(run_);
+    for (Eigen::Index i = 0; i < changes_.size(); ++i) {
+      if (is_nothing[static_cast<std::size_t>(i)]) changes_(i) = 0.0;
     }
-    std::vector<bool> is_elastic(n, false);
-    for (const int i : mechanism.elastic) is_elastic[i] = true;
-    System::Matrix matrix = system.make_matrix();
-    system.tangent(state, {.q = 1.0}, ConstraintLevel::position, matrix);
-    std::vector<Eigen::Triplet<double>> entries;  // a row for each coordinate of a frame
-    for (int i = 0; i < n; ++i) {
-      if (is_elastic[i]) continue;
-      for (System::Matrix::InnerIterator entry(matrix, i); entry; ++entry) {
-        if (entry.row() < n || place[entry.row() - n] < 0) continue;
-        entries.emplace_back(i, place[entry.row() - n], mechanism.scale(i) * entry.value());
+    if (changes_.maxCoeff() > tolerable_shear) measure_each();
+  }
+
+  /// Which beams the changes are due to.
+  void measure_each() {
+    by_beam_.assign(beams_.size(), changes_);
+    if (beams_.size() == 1 || beams_.size() > most_told_apart) return;
+    for_each_in_parallel(int_size(beams_), available_threads(), [&](int i) {
+      try {
+        by_beam_[i] = changes_of(*with_shear({beams_[i]}));
+      } catch (const SimulationError&) {  // this one has a part in all
       }
-    }
-    SparseRows of_frames(n, rows.size());
-    of_frames.setFromTriplets(entries.begin(), entries.end());
-    const Eigen::MatrixXd beyond = null_space_of_rows(of_frames, 1e-9);
-    if (beyond.cols() == 0) return std::nullopt;
-    const Eigen::VectorXd lambda = state.lambda(rows);
-    if (lambda.isZero(0.0)) return 0.0;
-    return (beyond.transpose() * lambda).norm() / lambda.norm();
+    });
   }
 
-  void add_doubt(const std::string& body, const ShearShare& share, std::vector<Doubt>& doubts) {
-    double worst = 0.0;
-    std::vector<std::string> responses;
-    for (std::size_t i = 0; i < run_.problem.responses.size(); ++i) {
-      const double error = error_of(i, body, share);
-      if (error <= tolerable_shear) continue;
-      worst = std::max(worst, error);
-      responses.push_back(run_.problem.responses[i].name);
+  /// What shear changes of each response, relative.
+  Eigen::VectorXd changes_of(const Analysis& sheared) const {
+    Eigen::VectorXd changes = relative_changes(run_.problem, sheared, run_.analysis);
+    for (Eigen::Index i = 0; i < changes.size(); ++i) {
+      if (changes(i) == 0.0) continue;
+      changes(i) = of_motion(sheared, static_cast<std::size_t>(i), changes(i));
     }
-    if (responses.empty()) return;
-    std::string names;
-    for (const std::string& name : responses) {
-      names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", name);
-    }
-    const bool is_serious = worst > alarming;
-    doubts.push_back(
-        {fmt::format(
-             "\"{}\" is stubby: shear, which it leaves out, would change {} by {} {:.2g} %{}.{}",
-             body, names, is_held_twice_ ? "up to" : "some", 100.0 * worst,
-             is_serious ? " of what it is with shear" : "", advice(body, is_serious)),
-         is_serious, responses});
+    return changes;
   }
 
-  /// Where the shear of several beams adds up to more than is tolerable of each.
-  void add_sums(std::vector<Doubt>& doubts) {
-    for (std::size_t i = 0; i < run_.problem.responses.size(); ++i) {
-      const ResponseSettings& response = run_.problem.responses[i];
-      if (!is_of_all_bodies(response)) continue;
-      double sum = 0.0, largest = 0.0;
-      std::vector<std::string> bodies;
-      for (const auto& [body, share] : shares_) {
-        const double error = error_of(i, body, share);
-        if (error > 0.1 * tolerable_shear) bodies.push_back(fmt::format("\"{}\"", body));
-        sum += error;
-        largest = std::max(largest, error);
-      }
-      const bool is_said = largest > alarming || (largest > tolerable_shear && sum <= alarming);
-      if (sum <= tolerable_shear || is_said) continue;
-      const bool is_serious = sum > alarming;
-      doubts.push_back(
-          {fmt::format("shear, which {} leave out, would change \"{}\" by some {:.2g} % together. "
-                       "{}: set their \"shear\" to true.",
-                       fmt::join(bodies, ", "), response.name, 100.0 * sum,
-                       is_serious ? "Do not trust that" : "Where that matters"),
-           is_serious,
-           {response.name}});
-    }
-  }
-
-  /// Whether the deformation of all bodies moves it.
-  static bool is_of_all_bodies(const ResponseSettings& response) {
-    switch (response.type) {
+  /// The change of a coordinate in place of that relative to its value.
+  double of_motion(const Analysis& sheared, std::size_t i, double relative) const {
+    double bent = 0.0;
+    switch (run_.problem.responses[i].type) {
       case ResponseType::position:
-        return true;
-      case ResponseType::deflection:
-        return response.against == DeflectionReference::rigid_mechanism;
-      case ResponseType::elastic_energy:
-      case ResponseType::frequency:
-        return response.bodies.empty();
+      case ResponseType::spring_length:
+        bent = bending_.deflection;
+        break;
+      case ResponseType::joint_position:
+        bent = sheared.responses[i].unit == "rad" ? bending_.rotation : bending_.deflection;
+        break;
+      case ResponseType::angle:
+        bent = bending_.rotation;
+        break;
       default:
-        return false;
+        return relative;
     }
+    const Eigen::MatrixXd& history = sheared.histories[i];
+    const double value = sheared.reductions[i].value, size = std::abs(value);
+    const double motion =
+        std::max({(history.rowwise().maxCoeff() - history.rowwise().minCoeff()).maxCoeff(), bent,
+                  least_motion * size});
+    const double scale = std::clamp(size, near_zero * motion, motion);
+    return std::abs(run_.analysis.reductions[i].value - value) / scale;
   }
 
-  std::string advice(const std::string& body, bool is_serious) const {
-    const auto& segments = scene_beam(body).segments;
-    const bool is_known = std::all_of(segments.begin(), segments.end(), [](const Segment& segment) {
+  static Bending largest_bending(const Analysis& analysis) {
+    const Trajectory& trajectory = analysis.trajectory;
+    const Model& model = analysis.model;
+    const auto largest = largest_deformations(model, trajectory);
+    Bending bending;
+    State state;
+    for (std::size_t i = 0; i < model.bodies.size(); ++i) {
+      const BodyModel& body = model.bodies[i];
+      if (!body.is_beam() || !body.is_elastic) continue;
+      trajectory.states->load(largest[i].bending_step, state);
+      const Eigen::MatrixXd nodal = nodal_displacements(body, state);
+      bending.deflection = std::max(bending.deflection, nodal.topRows<3>().cwiseAbs().maxCoeff());
+      bending.rotation = std::max(bending.rotation, largest[i].bending);
+    }
+    return bending;
+  }
+
+  /// Of the responses that change by more than one share and not more than another.
+  void add_doubt(double above, double most, std::vector<Doubt>& doubts) const {
+    std::vector<std::string> names, changed;
+    std::vector<bool> has_part(beams_.size(), false);
+    for (Eigen::Index i = 0; i < changes_.size(); ++i) {
+      if (changes_(i) <= above || changes_(i) > most) continue;
+      const ResponseSettings& response = run_.problem.responses[static_cast<std::size_t>(i)];
+      names.push_back(response.name);
+      changed.push_back(fmt::format("\"{}\" by {:.2g} %", response.name, 100.0 * changes_(i)));
+      for (std::size_t k = 0; k < beams_.size(); ++k) {
+        const bool is_told = by_beam_[k](i) > told_part * changes_(i);
+        if (is_told && depends_on(response, beams_[k])) has_part[k] = true;
+      }
+    }
+    if (names.empty()) return;
+    std::vector<std::string> beams;
+    for (std::size_t k = 0; k < beams_.size(); ++k) {
+      if (has_part[k]) beams.push_back(beams_[k]);
+    }
+    if (beams.empty()) beams = beams_;  // they do it together
+    const bool is_serious = above >= alarming;
+    doubts.push_back(
+        {fmt::format("{} {} stubby: shear, which {}, would change {} of what {} with it. {}: {}.",
+                     quoted(beams), beams.size() == 1 ? "is" : "are",
+                     beams.size() == 1 ? "it leaves out" : "they leave out",
+                     fmt::join(changed, ", "), names.size() == 1 ? "it is" : "they are",
+                     is_serious ? "Do not trust that" : "Where that matters", advice(beams)),
+         is_serious, names});
+  }
+
+  static std::string quoted(const std::vector<std::string>& names) {
+    std::vector<std::string> all;
+    for (const std::string& name : names) all.push_back(fmt::format("\"{}\"", name));
+    return fmt::format("{}", fmt::join(all, ", "));
+  }
+
+  static std::string leave(const std::vector<std::string>& names) {
+    return names.size() == 1 ? "leaves" : "leave";
+  }
+
+  std::string advice(const std::vector<std::string>& beams) const {
+    std::vector<std::string> unknown;
+    for (const std::string& beam : beams) {
+      if (!is_known(beam)) unknown.push_back(beam);
+    }
+    const std::string key = beams.size() == 1 ? fmt::format("/scene/bodies/{}/shear", beams.front())
+                                              : "their \"shear\"";
+    if (unknown.empty()) return fmt::format("set {} to true", key);
+    return fmt::format(
+        "set {} to true, and give the section of {} \"shear_area_y\" and "
+        "\"shear_area_z\" (those of a rectangle are taken here)",
+        key, quoted(unknown));
+  }
+
+  /// Whether the sections of a beam say how stiff in shear they are.
+  bool is_known(const std::string& beam) const {
+    const auto& shape = std::get<BeamBody>(find_named(run_.problem.scene.bodies, beam)->shape);
+    return std::all_of(shape.segments.begin(), shape.segments.end(), [](const Segment& segment) {
       const auto* general = std::get_if<GeneralSection>(&segment.section);
       return general == nullptr || general->shear_area_y;
     });
-    return fmt::format(
-        " {}: set /scene/bodies/{}/shear to true{}.",
-        is_serious ? "Do not trust that" : "Where that matters", body,
-        is_known ? "" : ", and give its section \"shear_area_y\" and \"shear_area_z\"");
   }
 
-  const BeamBody& scene_beam(const std::string& body) const {
-    return std::get<BeamBody>(find_named(run_.problem.scene.bodies, body)->shape);
-  }
-
-  /// Whether a body is tied to what a response is about.
-  bool depends_on(const ResponseSettings& response, const std::string& body) const {
+  /// Whether a beam is tied to what a response is about.
+  bool depends_on(const ResponseSettings& response, const std::string& beam) const {
     std::vector<std::string> about = response.bodies;
     const Joint* joint = find_named(run_.problem.scene.joints, response.joint);
     if (joint != nullptr) about.insert(about.end(), joint->bodies.begin(), joint->bodies.end());
     std::erase(about, ground_name);
-    return about.empty() || std::ranges::any_of(about, [&](const std::string& other) {
-             return groups_.of(other) == groups_.of(body);
+    return about.empty() || std::any_of(about.begin(), about.end(), [&](const std::string& other) {
+             return groups_.of(other) == groups_.of(beam);
            });
   }
 
-  /// What shear that is left out changes of a response, over what it is with shear.
-  double error_of(std::size_t index, const std::string& body, const ShearShare& share) {
-    const ResponseSettings& response = run_.problem.responses[index];
-    if (scene_beam(body).has_shear || !depends_on(response, body)) return 0.0;
-    const bool is_of_body =
-        std::find(response.bodies.begin(), response.bodies.end(), body) != response.bodies.end();
-    const double largest = share.largest() / (1.0 + share.largest());
-    switch (response.type) {
-      case ResponseType::deflection: {
-        if (response.against == DeflectionReference::rigid_mechanism) return moved(index, share);
-        if (response.direction == 0 || !is_of_body) return 0.0;  // along the beam
-        const ShearShare there = share_at(body, response.at);
-        const double own = response.direction == 1   ? there.along_y
-                           : response.direction == 2 ? there.along_z
-                                                     : there.largest();
-        return own / (1.0 + own);
-      }
-      case ResponseType::position:
-        return moved(index, share);
-      case ResponseType::elastic_energy:
-        if (response.bodies.empty()) return largest * energy_share(body);
-        return is_of_body ? largest : 0.0;
-      case ResponseType::buckling:
-      case ResponseType::lateral_buckling:
-        return is_of_body ? euler_share(body) : 0.0;
-      case ResponseType::frequency:
-        if (response.bodies.empty()) return modes_.of_mechanism(body, index);
-        return is_of_body ? modes_.of_body(body, response.mode) : 0.0;
-      case ResponseType::stress:
-      case ResponseType::fatigue:
-      case ResponseType::fatigue_damage:
-      case ResponseType::shear_stress:
-      case ResponseType::section_force:
-        return is_held_twice_ && is_of_body ? largest : 0.0;
-      case ResponseType::reaction_force:
-      case ResponseType::reaction_moment:
-      case ResponseType::drive_torque:
-      case ResponseType::drive_force:
-      case ResponseType::drive_power:
-        return is_held_twice_ ? largest : 0.0;
-      default:
-        return 0.0;
-    }
-  }
-
-  /// Where the beam bends most, of the deflection at a place.
-  ShearShare share_at(const std::string& body, double place) const {
-    State state;
-    run_.analysis.trajectory.states->load(steps_.at(body), state);
-    return shear_share(run_.problem, run_.x, model_, body, state, place);
-  }
-
-  /// Of the range of a position or a deflection against the rigid mechanism.
-  double moved(std::size_t index, const ShearShare& share) const {
-    const Eigen::MatrixXd& history = run_.analysis.histories[index];
-    if (history.size() == 0) return 0.0;
-    const double largest = share.largest();
-    const double range = std::max(history.maxCoeff() - history.minCoeff(), 1e-300);
-    return std::min(largest * share.displacement / range, largest / (1.0 + largest));
-  }
-
-  /// Shear lowers Euler's load P to P/(1 + s), s = π² EI/(κ G A L²). What buckles first is the
-  /// plane with the smaller load, mostly that in which shear is the smaller part.
-  double euler_share(const std::string& name) const {
-    const BodyModel& body = model_.body(name);
-    const BendingReader reader(run_.problem, run_.x, name);
-    const double length = body.beam.node_position(body.beam.node_count() - 1);
-    const Eigen::MatrixXd straight = Eigen::MatrixXd::Zero(6, body.beam.node_count());
-    double without = std::numeric_limits<double>::infinity(), with = without;  // EI, EI/(1 + s)
-    for (int plane = 0; plane < 2; ++plane) {
-      double least = std::numeric_limits<double>::infinity(), share = 0.0;
-      for (const ElementBending& element : reader.read(body, straight, plane)) {
-        least = std::min(least, element.stiffness);
-        share = std::max(share, element.stiffness / element.shear_stiffness);
-      }
-      share *= std::numbers::pi * std::numbers::pi / (length * length);
-      without = std::min(without, least);
-      with = std::min(with, least / (1.0 + share));
-    }
-    return 1.0 - with / without;
-  }
-
-  /// How much of the elastic energy of all bodies is in one, where it bends most.
-  double energy_share(const std::string& name) const {
-    State state;
-    run_.analysis.trajectory.states->load(steps_.at(name), state);
-    double own = 0.0, all = 0.0;
-    for (const BodyModel& body : model_.bodies) {
-      const double energy = body_energy(body, body.invariants, model_.gravity, state).elastic;
-      all += energy;
-      if (body.name == name) own += energy;
-    }
-    return all > 0.0 ? own / all : 0.0;
-  }
-
   const TrustedRun& run_;
-  const Model& model_;
+  std::vector<std::string> beams_;  ///< that get shear
   BodyGroups groups_;
-  bool is_held_twice_ = false;
-  std::map<std::string, double> known_;  ///< largest rotations [rad]
-  std::map<std::string, int> steps_;     ///< of these
-  std::map<std::string, ShearShare> shares_;
-  ShearInModes modes_;
+  std::unique_ptr<Analysis> sheared_;
+  Bending bending_;
+  Eigen::VectorXd changes_;               ///< relative, one a response
+  std::vector<Eigen::VectorXd> by_beam_;  ///< by shear in each alone
 };
 
 }  // namespace
 
 std::vector<Doubt> doubt_shear_range(const TrustedRun& run) {
-  return ShearDoubts(run).find();
+  std::vector<std::string> beams = find_stubby_beams(run);
+  if (beams.empty()) return {};
+  return ShearDoubts(run, std::move(beams)).find();
 }
 
 }  // namespace pleuel
