@@ -58,12 +58,15 @@ Eigen::MatrixXd falling_motions(const Mechanism& mechanism, const State& state,
       symmetric_modes(symmetric_part(deformation_stiffness(mechanism, state, directions)));
   const double limit = -eigenvalue_round_off * modes.values.cwiseAbs().maxCoeff();
   const Eigen::MatrixXd masses = scaled_tangent(mechanism, state, {.a = 1.0}).topRows(n);
+  const Eigen::MatrixXd stiffness = scaled_tangent(mechanism, state, {.q = 1.0}).topRows(n);
   std::vector<Eigen::Index> falling;
   for (Eigen::Index i = 0; i < modes.values.size() && modes.values(i) < limit; ++i) {
     const Eigen::VectorXd shape = directions * modes.vectors.col(i);
     const double square = -modes.values(i) / shape.dot(masses * shape);  // of the rate of growth
+    // By the forces that rates change: a balanced wheel that a drive turns changes none.
+    const Eigen::VectorXd force = stiffness.transpose() * shape / modes.values(i);
     const auto part = [&](const Eigen::VectorXd& rates) {
-      return std::abs(shape.dot(rates.cwiseQuotient(mechanism.scale))) *
+      return std::abs(force.dot(rates.cwiseQuotient(mechanism.scale))) *
              shape.cwiseAbs().maxCoeff();
     };
     const double way = part(state.v) / std::sqrt(square) + part(state.a) / square;

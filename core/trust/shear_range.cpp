@@ -16,7 +16,6 @@
 #include "core/base/parallel.hpp"
 #include "core/response/effect_measurement.hpp"
 #include "core/scene/body_groups.hpp"
-#include "core/trust/beam_state.hpp"
 #include "core/trust/round_off.hpp"
 #include "core/trust/stubby_beams.hpp"
 
@@ -39,19 +38,10 @@ constexpr std::size_t most_told_apart = 8;
 /// Beams that make less of a change are not named.
 constexpr double told_part = 0.1;
 
-/// How far elastic bodies bend at most.
-struct Bending {
-  double deflection = 0.0;  ///< [m]
-  double rotation = 0.0;    ///< [rad]
-};
-
 class ShearDoubts {
  public:
-  ShearDoubts(const TrustedRun& run, std::vector<std::string> beams)
-      : run_(run),
-        beams_(std::move(beams)),
-        groups_(run.problem.scene),
-        bending_(largest_bending(run.analysis)) {}
+  ShearDoubts(const TrustedRun& run, BentBeams bent)
+      : run_(run), bent_(std::move(bent)), beams_(bent_.stubby), groups_(run.problem.scene) {}
 
   std::vector<Doubt> find() {
     try {
@@ -117,13 +107,13 @@ class ShearDoubts {
     switch (run_.problem.responses[i].type) {
       case ResponseType::position:
       case ResponseType::spring_length:
-        bent = bending_.deflection;
+        bent = bent_.deflection;
         break;
       case ResponseType::joint_position:
-        bent = sheared.responses[i].unit == "rad" ? bending_.rotation : bending_.deflection;
+        bent = sheared.responses[i].unit == "rad" ? bent_.rotation : bent_.deflection;
         break;
       case ResponseType::angle:
-        bent = bending_.rotation;
+        bent = bent_.rotation;
         break;
       default:
         return relative;
@@ -135,23 +125,6 @@ class ShearDoubts {
                   least_motion * size});
     const double scale = std::clamp(size, near_zero * motion, motion);
     return std::abs(run_.analysis.reductions[i].value - value) / scale;
-  }
-
-  static Bending largest_bending(const Analysis& analysis) {
-    const Trajectory& trajectory = analysis.trajectory;
-    const Model& model = analysis.model;
-    const auto largest = largest_deformations(model, trajectory);
-    Bending bending;
-    State state;
-    for (std::size_t i = 0; i < model.bodies.size(); ++i) {
-      const BodyModel& body = model.bodies[i];
-      if (!body.is_beam() || !body.is_elastic) continue;
-      trajectory.states->load(largest[i].bending_step, state);
-      const Eigen::MatrixXd nodal = nodal_displacements(body, state);
-      bending.deflection = std::max(bending.deflection, nodal.topRows<3>().cwiseAbs().maxCoeff());
-      bending.rotation = std::max(bending.rotation, largest[i].bending);
-    }
-    return bending;
   }
 
   /// Of the responses that change by more than one share and not more than another.
@@ -229,10 +202,10 @@ class ShearDoubts {
   }
 
   const TrustedRun& run_;
-  std::vector<std::string> beams_;  ///< that get shear
+  BentBeams bent_;
+  const std::vector<std::string>& beams_;  ///< that get shear
   BodyGroups groups_;
   std::unique_ptr<Analysis> sheared_;
-  Bending bending_;
   Eigen::VectorXd changes_;               ///< relative, one a response
   std::vector<Eigen::VectorXd> by_beam_;  ///< by shear in each alone
 };
@@ -240,9 +213,9 @@ class ShearDoubts {
 }  // namespace
 
 std::vector<Doubt> doubt_shear_range(const TrustedRun& run) {
-  std::vector<std::string> beams = find_stubby_beams(run);
-  if (beams.empty()) return {};
-  return ShearDoubts(run, std::move(beams)).find();
+  BentBeams bent = find_bent_beams(run);
+  if (bent.stubby.empty()) return {};
+  return ShearDoubts(run, std::move(bent)).find();
 }
 
 }  // namespace pleuel

@@ -430,5 +430,35 @@ TEST(ElasticStability, OfAColumnOnASpringEndsAtTheLoadOfBothTogether) {
   }
 }
 
+/// A balanced wheel on the tip of that column, which a motor turns at any speed, neither holds it nor
+/// sets it on its way.
+TEST(ElasticStability, OfAColumnOnASpringIsThatOfTheColumnBelowAWheel) {
+  // Of k L = EI: u tan u = 1.
+  const double critical = 0.8603335890193798 * 0.8603335890193798 * stiffness;
+  const auto below_a_wheel = [&](double share, double speed) {
+    std::string text = beam(joint("foot", "revolute", 0.0), -share * critical, 0.0, 8);
+    const auto add = [&](const std::string& before, const std::string& more) {
+      text.replace(text.find(before), before.size(), before + more);
+    };
+    add(R"("loads": {)", fmt::format(R"("k": {{"type": "joint", "joint": "foot",
+                                              "stiffness": {}}}, )",
+                                     stiffness));
+    add(R"("bodies": {)", fmt::format(R"("wheel": {{"type": "rigid", "at": [1, 0, 0], "mass": 0.2,
+                                "inertia": [1e-4, 1e-4, 1e-4, 0, 0, 0],
+                                "angular_velocity": [0, 0, {}]}}, )",
+                                      speed));
+    add(R"("joints": {)", fmt::format(R"("motor": {{"type": "revolute", "bodies": ["b", "wheel"],
+                                "at": [1, 0, 0],
+                                "drive": {{"type": "constant-speed", "speed": {}}}}}, )",
+                                      speed));
+    return text;
+  };
+  for (const double speed : {0.0, 1.0, 50.0, 300.0}) {
+    EXPECT_EQ(error_of(below_a_wheel(0.98, speed)), "") << speed;
+    EXPECT_THAT(error_of(below_a_wheel(1.02, speed)), HasSubstr("is unstable")) << speed;
+    EXPECT_THAT(error_of(below_a_wheel(1.3, speed)), HasSubstr("is unstable")) << speed;
+  }
+}
+
 }  // namespace
 }  // namespace pleuel::test::elastic_stability_test
