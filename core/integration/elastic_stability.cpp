@@ -299,26 +299,43 @@ Eigen::MatrixXd in_turning_axes(const Mechanism& mechanism, const State& state,
   return DenseLu(T).solve(deformations);
 }
 
-/// Whether a body that deforms turns, and not only rigid ones, as an unbalanced mass in a machine that
-/// shakes.
-bool turns_what_deforms(const Mechanism& mechanism, const State& state, const FastestTurn& turn) {
+/// The elastic coordinates of bodies that stand still, and of those that turn, beside those that are
+/// not looked at.
+Parts deforming_parts(const Mechanism& mechanism, const State& state, const FastestTurn& turn,
+                      const std::vector<int>& fixed) {
   constexpr double standing = 0.01;
-  const std::vector<int>& elastic = mechanism.elastic;
-  return std::any_of(mechanism.rotations.begin(), mechanism.rotations.end(), [&](int rotation) {
+  const std::set<int> elastic(mechanism.elastic.begin(), mechanism.elastic.end()),
+      left(fixed.begin(), fixed.end());
+  Parts result;
+  for (const int rotation : mechanism.rotations) {
+    const bool turns = state.v.segment<3>(rotation).norm() > standing * turn.omega.norm();
     // Elastic coordinates stand behind the rotation of their frame.
-    return state.v.segment<3>(rotation).norm() > standing * turn.omega.norm() &&
-           std::find(elastic.begin(), elastic.end(), rotation + 3) != elastic.end();
-  });
+    for (int i = rotation + 3; elastic.contains(i); ++i) {
+      if (!left.contains(i)) (turns ? result.turning : result.standing).push_back(i);
+    }
+  }
+  return result;
 }
 
-/// Of the parts in which something turns.
+std::vector<int> joined(std::vector<int> some, const std::vector<int>& others) {
+  some.insert(some.end(), others.begin(), others.end());
+  return some;
+}
+
+/// Of the parts in which something turns. Where what turns and what it turns on both deform, as a fan
+/// on a mast, no axes make the coefficients constant: each is judged with the other one rigid.
 ElasticStability stability_of_turning(const Mechanism& mechanism, const State& state,
                                       const FastestTurn& turn, const std::vector<int>& fixed) {
-  if (!mechanism.elastic.empty() && !turns_what_deforms(mechanism, state, turn)) {
+  const Parts deforming = deforming_parts(mechanism, state, turn, fixed);
+  if (!mechanism.elastic.empty() && deforming.turning.empty()) {
     return standing_stability(mechanism, state, free_deformations(mechanism, state, fixed));
   }
   if (is_steady(mechanism, state, turn) || turns_alike(mechanism, state, turn)) {
-    return turning_stability(mechanism, state, nullptr, fixed);
+    if (deforming.standing.empty()) return turning_stability(mechanism, state, nullptr, fixed);
+    const ElasticStability standing = standing_stability(
+        mechanism, state, free_deformations(mechanism, state, joined(fixed, deforming.turning)));
+    if (!standing.is_stable) return standing;
+    return turning_stability(mechanism, state, nullptr, joined(fixed, deforming.standing));
   }
   const Eigen::MatrixXd deformations = free_deformations(mechanism, state, fixed);
   const ElasticStability standing = standing_stability(mechanism, state, deformations);
@@ -357,21 +374,34 @@ double buckling_load_factor(const MechanismState& unloaded, const MechanismState
   const bool are_held =
       z.cols() > deformations_beside(phi, rigid_motions(unloaded.mechanism, phi)).cols();
   if (are_held) return std::nan("");  // dead loads turn with them, which is not of first order
-  const Eigen::Index n = unloaded.state.q.size();
-  const auto stiffness = [&](const MechanismState& at) -> Eigen::MatrixXd {
-    const auto& [mechanism, state] = at;
-    std::vector<Eigen::Triplet<double>> entries;
-    AxialStrains(*mechanism.system).add_coupling(state.q, entries);
-    Eigen::SparseMatrix<double> coupling(n, n);
-    coupling.setFromTriplets(entries.begin(), entries.end());
-    const Eigen::MatrixXd scaled = mechanism.scale.asDiagonal() * z;
-    return symmetric_part(deformation_stiffness(mechanism, state, z)) -
-           scaled.transpose() * (coupling * scaled);
+  const Mechanism& mechanism = unloaded.mechanism;
+  const State &begin = unloaded.state, &end = loaded.state;
+  const auto stiffness = [&](const Eigen::VectorXd& q, const Eigen::VectorXd& a,
+                             const Eigen::VectorXd& lambda) -> Eigen::MatrixXd {
+    State at = begin;
+    at.q = q;
+    at.a = a;
+    at.lambda = lambda;
+    return symmetric_part(deformation_stiffness(mechanism, at, z));
   };
-  const Eigen::MatrixXd elastic = stiffness(unloaded);
+  const Eigen::VectorXd none_of_a = Eigen::VectorXd::Zero(begin.a.size()),
+                        none_of_lambda = Eigen::VectorXd::Zero(begin.lambda.size());
+  const Eigen::MatrixXd elastic = stiffness(begin.q, none_of_a, none_of_lambda);
   if (!is_positive_definite(elastic)) return none;
+  // Accelerations and multipliers bear all loads at the begin, and change to those of equilibrium;
+  // deformation grows with the share.
+  const Eigen::VectorXd a = begin.a + (end.a - begin.a) / share,
+                        lambda = begin.lambda + (end.lambda - begin.lambda) / share;
+  std::vector<Eigen::Triplet<double>> entries;
+  AxialStrains(*mechanism.system).add_coupling(end.q, entries);
+  Eigen::SparseMatrix<double> coupling(end.q.size(), end.q.size());
+  coupling.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::MatrixXd scaled = mechanism.scale.asDiagonal() * z;
+  const Eigen::MatrixXd of_strains = stiffness(end.q, end.a, end.lambda) -
+                                     stiffness(begin.q, end.a, end.lambda) -
+                                     scaled.transpose() * (coupling * scaled);
   // −ΔK φ = μ K₀ φ, s = 1/μ
-  const Eigen::MatrixXd change = (elastic - stiffness(loaded)) / share;
+  const Eigen::MatrixXd change = elastic - stiffness(begin.q, a, lambda) - of_strains / share;
   const double largest = symmetric_eigenvalues(change, elastic).maxCoeff();
   return largest > 0.0 ? 1.0 / largest : none;
 }

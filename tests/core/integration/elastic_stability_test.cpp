@@ -460,5 +460,69 @@ TEST(ElasticStability, OfAColumnOnASpringIsThatOfTheColumnBelowAWheel) {
   }
 }
 
+/// A mast of 1 m with a fan of four blades, which turns about its axis or across it and is pressed by
+/// a share of the Euler load π² EI/4L² of the mast. Its first vibration has some 30 rad/s.
+std::string fan_on_a_mast(const std::string& axis, double speed, double share) {
+  const double press = share * std::pow(std::numbers::pi, 2) * 2.1e11 * 0.03 * 1e-6 / 12 / 4;
+  const bool is_about_mast = axis == "[1, 0, 0]";
+  const std::string turn = fmt::format(R"("angular_velocity": [{}, 0, {}])",
+                                       is_about_mast ? speed : 0.0, is_about_mast ? 0.0 : speed);
+  std::string blades, welds;
+  for (int i = 0; i < 4; ++i) {
+    const double way = i % 2 == 0 ? 0.3 : -0.3;
+    const Eigen::Vector3d end =
+        is_about_mast ? Eigen::Vector3d(1.0, i < 2 ? way : 0.0, i < 2 ? 0.0 : way)
+                      : Eigen::Vector3d(1.0 + (i < 2 ? way : 0.0), i < 2 ? 0.0 : way, 0.0);
+    blades += fmt::format(R"(, "blade{}": {{"type": "beam", "from": [1, 0, 0], "to": [{}, {}, {}],
+                              "material": "m", "elements": 2, {},
+                              "section": {{"type": "rectangle", "width": 0.01, "height": 0.01}}}})",
+                          i, end(0), end(1), end(2), turn);
+    welds += fmt::format(R"(, "weld{0}": {{"type": "fixed", "bodies": ["hub", "blade{0}"],
+                             "at": [1, 0, 0]}})",
+                         i);
+  }
+  return fmt::format(R"({{"scene": {{
+      "materials": {{"m": {{"young": 2.1e11, "poisson": 0.3, "density": 7850}}}},
+      "bodies": {{"mast": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "m",
+                          "section": {{"type": "rectangle", "width": 0.03, "height": 0.01}},
+                          "elements": 4}},
+                 "hub": {{"type": "rigid", "at": [1, 0, 0], "mass": 0.2,
+                         "inertia": [1e-4, 1e-4, 1e-4, 0, 0, 0], {}}}{}}},
+      "joints": {{"root": {{"type": "fixed", "bodies": ["ground", "mast"], "at": [0, 0, 0]}},
+                 "motor": {{"type": "revolute", "bodies": ["mast", "hub"], "at": [1, 0, 0], "axis": {},
+                           "drive": {{"type": "constant-speed", "speed": {}}}}}{}}},
+      "loads": {{"across": {{"type": "force", "body": "mast", "at": [1, 0, 0],
+                           "direction": [0, 0, 1], "value": 1e-3}},
+                "press": {{"type": "force", "body": "mast", "at": [1, 0, 0],
+                          "direction": [-1, 0, 0], "value": {}}}}}}},
+      "simulation": {{"end_time": 1e-4, "step": 1e-4, "initial_state": "quasi-static"}},
+      "responses": {{"y": {{"type": "position", "body": "mast", "at": 1, "direction": "y",
+                          "over_time": "final"}},
+                    "z": {{"type": "position", "body": "mast", "at": 1, "direction": "z",
+                          "over_time": "final"}}}}}})",
+                     turn, blades, axis, speed, welds, press);
+}
+
+/// What turns and what it turns on both deform: the fan is no reason to refuse the mast above its
+/// resonance, nor to bear more than it does alone.
+TEST(ElasticStability, OfAnElasticRotorOnAnElasticStandIsThatOfEach) {
+  for (const std::string axis : {"[1, 0, 0]", "[0, 0, 1]"}) {
+    for (const double speed : {0.0, 5.0, 60.0, 200.0}) {
+      EXPECT_EQ(error_of(fan_on_a_mast(axis, speed, 0.9)), "") << axis << speed;
+      if (speed <= 60.0) {
+        EXPECT_THAT(error_of(fan_on_a_mast(axis, speed, 1.05)),
+                    HasSubstr("\"mast\" buckles, at some 0.95"))
+            << axis << speed;
+      }
+    }
+  }
+}
+
+/// The load that it buckles at is that of linear buckling, whatever rides on it without being pressed.
+TEST(ElasticStability, TheLoadOfBucklingIsThatOfTheMastBelowItsArms) {
+  EXPECT_THAT(error_of(fan_on_a_mast("[0, 0, 1]", 0.0, 2.0)),
+              HasSubstr("at some 0.5 of these loads"));
+}
+
 }  // namespace
 }  // namespace pleuel::test::elastic_stability_test
