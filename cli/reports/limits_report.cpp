@@ -19,14 +19,8 @@ namespace pleuel {
 
 namespace {
 
-double value_of(const ConstraintSettings& constraint, const ProblemFile& problem,
-                const Eigen::VectorXd& x, const Analysis& analysis) {
-  double value = 0.0;
-  for (const auto& [variable, coefficient] : constraint.linear) value += coefficient * x(variable);
-  if (!constraint.linear.empty()) return value;
-  return without_round_off(analysis,
-                           index_of_named(problem.responses, constraint.response).value());
-}
+/// Of the terms of a sum, which may cancel.
+constexpr double round_off_of_terms = 1e-12;
 
 /// The sum of the magnitudes of what a limit on variables adds up; zero of one on a response.
 double terms_of(const ConstraintSettings& constraint, const Eigen::VectorXd& x) {
@@ -37,13 +31,23 @@ double terms_of(const ConstraintSettings& constraint, const Eigen::VectorXd& x) 
   return size;
 }
 
+double value_of(const ConstraintSettings& constraint, const ProblemFile& problem,
+                const Eigen::VectorXd& x, const Analysis& analysis) {
+  double value = 0.0;
+  for (const auto& [variable, coefficient] : constraint.linear) value += coefficient * x(variable);
+  if (!constraint.linear.empty()) {
+    return std::abs(value) <= round_off_of_terms * terms_of(constraint, x) ? 0.0 : value;
+  }
+  return without_round_off(analysis,
+                           index_of_named(problem.responses, constraint.response).value());
+}
+
 /// As exactly as a verified optimum keeps its limits; of a limit on variables, which may be zero,
 /// to the round-off of its terms.
 bool is_kept(const ConstraintSettings& constraint, const Eigen::VectorXd& x, double value) {
-  constexpr double round_off = 1e-12;
   const auto exceeds = [&](double excess, double limit) {
-    return excess >
-           std::max(Tolerances().violation * std::abs(limit), round_off * terms_of(constraint, x));
+    return excess > std::max(Tolerances().violation * std::abs(limit),
+                             round_off_of_terms * terms_of(constraint, x));
   };
   return !(constraint.upper && exceeds(value - *constraint.upper, *constraint.upper)) &&
          !(constraint.lower && exceeds(*constraint.lower - value, *constraint.lower));

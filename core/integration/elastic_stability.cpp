@@ -374,34 +374,35 @@ double buckling_load_factor(const MechanismState& unloaded, const MechanismState
   const bool are_held =
       z.cols() > deformations_beside(phi, rigid_motions(unloaded.mechanism, phi)).cols();
   if (are_held) return std::nan("");  // dead loads turn with them, which is not of first order
-  const Mechanism& mechanism = unloaded.mechanism;
   const State &begin = unloaded.state, &end = loaded.state;
-  const auto stiffness = [&](const Eigen::VectorXd& q, const Eigen::VectorXd& a,
+  const auto stiffness = [&](const MechanismState& of, const Eigen::VectorXd& q,
+                             const Eigen::VectorXd& a,
                              const Eigen::VectorXd& lambda) -> Eigen::MatrixXd {
-    State at = begin;
+    State at = of.state;
     at.q = q;
     at.a = a;
     at.lambda = lambda;
-    return symmetric_part(deformation_stiffness(mechanism, at, z));
+    return symmetric_part(deformation_stiffness(of.mechanism, at, z));
   };
   const Eigen::VectorXd none_of_a = Eigen::VectorXd::Zero(begin.a.size()),
                         none_of_lambda = Eigen::VectorXd::Zero(begin.lambda.size());
-  const Eigen::MatrixXd elastic = stiffness(begin.q, none_of_a, none_of_lambda);
+  const Eigen::MatrixXd elastic = stiffness(unloaded, begin.q, none_of_a, none_of_lambda);
   if (!is_positive_definite(elastic)) return none;
   // Accelerations and multipliers bear all loads at the begin, and change to those of equilibrium;
   // deformation grows with the share.
   const Eigen::VectorXd a = begin.a + (end.a - begin.a) / share,
                         lambda = begin.lambda + (end.lambda - begin.lambda) / share;
   std::vector<Eigen::Triplet<double>> entries;
-  AxialStrains(*mechanism.system).add_coupling(end.q, entries);
+  AxialStrains(*loaded.mechanism.system).add_coupling(end.q, entries);
   Eigen::SparseMatrix<double> coupling(end.q.size(), end.q.size());
   coupling.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::MatrixXd scaled = mechanism.scale.asDiagonal() * z;
-  const Eigen::MatrixXd of_strains = stiffness(end.q, end.a, end.lambda) -
-                                     stiffness(begin.q, end.a, end.lambda) -
+  const Eigen::MatrixXd scaled = loaded.mechanism.scale.asDiagonal() * z;
+  const Eigen::MatrixXd of_strains = stiffness(loaded, end.q, end.a, end.lambda) -
+                                     stiffness(loaded, begin.q, end.a, end.lambda) -
                                      scaled.transpose() * (coupling * scaled);
   // −ΔK φ = μ K₀ φ, s = 1/μ
-  const Eigen::MatrixXd change = elastic - stiffness(begin.q, a, lambda) - of_strains / share;
+  const Eigen::MatrixXd change =
+      elastic - stiffness(loaded, begin.q, a, lambda) - of_strains / share;
   const double largest = symmetric_eigenvalues(change, elastic).maxCoeff();
   return largest > 0.0 ? 1.0 / largest : none;
 }

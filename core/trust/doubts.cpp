@@ -23,6 +23,7 @@
 #include "core/trust/lost_places.hpp"
 #include "core/trust/misaligned_joints.hpp"
 #include "core/trust/modal_damping.hpp"
+#include "core/trust/open_positions.hpp"
 #include "core/trust/other_side.hpp"
 #include "core/trust/promised_buckling.hpp"
 #include "core/trust/proportions.hpp"
@@ -119,29 +120,14 @@ Trust judge_run(const TrustedRun& run) {
     doubts.insert(doubts.end(), found.begin(), found.end());
   };
   for (const auto find : {
-           doubt_bending_range,
-           doubt_blocked_drives,
-           doubt_energy_balance,
-           doubt_extrapolation,
-           doubt_far_limits,
-           doubt_frequencies,
-           doubt_idle_freedoms,
-           doubt_initial_motion,
-           doubt_joint_turns,
-           doubt_lost_places,
-           doubt_lost_stiffening,
-           doubt_misaligned_joints,
-           doubt_other_side,
-           doubt_promised_buckling,
-           doubt_proportions,
-           doubt_section_axes,
-           doubt_shear_range,
-           doubt_sliding_contacts,
-           doubt_sudden_start,
-           doubt_taut_members,
-           doubt_turned_sections,
-           doubt_unconnected_bodies,
-           doubt_undetermined_reactions,
+           doubt_bending_range,    doubt_blocked_drives,     doubt_energy_balance,
+           doubt_extrapolation,    doubt_far_limits,         doubt_frequencies,
+           doubt_idle_freedoms,    doubt_initial_motion,     doubt_joint_turns,
+           doubt_lost_places,      doubt_lost_stiffening,    doubt_misaligned_joints,
+           doubt_open_positions,   doubt_other_side,         doubt_promised_buckling,
+           doubt_proportions,      doubt_section_axes,       doubt_shear_range,
+           doubt_sliding_contacts, doubt_sudden_start,       doubt_taut_members,
+           doubt_turned_sections,  doubt_unconnected_bodies, doubt_undetermined_reactions,
            doubt_modal_damping,
        }) {
     add(find(run));

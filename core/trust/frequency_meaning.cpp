@@ -6,8 +6,10 @@
 #include <string>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/base/error.hpp"
+#include "core/integration/turning.hpp"
 #include "core/response/full_mechanism.hpp"
 #include "core/response/mechanism_modes.hpp"
 #include "core/scene/shown_unit.hpp"
@@ -163,16 +165,24 @@ void add_turning(const TrustedRun& run, const std::vector<const Response*>& resp
   const State& state = analysis.vibrating->initial.state;
   if (!analysis.modes_left_out.empty() || state.v.isZero(0.0)) return;
   const Eigen::VectorXd turning = frequencies_in_turning_axes(model_of_modes(analysis), state);
+  std::vector<std::string> told, names;
   for (const auto& [response, shown, other] : shifts(run, responses, turning)) {
-    doubts.push_back(
-        {fmt::format("the frequency \"{}\" is not high against the speed at which the mechanism "
-                     "moves at t = 0: it is {} in axes that stand still, and {} "
-                     "in axes that turn with the bodies, which is right where all turn "
-                     "alike. Do not rely on it.",
-                     response->name, shown, other),
-         true,
-         {response->name}});
+    told.push_back(fmt::format("\"{}\" is {} and {}", response->name, shown, other));
+    names.push_back(response->name);
   }
+  if (names.empty()) return;
+  const double speed = fastest_turn(model_of_modes(analysis).mechanism, state).omega.norm();
+  const std::string beside =
+      speed > 0.0 ? fmt::format(" (beside the machine a whirl has {} more or less, the speed)",
+                                frequency_text(run, *responses.front(), speed))
+                  : "";
+  doubts.push_back(
+      {fmt::format("frequencies are not high against the speed at which the mechanism moves at "
+                   "t = 0: in axes that stand still and in axes that turn with the bodies {}. "
+                   "Where all bodies turn alike the second is right{}; where only some turn, as a "
+                   "rotor on a tower, neither is. Do not rely on {}.",
+                   fmt::join(told, ", "), beside, names.size() == 1 ? "it" : "them"),
+       true, names});
 }
 
 }  // namespace

@@ -1,0 +1,52 @@
+#include "core/trust/open_positions.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "tests/core/trust/doubts_of.hpp"
+
+namespace pleuel::test::open_positions_test {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+/// Two arms of 0.2 m and 0.3 m in a row, both free to turn but for the motor between them, which holds an
+/// angle at t = 0.
+/// @param drawn  the angle that the file places the second arm at, in the plane
+std::vector<Doubt> doubts_of_arms(double angle, double drawn,
+                                  const char* first_joint = "revolute") {
+  return doubts_of(read_scene(fmt::format(
+                       R"j({{"scene": {{"gravity": [0, 0, 0],
+      "bodies": {{
+        "upper": {{"type": "beam", "from": [0, 0, 0], "to": [0.2, 0, 0], "material": "steel",
+                   "rigid": true, "elements": 1, "section": {{"type": "circle", "diameter": 0.02}}}},
+        "lower": {{"type": "beam", "from": [0.2, 0, 0], "to": [{}, {}, 0], "material": "steel",
+                   "rigid": true, "elements": 1, "section": {{"type": "circle", "diameter": 0.02}}}}}},
+      "joints": {{
+        "shoulder": {{"type": "{}", "bodies": ["ground", "upper"], "at": [0, 0, 0]}},
+        "elbow": {{"type": "revolute", "bodies": ["upper", "lower"], "at": [0.2, 0, 0],
+                   "drive": {{"type": "constant", "value": {}}}}}}}}},
+    "simulation": {{"end_time": 0.01, "step": 0.001}},
+    "responses": {{"m": {{"type": "mass"}}}}}})j",
+                       0.2 + 0.3 * std::cos(drawn), 0.3 * std::sin(drawn), first_joint, angle)),
+                   doubt_open_positions);
+}
+
+/// A motor that begins at 0.5 rad turns both arms by something; one that is held leaves nothing open,
+/// and a motor that begins at 0 has nothing to turn (the angle of a joint is zero as it is drawn).
+TEST(OpenPositions, AreToldWhereAMotorTurnsWhatIsFree) {
+  const std::vector<Doubt> found = doubts_of_arms(0.5, 0.0);
+  ASSERT_THAT(found, SizeIs(1));
+  EXPECT_TRUE(found[0].is_serious);
+  EXPECT_THAT(found[0].text, HasSubstr("leave open where else"));
+  EXPECT_THAT(doubts_of_arms(0.0, 0.0), IsEmpty());
+  EXPECT_THAT(doubts_of_arms(0.0, 0.5), IsEmpty());
+  EXPECT_THAT(doubts_of_arms(0.5, 0.0, "fixed"), IsEmpty());
+}
+
+}  // namespace
+}  // namespace pleuel::test::open_positions_test
