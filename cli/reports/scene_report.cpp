@@ -42,7 +42,7 @@ std::vector<BodyRow> body_rows(const Model& model) {
 }
 
 /// Of the size of a coordinate; assembly itself ends at 1e-10.
-constexpr double visible_shift = 1e-6;
+constexpr double visible_shift = 1e-5;
 
 int drives(const Model& model) {
   return static_cast<int>(

@@ -35,7 +35,7 @@ constexpr double least_motion = 1e-4;
 
 /// So many beams are told apart, each of which is simulated with shear alone.
 constexpr std::size_t most_told_apart = 8;
-/// Beams that make less of a change are not named.
+/// Beams that make less of a change, or have less shear than others, are not named.
 constexpr double told_part = 0.1;
 
 class ShearDoubts {
@@ -76,17 +76,23 @@ class ShearDoubts {
     for (Eigen::Index i = 0; i < changes_.size(); ++i) {
       if (is_nothing[static_cast<std::size_t>(i)]) changes_(i) = 0.0;
     }
-    if (changes_.maxCoeff() > tolerable_shear) measure_each();
+    share_out();
   }
 
-  /// Which beams the changes are due to.
-  void measure_each() {
+  /// Which beams the changes are due to: of alarming ones by a simulation with each alone; else those
+  /// whose own share of shear is not far below the largest.
+  void share_out() {
     by_beam_.assign(beams_.size(), changes_);
-    if (beams_.size() == 1 || beams_.size() > most_told_apart) return;
+    for (std::size_t k = 0; k < beams_.size(); ++k) {
+      if (bent_.shares[k] <= told_part * bent_.shares.front()) by_beam_[k].setZero();
+    }
+    const bool is_alarming = changes_.maxCoeff() > alarming;
+    if (!is_alarming || beams_.size() == 1 || beams_.size() > most_told_apart) return;
     for_each_in_parallel(int_size(beams_), available_threads(), [&](int i) {
       try {
         by_beam_[i] = changes_of(*with_shear({beams_[i]}));
-      } catch (const SimulationError&) {  // this one has a part in all
+      } catch (const SimulationError&) {
+        by_beam_[i] = changes_;  // this one has a part in all
       }
     });
   }

@@ -155,7 +155,10 @@ BentBeams find_bent_beams(const TrustedRun& run) {
     if (share > small_shear_share) stubby.emplace_back(-share, name);
   }
   std::sort(stubby.begin(), stubby.end());
-  for (const auto& [share, name] : stubby) found.stubby.push_back(name);
+  for (const auto& [share, name] : stubby) {
+    found.stubby.push_back(name);
+    found.shares.push_back(-share);
+  }
   return found;
 }
 

@@ -10,6 +10,7 @@ namespace pleuel {
 /// How far the elastic beams of a run bend, and which of them are stubby.
 struct BentBeams {
   std::vector<std::string> stubby;  ///< names, the largest share of shear first
+  std::vector<double> shares;       ///< of shear, of each of them
   double deflection = 0.0;          ///< the largest against a body frame [m]
   double rotation = 0.0;            ///< and of a section [rad]
 };
