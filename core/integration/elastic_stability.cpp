@@ -384,9 +384,11 @@ double buckling_load_factor(const MechanismState& unloaded, const MechanismState
     at.lambda = lambda;
     return symmetric_part(deformation_stiffness(of.mechanism, at, z));
   };
-  const Eigen::VectorXd none_of_a = Eigen::VectorXd::Zero(begin.a.size()),
-                        none_of_lambda = Eigen::VectorXd::Zero(begin.lambda.size());
-  const Eigen::MatrixXd elastic = stiffness(unloaded, begin.q, none_of_a, none_of_lambda);
+  // Without loads, weight and what bears them.
+  const Eigen::VectorXd no_forces = Eigen::VectorXd::Zero(begin.lambda.size());
+  const Eigen::MatrixXd elastic =
+      stiffness(unloaded, begin.q, unloaded.mechanism.free_fall, no_forces) -
+      symmetric_part(z.transpose() * stiffness_of_loads(unloaded.mechanism, begin) * z);
   if (!is_positive_definite(elastic)) return none;
   // Accelerations and multipliers bear all loads at the begin, and change to those of equilibrium;
   // deformation grows with the share.

@@ -163,6 +163,13 @@ Eigen::MatrixXd resistance_of_springs(const Mechanism& mechanism, const State& s
   return resistance;
 }
 
+Eigen::MatrixXd stiffness_of_loads(const Mechanism& mechanism, const State& state) {
+  const int n = mechanism.system->coordinates();
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n);
+  for (Term* term : mechanism.loads) sum += scaled_stiffness(*term, mechanism, state);
+  return sum;
+}
+
 std::pair<Eigen::MatrixXd, Eigen::MatrixXd> parted_by_springs(const Eigen::MatrixXd& resistance,
                                                               const Eigen::MatrixXd& motions) {
   constexpr double round_off = 1e-12;

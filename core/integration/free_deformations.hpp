@@ -37,6 +37,9 @@ Eigen::MatrixXd deformations_beside(const Eigen::MatrixXd& phi, const Eigen::Mat
 /// takes nothing away from what the others hold.
 Eigen::MatrixXd resistance_of_springs(const Mechanism& mechanism, const State& state);
 
+/// S R_q S of loads alone.
+Eigen::MatrixXd stiffness_of_loads(const Mechanism& mechanism, const State& state);
+
 /// The motions as rigid bodies that springs resist, and the others.
 /// @param motions  orthonormal columns
 std::pair<Eigen::MatrixXd, Eigen::MatrixXd> parted_by_springs(const Eigen::MatrixXd& resistance,

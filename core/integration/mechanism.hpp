@@ -39,6 +39,10 @@ struct Mechanism {
   std::vector<std::string> equation_names;
   /// Those of the system's terms that are springs, dampers and motors.
   std::vector<Term*> springs;
+  /// Those that are loads besides: forces and torques that the file gives.
+  std::vector<Term*> loads;
+  /// Accelerations at which weight is no load, as all bodies fall; zero without gravity.
+  Eigen::VectorXd free_fall;
   /// Whether forces are laws of the motion, as friction, stops and tables over a coordinate are: they
   /// may change within a step in a way that the steps before tell nothing of.
   bool has_laws_of_motion = false;

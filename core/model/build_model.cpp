@@ -261,7 +261,8 @@ class ModelBuilder {
       model_.terms.loads.push_back(add_term(std::move(built.term)));
       const bool is_spring = std::holds_alternative<SpringDamper>(load.element) ||
                              std::holds_alternative<JointForce>(load.element);
-      if (is_spring) model_.mechanism.springs.push_back(model_.terms.loads.back());
+      (is_spring ? model_.mechanism.springs : model_.mechanism.loads)
+          .push_back(model_.terms.loads.back());
       if (follows_motion(load)) model_.mechanism.has_laws_of_motion = true;
       model_.loads.push_back({load.name, std::move(built.gauge)});
     }
@@ -328,6 +329,7 @@ class ModelBuilder {
     mechanism.guess_q_x.setZero(coordinates_, context_.variables());
     mechanism.guess_v_x.setZero(coordinates_, context_.variables());
     mechanism.scale.setOnes(coordinates_);
+    mechanism.free_fall.setZero(coordinates_);
     mechanism.assembly_weight.setConstant(coordinates_, 1e4);
     for (std::size_t i = 0; i < model_.bodies.size(); ++i) {
       const Body& body = context_.scene.bodies[i];
@@ -342,6 +344,8 @@ class ModelBuilder {
       }
       set_velocity(body, frame);
       mechanism.scale.segment(frame.offset, frame.translations()).setConstant(size);
+      mechanism.free_fall.segment(frame.offset, frame.translations()) =
+          context_.gravity.head(frame.translations());
       mechanism.assembly_weight.segment(frame.offset, frame.size()).setOnes();
       set_elastic_scale(built, size);
       for (int k = 0; k < built.elastic_size(); ++k) {

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "core/base/int_size.hpp"
 #include "core/model/effect_estimates.hpp"
 #include "core/response/linearized_expression.hpp"
 #include "core/scene/response_parts.hpp"
@@ -129,32 +128,22 @@ class EffectMeasurement {
 
 }  // namespace
 
-Eigen::VectorXd relative_changes(const ProblemFile& problem, const Analysis& reference,
-                                 const Analysis& other) {
+LargestChange largest_change(const ProblemFile& problem, const Analysis& reference,
+                             const Analysis& other) {
   std::map<std::string, double> floors;
   for (std::size_t i = 0; i < problem.responses.size(); ++i) {
     double& floor = floors[reference.responses[i].unit];
     floor = std::max(floor, round_off * size_of(reference, i));
   }
-  Eigen::VectorXd changes = Eigen::VectorXd::Zero(int_size(problem.responses));
+  LargestChange largest;
   for (std::size_t i = 0; i < problem.responses.size(); ++i) {
     if (is_monitor(problem, i)) continue;
     const double value = reference.reductions[i].value;
     const double difference = std::abs(other.reductions[i].value - value);
     if (difference <= floors[reference.responses[i].unit]) continue;
     const double scale = std::max(std::abs(value), near_zero * size_of(reference, i));
-    changes(static_cast<Eigen::Index>(i)) =
+    const double change =
         scale > 0.0 ? difference / scale : std::numeric_limits<double>::infinity();
-  }
-  return changes;
-}
-
-LargestChange largest_change(const ProblemFile& problem, const Analysis& reference,
-                             const Analysis& other) {
-  LargestChange largest;
-  const Eigen::VectorXd changes = relative_changes(problem, reference, other);
-  for (std::size_t i = 0; i < problem.responses.size(); ++i) {
-    const double change = changes(static_cast<Eigen::Index>(i));
     if (!(change <= largest.relative)) largest = {change, problem.responses[i].name};
   }
   return largest;

@@ -13,14 +13,10 @@ struct LargestChange {
   std::string response;   ///< its name
 };
 
-/// Relative changes of values, one a response: |y − y₀| over the larger of |y₀| and a hundredth of the
-/// largest magnitude in the history of y₀ (a value near zero says nothing of its own size).
-/// Differences below 1e-9 of the largest magnitude in the histories of the same unit are round-off,
-/// and 0. So are monitors (balance of energy, drift of constraints), which are left out.
-Eigen::VectorXd relative_changes(const ProblemFile& problem, const Analysis& reference,
-                                 const Analysis& other);
-
-/// The largest of them.
+/// Relative changes of values: |y − y₀| over the larger of |y₀| and a hundredth of the largest
+/// magnitude in the history of y₀ (a value near zero says nothing of its own size). Differences
+/// below 1e-9 of the largest magnitude in the histories of the same unit are round-off. Monitors
+/// (balance of energy, drift of constraints) are left out.
 LargestChange largest_change(const ProblemFile& problem, const Analysis& reference,
                              const Analysis& other);
 

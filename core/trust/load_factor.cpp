@@ -35,12 +35,14 @@ LoadFactor::LoadFactor(const ProblemFile& problem, const Eigen::VectorXd& x,
                        const Analysis& analysis)
     : analysis_(analysis) {
   const Mechanism& mechanism = analysis.model.mechanism;
-  const int coordinates = mechanism.system->coordinates();
+  const int coordinates = mechanism.system->coordinates(),
+            multipliers = mechanism.system->multipliers();
   if (!mechanism.springs.empty() || coordinates > most_judged_coordinates) return;
   // What moves in space because of its loads may move in a plane without.
   for (const EffectChoice choice : {problem.effects.spatial_motion, EffectChoice::on}) {
     Model model = unloaded_model(problem, x, choice);
-    if (model.mechanism.system->coordinates() != coordinates) continue;
+    const System& system = *model.mechanism.system;
+    if (system.coordinates() != coordinates || system.multipliers() != multipliers) continue;
     free_ = std::move(model);
     return;
   }

@@ -14,8 +14,8 @@
 #include "core/base/find_named.hpp"
 #include "core/base/int_size.hpp"
 #include "core/base/parallel.hpp"
-#include "core/response/effect_measurement.hpp"
 #include "core/scene/body_groups.hpp"
+#include "core/trust/response_changes.hpp"
 #include "core/trust/round_off.hpp"
 #include "core/trust/stubby_beams.hpp"
 
@@ -28,11 +28,6 @@ constexpr double tolerable_shear = 0.01;
 /// From here on numbers are those of another beam. Below, that shear is missing is a property of
 /// the theory that is used, as good as it is for most machines.
 constexpr double alarming = 0.1;
-/// A place that comes near to the zero of its axis: of its motion.
-constexpr double near_zero = 0.1;
-/// Motions that are none, of a coordinate.
-constexpr double least_motion = 1e-4;
-
 /// So many beams are told apart, each of which is simulated with shear alone.
 constexpr std::size_t most_told_apart = 8;
 /// Beams that make less of a change, or have less shear than others, are not named.
@@ -40,8 +35,13 @@ constexpr double told_part = 0.1;
 
 class ShearDoubts {
  public:
-  ShearDoubts(const TrustedRun& run, BentBeams bent)
-      : run_(run), bent_(std::move(bent)), beams_(bent_.stubby), groups_(run.problem.scene) {}
+  ShearDoubts(const TrustedRun& run, const std::vector<StubbyBeam>& stubby)
+      : run_(run), groups_(run.problem.scene) {
+    for (const auto& [name, share] : stubby) {
+      beams_.push_back(name);
+      shares_.push_back(share);
+    }
+  }
 
   std::vector<Doubt> find() {
     try {
@@ -84,7 +84,7 @@ class ShearDoubts {
   void share_out() {
     by_beam_.assign(beams_.size(), changes_);
     for (std::size_t k = 0; k < beams_.size(); ++k) {
-      if (bent_.shares[k] <= told_part * bent_.shares.front()) by_beam_[k].setZero();
+      if (shares_[k] <= told_part * shares_.front()) by_beam_[k].setZero();
     }
     const bool is_alarming = changes_.maxCoeff() > alarming;
     if (!is_alarming || beams_.size() == 1 || beams_.size() > most_told_apart) return;
@@ -99,38 +99,7 @@ class ShearDoubts {
 
   /// What shear changes of each response, relative.
   Eigen::VectorXd changes_of(const Analysis& sheared) const {
-    Eigen::VectorXd changes = relative_changes(run_.problem, sheared, run_.analysis);
-    for (Eigen::Index i = 0; i < changes.size(); ++i) {
-      if (changes(i) == 0.0) continue;
-      changes(i) = of_motion(sheared, static_cast<std::size_t>(i), changes(i));
-    }
-    return changes;
-  }
-
-  /// The change of a coordinate in place of that relative to its value.
-  double of_motion(const Analysis& sheared, std::size_t i, double relative) const {
-    double bent = 0.0;
-    switch (run_.problem.responses[i].type) {
-      case ResponseType::position:
-      case ResponseType::spring_length:
-        bent = bent_.deflection;
-        break;
-      case ResponseType::joint_position:
-        bent = sheared.responses[i].unit == "rad" ? bent_.rotation : bent_.deflection;
-        break;
-      case ResponseType::angle:
-        bent = bent_.rotation;
-        break;
-      default:
-        return relative;
-    }
-    const Eigen::MatrixXd& history = sheared.histories[i];
-    const double value = sheared.reductions[i].value, size = std::abs(value);
-    const double motion =
-        std::max({(history.rowwise().maxCoeff() - history.rowwise().minCoeff()).maxCoeff(), bent,
-                  least_motion * size});
-    const double scale = std::clamp(size, near_zero * motion, motion);
-    return std::abs(run_.analysis.reductions[i].value - value) / scale;
+    return response_changes(run_.problem, sheared, run_.analysis);
   }
 
   /// Of the responses that change by more than one share and not more than another.
@@ -155,7 +124,7 @@ class ShearDoubts {
     if (beams.empty()) beams = beams_;  // they do it together
     const bool is_serious = above >= alarming;
     doubts.push_back(
-        {fmt::format("{} {} stubby: shear, which {}, would change {} of what {} with it. {}: {}.",
+        {fmt::format("{} {} stubby: shear, which {}, would change {} (of what {} then). {}: {}.",
                      quoted(beams), beams.size() == 1 ? "is" : "are",
                      beams.size() == 1 ? "it leaves out" : "they leave out",
                      fmt::join(changed, ", "), names.size() == 1 ? "it is" : "they are",
@@ -208,8 +177,8 @@ class ShearDoubts {
   }
 
   const TrustedRun& run_;
-  BentBeams bent_;
-  const std::vector<std::string>& beams_;  ///< that get shear
+  std::vector<std::string> beams_;  ///< that get shear
+  std::vector<double> shares_;      ///< of shear, of each
   BodyGroups groups_;
   std::unique_ptr<Analysis> sheared_;
   Eigen::VectorXd changes_;               ///< relative, one a response
@@ -219,9 +188,9 @@ class ShearDoubts {
 }  // namespace
 
 std::vector<Doubt> doubt_shear_range(const TrustedRun& run) {
-  BentBeams bent = find_bent_beams(run);
-  if (bent.stubby.empty()) return {};
-  return ShearDoubts(run, std::move(bent)).find();
+  const std::vector<StubbyBeam> stubby = find_stubby_beams(run);
+  if (stubby.empty()) return {};
+  return ShearDoubts(run, stubby).find();
 }
 
 }  // namespace pleuel

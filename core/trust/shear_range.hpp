@@ -11,8 +11,7 @@ namespace pleuel {
 /// (stubby_beams.hpp), the mechanism is simulated once more, with the steps of the run and with shear
 /// in all of these beams (where that is serious, with each alone, to know which it is): stubby beams pass loads on to others and to springs, change frequencies and
 /// reactions that are shared. Told from 1 % of what a response is with shear, serious from 10 %.
-/// Positions, angles and lengths of springs, whose zero is arbitrary, are compared with how far they
-/// move, or with how far beams bend where they do not.
+/// What a change is relative to, response_changes.hpp says.
 std::vector<Doubt> doubt_shear_range(const TrustedRun& run);
 
 }  // namespace pleuel

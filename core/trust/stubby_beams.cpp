@@ -123,42 +123,32 @@ double shear_share(const ProblemFile& problem, const Eigen::VectorXd& x, const M
   return largest;
 }
 
-BentBeams find_bent_beams(const TrustedRun& run) {
+std::vector<StubbyBeam> find_stubby_beams(const TrustedRun& run) {
   const Model& model = run.analysis.model;
   const int half_waves = most_half_waves(run.problem);
   const auto largest = largest_deformations(model, run.analysis.trajectory);
-  BentBeams found;
   std::map<std::string, double> shares;
   State state;
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     const BodyModel& body = model.bodies[i];
     if (!body.is_beam() || !body.is_elastic) continue;
-    const bool is_bent = largest[i].bending > straight_beam;
-    if (is_bent) {
-      run.analysis.trajectory.states->load(largest[i].bending_step, state);
-      const Eigen::MatrixXd nodal = nodal_displacements(body, state);
-      found.deflection = std::max(found.deflection, nodal.topRows<3>().cwiseAbs().maxCoeff());
-      found.rotation = std::max(found.rotation, largest[i].bending);
-    }
     const auto& beam = std::get<BeamBody>(find_named(run.problem.scene.bodies, body.name)->shape);
     if (beam.has_shear) continue;
     double& share = shares[body.name];  // of a divided beam, with each frame where this bends most
     if (half_waves > 0) {
       share = std::max(share, half_waves * half_waves * share_by_proportions(run, body.name));
     }
-    if (is_bent) {
-      share = std::max(share, shear_share(run.problem, run.x, model, body.name, state));
-    }
+    if (largest[i].bending <= straight_beam) continue;
+    run.analysis.trajectory.states->load(largest[i].bending_step, state);
+    share = std::max(share, shear_share(run.problem, run.x, model, body.name, state));
   }
-  std::vector<std::pair<double, std::string>> stubby;
+  std::vector<StubbyBeam> found;
   for (const auto& [name, share] : shares) {
-    if (share > small_shear_share) stubby.emplace_back(-share, name);
+    if (share > small_shear_share) found.push_back({name, share});
   }
-  std::sort(stubby.begin(), stubby.end());
-  for (const auto& [share, name] : stubby) {
-    found.stubby.push_back(name);
-    found.shares.push_back(-share);
-  }
+  std::stable_sort(found.begin(), found.end(), [](const StubbyBeam& one, const StubbyBeam& other) {
+    return one.share > other.share;
+  });
   return found;
 }
 

@@ -7,12 +7,9 @@
 
 namespace pleuel {
 
-/// How far the elastic beams of a run bend, and which of them are stubby.
-struct BentBeams {
-  std::vector<std::string> stubby;  ///< names, the largest share of shear first
-  std::vector<double> shares;       ///< of shear, of each of them
-  double deflection = 0.0;          ///< the largest against a body frame [m]
-  double rotation = 0.0;            ///< and of a section [rad]
+struct StubbyBeam {
+  std::string name;
+  double share = 0.0;  ///< of shear [–]
 };
 
 /// Finds elastic beams without shear in which it may count: those in which it would store more than a
@@ -22,7 +19,8 @@ struct BentBeams {
 /// The share is that of the section forces of the run: V²/(κ G A) over M²/(EI), both integrated;
 /// 3EI/(κ G A L²) of a cantilever with a force at its tip, 12EI/(κ G A L²) of a beam on two pins with
 /// one in the middle. κ is that of the sections, or of a rectangle where they do not say.
-BentBeams find_bent_beams(const TrustedRun& run);
+/// @returns the largest share first
+std::vector<StubbyBeam> find_stubby_beams(const TrustedRun& run);
 
 /// The share of one beam in a state, of the plane in which it is larger. [–]
 /// @param x  design variables [SI]

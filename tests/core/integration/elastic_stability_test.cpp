@@ -524,5 +524,22 @@ TEST(ElasticStability, TheLoadOfBucklingIsThatOfTheMastBelowItsArms) {
               HasSubstr("at some 0.5 of these loads"));
 }
 
+/// Euler's load of two pins, π² EI/L², and of a cantilever, a quarter of it, whatever the frame of the body
+/// is that the load turns with, and however many there are.
+TEST(ElasticStability, TheLoadOfBucklingIsThatOfEveryFrame) {
+  const std::string pins =
+      joint("a", "revolute", 0.0) + ", " + joint("b", "point-on-line", 1.0, "[1, 0, 0]");
+  for (const std::string frame : {"tangent", "chord", "tangent-end", "mean-axis"}) {
+    for (const double share : {1.1, 1.5, 3.0}) {
+      const double euler = std::numbers::pi * std::numbers::pi * stiffness;
+      const std::string at = fmt::format("buckles, at some {:.3g} of", 1.0 / share);
+      EXPECT_THAT(error_of(beam(pins, -share * euler, 0.0, 8, "{}", frame)), HasSubstr(at))
+          << frame << share;
+      EXPECT_THAT(error_of(beam(clamp, -0.25 * share * euler, 0.0, 8, "{}", frame)), HasSubstr(at))
+          << frame << share;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace pleuel::test::elastic_stability_test

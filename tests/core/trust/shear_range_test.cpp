@@ -107,7 +107,7 @@ TEST(ShearRange, IsLeftByStubbyBeams) {
   const std::vector<Doubt> doubts = ShearedBeam(StubbyBeam{rectangle(0.5)}).doubts();
   ASSERT_EQ(doubts.size(), 1u);
   EXPECT_THAT(doubts.front().text, HasSubstr("\"beam\" is stubby"));
-  EXPECT_THAT(doubts.front().text, HasSubstr("\"asked\" by 16 % of what it is with it"));
+  EXPECT_THAT(doubts.front().text, HasSubstr("\"asked\" by 16 % (of what it is then)"));
   EXPECT_EQ(doubts.front().responses, std::vector<std::string>{"asked"});
   EXPECT_TRUE(doubts.front().is_serious);
   EXPECT_TRUE(ShearedBeam(StubbyBeam{rectangle(0.05)}).doubts().empty());
@@ -324,7 +324,7 @@ TEST(ShearRange, DoesNotConcernBeamsThatHaveShear) {
 TEST(ShearRange, SaysWhatHelps) {
   StubbyBeam beam{rectangle(0.5)};
   EXPECT_THAT(ShearedBeam(beam).doubts()[0].text,
-              HasSubstr("by 16 % of what it is with it. Do not trust that: set "
+              HasSubstr("by 16 % (of what it is then). Do not trust that: set "
                         "/scene/bodies/beam/shear to true."));
   beam.section = R"({"type": "general", "area": 0.025, "inertia_y": 5e-6, "inertia_z": 5e-4,
                      "torsion": 2e-5, "points": [{"y": 0.25, "z": 0, "shear": 0}]})";
@@ -367,7 +367,7 @@ TEST(ShearOfSeveralBeams, AddsUp) {
   ASSERT_EQ(found.size(), 1U);
   EXPECT_TRUE(found[0].is_serious);
   EXPECT_THAT(found[0].text, HasSubstr(R"("second", "first" are stubby)"));
-  EXPECT_THAT(found[0].text, HasSubstr(R"("tip" by 11 % of)"));  // 0.12/(1 + 0.12)
+  EXPECT_THAT(found[0].text, HasSubstr(R"("tip" by 11 % (of)"));  // 0.12/(1 + 0.12)
   EXPECT_TRUE(doubts(R"("shear": true)").empty());
 }
 
@@ -463,6 +463,67 @@ TEST(ShearRange, IsNotLeftByWhatDoesNotBend) {
   beam.response = R"({"type": "position", "body": "beam", "at": 1, "direction": "y",
                       "over_time": "max-abs"})";
   EXPECT_TRUE(ShearedBeam(beam).doubts().empty());
+}
+
+/// A cantilever at a height of 0.5 m that a slender one, which has nothing to do with it, out-bends by far:
+/// its position is as wrong as how far it sags, 3EI/(κGAL²), and so is the difference to where it is drawn.
+TEST(ShearRange, OfAPositionIsThatOfItsOwnMotion) {
+  const std::vector<Doubt> found = doubts_of(read_scene(R"({"scene": {"gravity": [0, 0, 0],
+        "materials": {"m": {"young": 2.1e11, "poisson": 0.3, "density": 7850}},
+        "bodies": {"block": {"type": "beam", "from": [0, 0.5, 0], "to": [0.1, 0.5, 0], "material": "m",
+                   "elements": 2, "section": {"type": "rectangle", "width": 0.01, "height": 0.05}},
+                   "reed": {"type": "beam", "from": [1, 0, 0], "to": [2, 0, 0], "material": "m",
+                   "elements": 2, "section": {"type": "rectangle", "width": 0.01, "height": 0.01}}},
+        "joints": {"a": {"type": "fixed", "bodies": ["ground", "block"], "at": [0, 0.5, 0]},
+                   "b": {"type": "fixed", "bodies": ["ground", "reed"], "at": [1, 0, 0]}},
+        "loads": {"push": {"type": "force", "body": "block", "at": [0.1, 0.5, 0],
+                           "direction": [0, -1, 0], "value": 50000},
+                  "bend": {"type": "force", "body": "reed", "at": [2, 0, 0],
+                           "direction": [0, -1, 0], "value": 10}}},
+      "simulation": {"end_time": 0.002, "step": 0.001, "initial_state": "quasi-static"},
+      "responses": {
+        "y": {"type": "position", "body": "block", "at": 1, "direction": "y", "over_time": "min"},
+        "sag": {"type": "expression", "value": "0.5 m - y"},
+        "of_reed": {"type": "position", "body": "reed", "at": 1, "direction": "y",
+                    "over_time": "min"}}})"),
+                                             doubt_shear_range);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_THAT(found[0].responses, testing::ElementsAre("y", "sag"));
+  const double share = 0.5 * (1 + nu) / rectangle_shear_coefficient(nu) * 0.25;
+  EXPECT_NEAR(told_percent(found[0].text), 100.0 * share / (1.0 + share), 0.6);
+}
+
+/// The damage of one period is small beside 1, and beside nothing else: m powers of the stress. The stress
+/// that a spring beside a stubby block leaves to it is 1/(2 + s) of the load, not a half.
+TEST(ShearRange, OfASmallDamageIsThatOfTheDamage) {
+  const auto damage = [](const std::string& shear) {
+    return read_scene(R"({"scene": {"gravity": [0, 0, 0],
+        "materials": {"m": {"young": 2.1e11, "poisson": 0.3, "density": 7850,
+                            "ultimate_strength": 1e9, "fatigue_strength": 1e9,
+                            "fatigue_exponent": 5}},
+        "bodies": {"block": {"type": "beam", "from": [0, 0, 0], "to": [0.1, 0, 0], "material": "m",
+                   "elements": 2, "section": {"type": "rectangle", "width": 0.01, "height": 0.1}, )" +
+                      shear + R"(}},
+        "joints": {"a": {"type": "fixed", "bodies": ["ground", "block"], "at": [0, 0, 0]}},
+        "loads": {"push": {"type": "force", "body": "block", "at": [0.1, 0, 0],
+                           "direction": [0, -1, 0],
+                           "value": {"type": "harmonic", "amplitude": 10000, "frequency": 1}},
+                  "spring": {"type": "spring", "bodies": ["block", "ground"],
+                             "at": [[0.1, 0, 0], [0.1, -5, 0]], "stiffness": 5.25e8}}},
+      "simulation": {"end_time": 1, "step": 0.05, "initial_state": "quasi-static"},
+      "responses": {"damage": {"type": "fatigue-damage", "body": "block",
+                                "criterion": "goodman"}}})");
+  };
+  const ProblemFile problem = damage(R"("shear": false)");
+  const double without = values_of(*analyze(problem, start_design(problem)))(0);
+  const ProblemFile other = damage(R"("shear": true)");
+  const double with = values_of(*analyze(other, start_design(other)))(0);
+  ASSERT_GT(with, 0.0);
+  ASSERT_LT(with, 1e-3);
+  const std::vector<Doubt> found = doubts_of(problem, doubt_shear_range);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(told_percent(found[0].text), 100.0 * std::abs(without / with - 1.0),
+              0.06 * 100.0 * std::abs(without / with - 1.0));
 }
 
 }  // namespace
