@@ -188,6 +188,7 @@ class ShearDoubts {
 }  // namespace
 
 std::vector<Doubt> doubt_shear_range(const TrustedRun& run) {
+  if (run.problem.responses.empty()) return {};
   const std::vector<StubbyBeam> stubby = find_stubby_beams(run);
   if (stubby.empty()) return {};
   return ShearDoubts(run, stubby).find();

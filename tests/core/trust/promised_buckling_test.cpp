@@ -108,5 +108,21 @@ TEST(PromisedBuckling, IsTrueOfAMemberByItself) {
   EXPECT_THAT(doubts_of(read_scene(column), doubt_promised_buckling), IsEmpty());
 }
 
+/// Without its load this beam would move in another set of constraints: a torque in a plane on a planar
+/// joint, which has no equations there.
+TEST(PromisedBuckling, IsNotAskedWhereLoadsDecideWhatConstraintsThereAre) {
+  const std::string sliding = R"j({"scene": {
+      "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": [0.5, 0, 0], "elements": 4,
+        "material": "steel", "section": {"type": "rectangle", "width": 0.02, "height": 0.03}}},
+      "joints": {"p": {"type": "planar", "bodies": ["ground", "bar"], "at": [0, 0, 0],
+                       "axis": [0, 0, 1]}},
+      "loads": {"turn": {"type": "torque", "body": "bar", "at": [0.5, 0, 0],
+                         "direction": [0, 0, 1],
+                         "value": {"type": "ramp", "to": 100, "end": 0.005}}}},
+    "simulation": {"end_time": 0.005, "step": 0.0005},
+    "responses": {"own": {"type": "buckling", "body": "bar", "over_time": "max"}}})j";
+  EXPECT_THAT(doubts_of(read_scene(sliding), doubt_promised_buckling), IsEmpty());
+}
+
 }  // namespace
 }  // namespace pleuel::test::promised_buckling_test

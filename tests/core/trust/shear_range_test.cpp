@@ -456,6 +456,13 @@ TEST(ShearRange, OfASpringIsThatOfItsLoad) {
   EXPECT_NEAR(told_percent(found[0].text), 100.0 * (1.0 - 0.5 / with), 0.6);
 }
 
+/// A file without responses asks nothing.
+TEST(ShearRange, IsNotAskedWithoutResponses) {
+  ProblemFile problem = StubbyBeam{rectangle(0.5)}.problem();
+  problem.responses.clear();
+  EXPECT_TRUE(doubts_of(problem, doubt_shear_range).empty());
+}
+
 /// A column that stands, and does not bend, has no deflection that shear could change.
 TEST(ShearRange, IsNotLeftByWhatDoesNotBend) {
   StubbyBeam beam{rectangle(0.3)};
