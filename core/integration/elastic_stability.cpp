@@ -299,8 +299,8 @@ Eigen::MatrixXd in_turning_axes(const Mechanism& mechanism, const State& state,
   return DenseLu(T).solve(deformations);
 }
 
-/// The elastic coordinates of bodies that stand still, and of those that turn, beside those that are
-/// not looked at.
+/// The elastic coordinates of bodies that stand still, and of those that turn, beside those that
+/// are not looked at.
 Parts deforming_parts(const Mechanism& mechanism, const State& state, const FastestTurn& turn,
                       const std::vector<int>& fixed) {
   constexpr double standing = 0.01;
@@ -322,8 +322,8 @@ std::vector<int> joined(std::vector<int> some, const std::vector<int>& others) {
   return some;
 }
 
-/// Of the parts in which something turns. Where what turns and what it turns on both deform, as a fan
-/// on a mast, no axes make the coefficients constant: each is judged with the other one rigid.
+/// Of the parts in which something turns. Where what turns and what it turns on both deform, as a
+/// fan on a mast, no axes make the coefficients constant: each is judged with the other one rigid.
 ElasticStability stability_of_turning(const Mechanism& mechanism, const State& state,
                                       const FastestTurn& turn, const std::vector<int>& fixed) {
   const Parts deforming = deforming_parts(mechanism, state, turn, fixed);

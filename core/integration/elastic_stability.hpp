@@ -37,7 +37,8 @@ struct MechanismState {
 /// Not a number where springs hold motions as rigid bodies, which loads turn at once.
 /// Linear buckling: K with the forces that the loads cause, without the coupling of bending with
 /// stretching by deflection, which is of second order in both.
-/// @param unloaded  at a state without deformation
+/// @param unloaded  at a state without deformation, where accelerations and multipliers bear the
+///                  loads, or without loads
 /// @param loaded    in equilibrium with `share` of the loads, in the same coordinates
 double buckling_load_factor(const MechanismState& unloaded, const MechanismState& loaded,
                             double share);

@@ -8,10 +8,10 @@
 namespace pleuel {
 
 /// Positions that the file gives and joints and drives do not let be, where they leave open which
-/// others they are: as a drive that begins at an angle between two bodies that are both free to turn.
-/// The mechanism starts as close to the file as possible, by lengths and angles, which are compared by the
-/// size of the mechanism at the start of its variables; serious where another measure moves a body by
-/// more than a hundredth of this size, or of a radian.
+/// others they are: as a drive that begins at an angle between two bodies that are both free to
+/// turn. The mechanism starts as close to the file as possible, by lengths and angles, which are
+/// compared by the size of the mechanism at the start of its variables; serious where another
+/// measure moves a body by more than a hundredth of this size, or of a radian.
 std::vector<Doubt> doubt_open_positions(const TrustedRun& run);
 
 }  // namespace pleuel

@@ -21,7 +21,8 @@ constexpr double near_zero_place = 0.1;
 constexpr double far_from_limit = 0.1;
 /// Motions that are none, of a coordinate.
 constexpr double least_motion = 1e-4;
-/// Of the largest magnitude in histories of the same unit, and of what formulas and integrals add up.
+/// Of the largest magnitude in histories of the same unit, and of what formulas and integrals add
+/// up.
 constexpr double round_off_of_unit = 1e-12, round_off_of_sums = 1e-9, cancelled = 1e-6;
 
 class ResponseChanges {

@@ -79,8 +79,8 @@ class ShearDoubts {
     share_out();
   }
 
-  /// Which beams the changes are due to: of alarming ones by a simulation with each alone; else those
-  /// whose own share of shear is not far below the largest.
+  /// Which beams the changes are due to: of alarming ones by a simulation with each alone; else
+  /// those whose own share of shear is not far below the largest.
   void share_out() {
     by_beam_.assign(beams_.size(), changes_);
     for (std::size_t k = 0; k < beams_.size(); ++k) {

@@ -430,8 +430,8 @@ TEST(ElasticStability, OfAColumnOnASpringEndsAtTheLoadOfBothTogether) {
   }
 }
 
-/// A balanced wheel on the tip of that column, which a motor turns at any speed, neither holds it nor
-/// sets it on its way.
+/// A balanced wheel on the tip of that column, which a motor turns at any speed, neither holds it
+/// nor sets it on its way.
 TEST(ElasticStability, OfAColumnOnASpringIsThatOfTheColumnBelowAWheel) {
   // Of k L = EI: u tan u = 1.
   const double critical = 0.8603335890193798 * 0.8603335890193798 * stiffness;
@@ -460,8 +460,8 @@ TEST(ElasticStability, OfAColumnOnASpringIsThatOfTheColumnBelowAWheel) {
   }
 }
 
-/// A mast of 1 m with a fan of four blades, which turns about its axis or across it and is pressed by
-/// a share of the Euler load π² EI/4L² of the mast. Its first vibration has some 30 rad/s.
+/// A mast of 1 m with a fan of four blades, which turns about its axis or across it and is pressed
+/// by a share of the Euler load π² EI/4L² of the mast. Its first vibration has some 30 rad/s.
 std::string fan_on_a_mast(const std::string& axis, double speed, double share) {
   const double press = share * std::pow(std::numbers::pi, 2) * 2.1e11 * 0.03 * 1e-6 / 12 / 4;
   const bool is_about_mast = axis == "[1, 0, 0]";
@@ -518,14 +518,15 @@ TEST(ElasticStability, OfAnElasticRotorOnAnElasticStandIsThatOfEach) {
   }
 }
 
-/// The load that it buckles at is that of linear buckling, whatever rides on it without being pressed.
+/// The load that it buckles at is that of linear buckling, whatever rides on it without being
+/// pressed.
 TEST(ElasticStability, TheLoadOfBucklingIsThatOfTheMastBelowItsArms) {
   EXPECT_THAT(error_of(fan_on_a_mast("[0, 0, 1]", 0.0, 2.0)),
               HasSubstr("at some 0.5 of these loads"));
 }
 
-/// Euler's load of two pins, π² EI/L², and of a cantilever, a quarter of it, whatever the frame of the body
-/// is that the load turns with, and however many there are.
+/// Euler's load of two pins, π² EI/L², and of a cantilever, a quarter of it, whatever the frame of
+/// the body is that the load turns with, and however many there are.
 TEST(ElasticStability, TheLoadOfBucklingIsThatOfEveryFrame) {
   const std::string pins =
       joint("a", "revolute", 0.0) + ", " + joint("b", "point-on-line", 1.0, "[1, 0, 0]");

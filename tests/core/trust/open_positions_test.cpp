@@ -14,8 +14,8 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-/// Two arms of 0.2 m and 0.3 m in a row, both free to turn but for the motor between them, which holds an
-/// angle at t = 0.
+/// Two arms of 0.2 m and 0.3 m in a row, both free to turn but for the motor between them, which
+/// holds an angle at t = 0.
 /// @param drawn  the angle that the file places the second arm at, in the plane
 std::vector<Doubt> doubts_of_arms(double angle, double drawn,
                                   const char* first_joint = "revolute") {
@@ -36,8 +36,9 @@ std::vector<Doubt> doubts_of_arms(double angle, double drawn,
                    doubt_open_positions);
 }
 
-/// A motor that begins at 0.5 rad turns both arms by something; one that is held leaves nothing open,
-/// and a motor that begins at 0 has nothing to turn (the angle of a joint is zero as it is drawn).
+/// A motor that begins at 0.5 rad turns both arms by something; one that is held leaves nothing
+/// open, and a motor that begins at 0 has nothing to turn (the angle of a joint is zero as it is
+/// drawn).
 TEST(OpenPositions, AreToldWhereAMotorTurnsWhatIsFree) {
   const std::vector<Doubt> found = doubts_of_arms(0.5, 0.0);
   ASSERT_THAT(found, SizeIs(1));

@@ -108,8 +108,8 @@ TEST(PromisedBuckling, IsTrueOfAMemberByItself) {
   EXPECT_THAT(doubts_of(read_scene(column), doubt_promised_buckling), IsEmpty());
 }
 
-/// Without its load this beam would move in another set of constraints: a torque in a plane on a planar
-/// joint, which has no equations there.
+/// Without its load this beam would move in another set of constraints: a torque in a plane on a
+/// planar joint, which has no equations there.
 TEST(PromisedBuckling, IsNotAskedWhereLoadsDecideWhatConstraintsThereAre) {
   const std::string sliding = R"j({"scene": {
       "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": [0.5, 0, 0], "elements": 4,

@@ -221,8 +221,8 @@ TEST(ShearRange, IsSeenWithOneElementAFrame) {
 }
 
 /// Shear lowers Euler's load P to P/(1 + s), s = P/(κGA) (Timoshenko & Gere, Theory of Elastic
-/// Stability, art. 2.17): π² EI/(κGAL²), with I/A = d²/16 of a circle. The share of the load that it
-/// buckles at rises by s, and is s/(1 + s) of what it is with shear too small.
+/// Stability, art. 2.17): π² EI/(κGAL²), with I/A = d²/16 of a circle. The share of the load that
+/// it buckles at rises by s, and is s/(1 + s) of what it is with shear too small.
 TEST(ShearRange, OfBucklingIsThatOfEulersLoad) {
   StubbyBeam beam{R"({"type": "circle", "diameter": 0.5})"};
   beam.direction = "[-1, 0, 0]";
@@ -435,8 +435,8 @@ TEST(ShearRange, OfABlockIsToldOfWhatStandsBesideIt) {
   EXPECT_TRUE(doubts_of(problem(true), doubt_shear_range).empty());
 }
 
-/// A spring at the tip of a stubby cantilever, as stiff as that without shear, takes half of the load,
-/// and 1/(1 + 1/(1 + s)) of it in truth.
+/// A spring at the tip of a stubby cantilever, as stiff as that without shear, takes half of the
+/// load, and 1/(1 + 1/(1 + s)) of it in truth.
 TEST(ShearRange, OfASpringIsThatOfItsLoad) {
   const double share = 0.5 * (1 + nu) / rectangle_shear_coefficient(nu);
   const std::vector<Doubt> found = doubts_of(read_scene(R"({"scene": {
@@ -472,8 +472,9 @@ TEST(ShearRange, IsNotLeftByWhatDoesNotBend) {
   EXPECT_TRUE(ShearedBeam(beam).doubts().empty());
 }
 
-/// A cantilever at a height of 0.5 m that a slender one, which has nothing to do with it, out-bends by far:
-/// its position is as wrong as how far it sags, 3EI/(κGAL²), and so is the difference to where it is drawn.
+/// A cantilever at a height of 0.5 m that a slender one, which has nothing to do with it, out-bends
+/// by far: its position is as wrong as how far it sags, 3EI/(κGAL²), and so is the difference to
+/// where it is drawn.
 TEST(ShearRange, OfAPositionIsThatOfItsOwnMotion) {
   const std::vector<Doubt> found = doubts_of(read_scene(R"({"scene": {"gravity": [0, 0, 0],
         "materials": {"m": {"young": 2.1e11, "poisson": 0.3, "density": 7850}},
@@ -500,8 +501,8 @@ TEST(ShearRange, OfAPositionIsThatOfItsOwnMotion) {
   EXPECT_NEAR(told_percent(found[0].text), 100.0 * share / (1.0 + share), 0.6);
 }
 
-/// The damage of one period is small beside 1, and beside nothing else: m powers of the stress. The stress
-/// that a spring beside a stubby block leaves to it is 1/(2 + s) of the load, not a half.
+/// The damage of one period is small beside 1, and beside nothing else: m powers of the stress. The
+/// stress that a spring beside a stubby block leaves to it is 1/(2 + s) of the load, not a half.
 TEST(ShearRange, OfASmallDamageIsThatOfTheDamage) {
   const auto damage = [](const std::string& shear) {
     return read_scene(R"({"scene": {"gravity": [0, 0, 0],
