@@ -262,12 +262,12 @@ ElasticStability standing_stability(const Mechanism& mechanism, const State& sta
   return result;
 }
 
-/// The coordinates of a mechanism, by whether something turns in the part that they belong to; nothing
-/// connects one part with another.
+/// Coordinates of a mechanism, by whether what they belong to turns.
 struct Parts {
   std::vector<int> standing, turning;
 };
 
+/// By parts of the mechanism which nothing connects with each other.
 Parts parts_of(const Mechanism& mechanism, const State& state, const FastestTurn& turn) {
   constexpr double standing = 0.01;
   System& system = *mechanism.system;
@@ -365,6 +365,21 @@ ElasticStability elastic_stability(const Mechanism& mechanism, const State& stat
   return stability_of_turning(mechanism, state, turn, parts.standing);
 }
 
+namespace {
+
+/// What deflection couples of bending with stretching.
+Eigen::MatrixXd coupling_of_strains(const MechanismState& at, const Eigen::MatrixXd& z) {
+  const Eigen::VectorXd& q = at.state.q;
+  std::vector<Eigen::Triplet<double>> entries;
+  AxialStrains(*at.mechanism.system).add_coupling(q, entries);
+  Eigen::SparseMatrix<double> coupling(q.size(), q.size());
+  coupling.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::MatrixXd scaled = at.mechanism.scale.asDiagonal() * z;
+  return scaled.transpose() * (coupling * scaled);
+}
+
+}  // namespace
+
 double buckling_load_factor(const MechanismState& unloaded, const MechanismState& loaded,
                             double share) {
   constexpr double none = std::numeric_limits<double>::infinity();
@@ -394,14 +409,9 @@ double buckling_load_factor(const MechanismState& unloaded, const MechanismState
   // deformation grows with the share.
   const Eigen::VectorXd a = begin.a + (end.a - begin.a) / share,
                         lambda = begin.lambda + (end.lambda - begin.lambda) / share;
-  std::vector<Eigen::Triplet<double>> entries;
-  AxialStrains(*loaded.mechanism.system).add_coupling(end.q, entries);
-  Eigen::SparseMatrix<double> coupling(end.q.size(), end.q.size());
-  coupling.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::MatrixXd scaled = loaded.mechanism.scale.asDiagonal() * z;
   const Eigen::MatrixXd of_strains = stiffness(loaded, end.q, end.a, end.lambda) -
                                      stiffness(loaded, begin.q, end.a, end.lambda) -
-                                     scaled.transpose() * (coupling * scaled);
+                                     coupling_of_strains(loaded, z);
   // −ΔK φ = μ K₀ φ, s = 1/μ
   const Eigen::MatrixXd change =
       elastic - stiffness(loaded, begin.q, a, lambda) - of_strains / share;

@@ -173,9 +173,11 @@ void add_turning(const TrustedRun& run, const std::vector<const Response*>& resp
   if (names.empty()) return;
   const double speed = fastest_turn(model_of_modes(analysis).mechanism, state).omega.norm();
   const std::string beside =
-      speed > 0.0 ? fmt::format(" (beside the machine a whirl has {} more or less, the speed)",
-                                frequency_text(run, *responses.front(), speed))
-                  : "";
+      speed > 0.0
+          ? fmt::format(
+                " (seen from beside the machine a whirl is faster or slower by the speed, {})",
+                frequency_text(run, *responses.front(), speed))
+          : "";
   doubts.push_back(
       {fmt::format("frequencies are not high against the speed at which the mechanism moves at "
                    "t = 0: in axes that stand still and in axes that turn with the bodies {}. "

@@ -8,6 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/integration/assembly.hpp"
 #include "core/integration/configuration.hpp"
+#include "core/integration/free_deformations.hpp"
 #include "core/model/model.hpp"
 
 namespace pleuel {
@@ -77,6 +78,9 @@ std::vector<Doubt> doubt_open_positions(const TrustedRun& run) {
   const Eigen::VectorXd placed = assembled_positions(mechanism);
   if (placement_change(mechanism, placed, mechanism.guess.q).maxCoeff() <= small_placement)
     return {};
+  State at = mechanism.guess;
+  at.q = placed;
+  if (rigid_motions(mechanism, constraint_rows(mechanism, at)).cols() == 0) return {};
   for (const BodyModel& body : model.bodies) {
     const BodyFrame& frame = body.frame;
     mechanism.assembly_weight.segment(frame.offset + frame.translations(), frame.rotations()) *=

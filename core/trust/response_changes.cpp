@@ -5,7 +5,6 @@
 #include <map>
 #include <string>
 
-#include "core/base/int_size.hpp"
 #include "core/response/linearized_expression.hpp"
 #include "core/scene/response_parts.hpp"
 
@@ -35,11 +34,13 @@ class ResponseChanges {
     }
   }
 
-  double of(std::size_t i) const {
-    if (is_monitor(problem_, i)) return 0.0;
+  ResponseChange of(std::size_t i) const {
+    if (is_monitor(problem_, i)) return {};
     const double difference = std::abs(other_.reductions[i].value - value(i));
     const Measure measure = measure_of(i);
-    return difference > measure.round_off ? difference / measure.scale : 0.0;
+    if (!(difference > measure.round_off)) return {};
+    const double far_limit = is_coordinate(i) ? 0.0 : far_from_limit * largest_limit(i);
+    return {difference / measure.scale, difference / std::max(measure.scale, far_limit)};
   }
 
  private:
@@ -52,12 +53,14 @@ class ResponseChanges {
 
   Measure measure_of(std::size_t i) const {
     const double size = std::abs(value(i));
+    // What vanishes in the reference alone changes by a number that can be read.
+    const double least = near_zero_value * std::abs(other_.reductions[i].value);
     const Response& response = reference_.responses[i];
     if (response.expression() != nullptr) {
-      return {std::max(size, cancelled * magnitude(i)), round_off_of_sums * magnitude(i)};
+      return {std::max({size, cancelled * magnitude(i), least}), round_off_of_sums * magnitude(i)};
     }
     if (problem_.responses[i].type == ResponseType::fatigue_damage) {
-      return {std::max(size, far_from_limit * largest_limit(i)), 0.0};
+      return {std::max(size, least), 0.0};
     }
     if (response.is_reduced_by(OverTime::integral)) {
       const Eigen::VectorXd& time = reference_.trajectory.time;
@@ -69,8 +72,7 @@ class ResponseChanges {
       const double motion = std::max(motion_of(i), least_motion * size);
       return {std::clamp(size, near_zero_place * motion, motion), round_off};
     }
-    return {std::max({size, near_zero_value * magnitude(i), far_from_limit * largest_limit(i)}),
-            round_off};
+    return {std::max(size, near_zero_value * magnitude(i)), round_off};
   }
 
   bool is_coordinate(std::size_t i) const {
@@ -116,11 +118,11 @@ class ResponseChanges {
 
 }  // namespace
 
-Eigen::VectorXd response_changes(const ProblemFile& problem, const Analysis& reference,
-                                 const Analysis& other) {
+std::vector<ResponseChange> response_changes(const ProblemFile& problem, const Analysis& reference,
+                                             const Analysis& other) {
   const ResponseChanges changes(problem, reference, other);
-  Eigen::VectorXd all(int_size(problem.responses));
-  for (Eigen::Index i = 0; i < all.size(); ++i) all(i) = changes.of(static_cast<std::size_t>(i));
+  std::vector<ResponseChange> all;
+  for (std::size_t i = 0; i < problem.responses.size(); ++i) all.push_back(changes.of(i));
   return all;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -48,13 +47,12 @@ class ShearDoubts {
       sheared_ = with_shear(beams_);
     } catch (const SimulationError& error) {
       return {{fmt::format("with shear, which {} {} out, this design cannot be simulated: {}",
-                           quoted(beams_), leave(beams_), error.what()),
+                           quoted(beams_), beams_.size() == 1 ? "leaves" : "leave", error.what()),
                true}};
     }
     measure();
     std::vector<Doubt> doubts;
-    add_doubt(alarming, std::numeric_limits<double>::infinity(), doubts);
-    add_doubt(tolerable_shear, alarming, doubts);
+    for (const bool is_serious : {true, false}) add_doubt(is_serious, doubts);
     return doubts;
   }
 
@@ -71,12 +69,17 @@ class ShearDoubts {
 
   void measure() {
     changes_ = changes_of(*sheared_);
-    if (changes_.maxCoeff() <= tolerable_shear) return;
+    if (!is_any_above(tolerable_shear, &ResponseChange::of_value)) return;
     const std::vector<bool> is_nothing = find_round_off(run_);
-    for (Eigen::Index i = 0; i < changes_.size(); ++i) {
-      if (is_nothing[static_cast<std::size_t>(i)]) changes_(i) = 0.0;
+    for (std::size_t i = 0; i < changes_.size(); ++i) {
+      if (is_nothing[i]) changes_[i] = {};
     }
     share_out();
+  }
+
+  bool is_any_above(double limit, double ResponseChange::*kind) const {
+    return std::any_of(changes_.begin(), changes_.end(),
+                       [&](const ResponseChange& change) { return change.*kind > limit; });
   }
 
   /// Which beams the changes are due to: of alarming ones by a simulation with each alone; else
@@ -84,9 +87,9 @@ class ShearDoubts {
   void share_out() {
     by_beam_.assign(beams_.size(), changes_);
     for (std::size_t k = 0; k < beams_.size(); ++k) {
-      if (shares_[k] <= told_part * shares_.front()) by_beam_[k].setZero();
+      if (shares_[k] <= told_part * shares_.front()) by_beam_[k].assign(changes_.size(), {});
     }
-    const bool is_alarming = changes_.maxCoeff() > alarming;
+    const bool is_alarming = is_any_above(alarming, &ResponseChange::beside_limits);
     if (!is_alarming || beams_.size() == 1 || beams_.size() > most_told_apart) return;
     for_each_in_parallel(int_size(beams_), available_threads(), [&](int i) {
       try {
@@ -97,22 +100,24 @@ class ShearDoubts {
     });
   }
 
-  /// What shear changes of each response, relative.
-  Eigen::VectorXd changes_of(const Analysis& sheared) const {
+  /// What shear changes of each response.
+  std::vector<ResponseChange> changes_of(const Analysis& sheared) const {
     return response_changes(run_.problem, sheared, run_.analysis);
   }
 
-  /// Of the responses that change by more than one share and not more than another.
-  void add_doubt(double above, double most, std::vector<Doubt>& doubts) const {
+  /// Of the responses whose change is alarming, or of the others that are worth a word.
+  void add_doubt(bool is_serious, std::vector<Doubt>& doubts) const {
     std::vector<std::string> names, changed;
     std::vector<bool> has_part(beams_.size(), false);
-    for (Eigen::Index i = 0; i < changes_.size(); ++i) {
-      if (changes_(i) <= above || changes_(i) > most) continue;
-      const ResponseSettings& response = run_.problem.responses[static_cast<std::size_t>(i)];
+    for (std::size_t i = 0; i < changes_.size(); ++i) {
+      const double change = changes_[i].of_value;
+      const bool is_alarming = changes_[i].beside_limits > alarming;
+      if (change <= tolerable_shear || is_alarming != is_serious) continue;
+      const ResponseSettings& response = run_.problem.responses[i];
       names.push_back(response.name);
-      changed.push_back(fmt::format("\"{}\" by {:.2g} %", response.name, 100.0 * changes_(i)));
+      changed.push_back(fmt::format("\"{}\" by {:.2g} %", response.name, 100.0 * change));
       for (std::size_t k = 0; k < beams_.size(); ++k) {
-        const bool is_told = by_beam_[k](i) > told_part * changes_(i);
+        const bool is_told = by_beam_[k][i].of_value > told_part * change;
         if (is_told && depends_on(response, beams_[k])) has_part[k] = true;
       }
     }
@@ -122,12 +127,12 @@ class ShearDoubts {
       if (has_part[k]) beams.push_back(beams_[k]);
     }
     if (beams.empty()) beams = beams_;  // they do it together
-    const bool is_serious = above >= alarming;
+    const bool is_one = beams.size() == 1;
     doubts.push_back(
         {fmt::format("{} {} stubby: shear, which {}, would change {} (of what {} then). {}: {}.",
-                     quoted(beams), beams.size() == 1 ? "is" : "are",
-                     beams.size() == 1 ? "it leaves out" : "they leave out",
-                     fmt::join(changed, ", "), names.size() == 1 ? "it is" : "they are",
+                     quoted(beams), is_one ? "is" : "are",
+                     is_one ? "it leaves out" : "they leave out", fmt::join(changed, ", "),
+                     names.size() == 1 ? "it is" : "they are",
                      is_serious ? "Do not trust that" : "Where that matters", advice(beams)),
          is_serious, names});
   }
@@ -136,10 +141,6 @@ class ShearDoubts {
     std::vector<std::string> all;
     for (const std::string& name : names) all.push_back(fmt::format("\"{}\"", name));
     return fmt::format("{}", fmt::join(all, ", "));
-  }
-
-  static std::string leave(const std::vector<std::string>& names) {
-    return names.size() == 1 ? "leaves" : "leave";
   }
 
   std::string advice(const std::vector<std::string>& beams) const {
@@ -181,8 +182,8 @@ class ShearDoubts {
   std::vector<double> shares_;      ///< of shear, of each
   BodyGroups groups_;
   std::unique_ptr<Analysis> sheared_;
-  Eigen::VectorXd changes_;               ///< relative, one a response
-  std::vector<Eigen::VectorXd> by_beam_;  ///< by shear in each alone
+  std::vector<ResponseChange> changes_;               ///< one a response
+  std::vector<std::vector<ResponseChange>> by_beam_;  ///< by shear in each alone
 };
 
 }  // namespace

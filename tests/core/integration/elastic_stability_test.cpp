@@ -542,5 +542,22 @@ TEST(ElasticStability, TheLoadOfBucklingIsThatOfEveryFrame) {
   }
 }
 
+/// Divided into frames, and under its own weight: q L³/EI = 7.837 (Timoshenko & Gere, Theory of Elastic
+/// Stability, art. 2.12).
+TEST(ElasticStability, TheLoadOfBucklingIsThatOfDividedBeamsAndOfWeight) {
+  const auto with = [](std::string text, const std::string& place, const std::string& more) {
+    return text.replace(text.find(place), place.size(), more + place);
+  };
+  const double euler = 0.25 * std::numbers::pi * std::numbers::pi * stiffness;
+  EXPECT_THAT(error_of(with(beam(clamp, -1.5 * euler, 0.0), R"("elements":)", R"("frames": 4, )")),
+              HasSubstr("buckles, at some 0.667 of"));
+  const double weight = 2.0 * 7.837 * stiffness / (7850 * width * height);
+  const std::string text = error_of(with(beam(clamp, 0.0, 0.0), R"("materials":)",
+                                         fmt::format(R"("gravity": [{}, 0, 0], )", -weight)));
+  const std::string before = "buckles, at some ";
+  ASSERT_THAT(text, HasSubstr(before));
+  EXPECT_NEAR(std::stod(text.substr(text.find(before) + before.size())), 0.5, 0.005);
+}
+
 }  // namespace
 }  // namespace pleuel::test::elastic_stability_test

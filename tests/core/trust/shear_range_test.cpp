@@ -456,6 +456,25 @@ TEST(ShearRange, OfASpringIsThatOfItsLoad) {
   EXPECT_NEAR(told_percent(found[0].text), 100.0 * (1.0 - 0.5 / with), 0.6);
 }
 
+/// What is far below its limit may change as it likes: it is said, and nothing is refused. Nearer to it, and
+/// of the same change, it is serious.
+TEST(ShearRange, IsSeriousBesideLimitsOnly) {
+  const auto with_limit = [](double times) {
+    ProblemFile problem = StubbyBeam{rectangle(0.5)}.problem();
+    ConstraintSettings limit;
+    limit.name = limit.response = "asked";
+    limit.upper = times * values_of(*analyze(problem, start_design(problem)))(0);
+    problem.constraints.push_back(limit);
+    return doubts_of(problem, doubt_shear_range);
+  };
+  for (const auto& [times, is_serious] : {std::pair(1.5, true), std::pair(1000.0, false)}) {
+    const std::vector<Doubt> found = with_limit(times);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].is_serious, is_serious) << times;
+    EXPECT_THAT(found[0].text, HasSubstr("by 16 % (of"));
+  }
+}
+
 /// A file without responses asks nothing.
 TEST(ShearRange, IsNotAskedWithoutResponses) {
   ProblemFile problem = StubbyBeam{rectangle(0.5)}.problem();
