@@ -456,8 +456,8 @@ TEST(ShearRange, OfASpringIsThatOfItsLoad) {
   EXPECT_NEAR(told_percent(found[0].text), 100.0 * (1.0 - 0.5 / with), 0.6);
 }
 
-/// What is far below its limit may change as it likes: it is said, and nothing is refused. Nearer to it, and
-/// of the same change, it is serious.
+/// What is far below its limit may change as it likes: it is said, and nothing is refused. Nearer
+/// to it, and of the same change, it is serious.
 TEST(ShearRange, IsSeriousBesideLimitsOnly) {
   const auto with_limit = [](double times) {
     ProblemFile problem = StubbyBeam{rectangle(0.5)}.problem();
