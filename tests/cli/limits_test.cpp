@@ -32,7 +32,9 @@ TEST(LimitOfZeroOnVariables, IsKeptWhereItsTermsCancel) {
     EXPECT_EQ(run.exit_code, is_kept ? 0 : 4) << run.err;
     const nlohmann::json limit = run.document().at("constraints").at("slim");
     EXPECT_EQ(limit.at("kept"), is_kept) << width;
-    if (std::string(width) == "100 mm") EXPECT_EQ(limit.at("value"), 0.0);
+    if (std::string(width) == "100 mm") {
+      EXPECT_EQ(limit.at("value"), 0.0);
+    }
   }
 }
 
