@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -86,7 +87,7 @@ bool is_at_rest(const Mechanism& mechanism, const State& state) {
 }
 
 /// Whether a mechanism turns at a constant speed in elastic equilibrium.
-bool is_steady(const Mechanism& mechanism, const State& state, const FastestTurn& turn) {
+bool is_steady(const Mechanism& mechanism, const State& state, const BodyTurn& turn) {
   constexpr double round_off = 1e-6;
   const double limit = round_off * turn.omega.squaredNorm();
   return turn.alpha.norm() <= limit &&
@@ -118,18 +119,25 @@ struct TurningDeformations {
   Eigen::MatrixXd shapes, mass, rates, stiffness;  ///< rates: gyroscopic forces and damping
 };
 
+/// A matrix that maps coordinates to coordinates, for those relative to the scale.
+Eigen::MatrixXd scaled(const Mechanism& mechanism, const Eigen::MatrixXd& matrix) {
+  return mechanism.scale.cwiseInverse().asDiagonal() * matrix * mechanism.scale.asDiagonal();
+}
+
+Turning scaled(const Mechanism& mechanism, const Turning& turning) {
+  return {scaled(mechanism, turning.T), scaled(mechanism, turning.V), scaled(mechanism, turning.P),
+          scaled(mechanism, turning.Q)};
+}
+
 /// @param shapes  the deformations, if they are known
 /// @param fixed   else: coordinates that are not looked at
 TurningDeformations turning_deformations(const Mechanism& mechanism, const State& state,
                                          const Eigen::MatrixXd* shapes,
                                          const std::vector<int>& fixed = {}) {
   const int n = mechanism.system->coordinates(), m = mechanism.system->multipliers();
-  const Turning turning =
-      is_rotor(mechanism, state) ? rotor_turning(mechanism, state) : turning_of(mechanism, state);
-  const auto scaled = [&](const Eigen::MatrixXd& matrix) -> Eigen::MatrixXd {
-    return mechanism.scale.cwiseInverse().asDiagonal() * matrix * mechanism.scale.asDiagonal();
-  };
-  const Eigen::MatrixXd T = scaled(turning.T);
+  const auto [T, V, P, Q] =
+      scaled(mechanism, is_rotor(mechanism, state) ? rotor_turning(mechanism, state)
+                                                   : turning_of(mechanism, state));
   const Eigen::MatrixXd of_q = scaled_tangent(mechanism, state, {.q = 1.0});
   const Eigen::MatrixXd of_v = scaled_tangent(mechanism, state, {.v = 1.0}).topRows(n);
   const Eigen::MatrixXd of_a = scaled_tangent(mechanism, state, {.a = 1.0}).topRows(n);
@@ -142,43 +150,45 @@ TurningDeformations turning_deformations(const Mechanism& mechanism, const State
   const Eigen::MatrixXd& z = result.shapes;
   const Eigen::MatrixXd left = (T * z).transpose();
   result.mass = symmetric_part(left * (of_a * (T * z)));
-  result.rates = left * (of_a * (scaled(turning.P) * z) + of_v * (T * z));
-  result.stiffness = left * (of_a * (scaled(turning.Q) * z) + of_v * (scaled(turning.V) * z) +
-                             of_q.topRows(n) * (T * z));
+  result.rates = left * (of_a * (P * z) + of_v * (T * z));
+  result.stiffness = left * (of_a * (Q * z) + of_v * (V * z) + of_q.topRows(n) * (T * z));
   return result;
 }
 
 /// Whether all that turns does so alike and at a constant speed, but for small vibrations.
-bool turns_alike(const Mechanism& mechanism, const State& state, const FastestTurn& turn) {
+bool turns_alike(const Mechanism& mechanism, const State& state, const BodyTurn& turn) {
   constexpr double small = 0.01;
   const Eigen::Vector3d omega = turn.axes * turn.omega;
   const double limit = small * omega.norm();
+  const std::vector<TurningBody> bodies = turning_bodies(mechanism, state);
   return turn.alpha.norm() <= limit * omega.norm() &&
-         std::all_of(mechanism.rotations.begin(), mechanism.rotations.end(), [&](int rotation) {
-           const Eigen::Vector3d own = rotation_of(state.q.segment<3>(rotation)) *
-                                       Eigen::Vector3d(state.v.segment<3>(rotation));
+         std::all_of(bodies.begin(), bodies.end(), [&](const TurningBody& body) {
+           const Eigen::Vector3d own = body.turn.axes * body.turn.omega;
            return own.norm() <= limit || (own - omega).norm() <= limit;
          });
 }
 
 /// A state after a short time, as bodies do not deform.
 State advanced(const Mechanism& mechanism, const State& state, double time) {
-  const FastestTurn rotor = fastest_turn(mechanism, state);
+  const BodyTurn rotor = fastest_turn(mechanism, state);
   const Eigen::Vector3d omega = rotor.axes * rotor.omega;
   State next = state;
   next.q += time * state.v;
-  const auto turn = [&](int translation) {
+  const auto turn = [&](int first, int size) {
     for (Eigen::VectorXd* rates : {&next.v, &next.a}) {
-      const Eigen::Vector3d rate = rates->segment<3>(translation);
-      rates->segment<3>(translation) += time * omega.cross(rate);
+      Eigen::Vector3d rate = Eigen::Vector3d::Zero();
+      rate.head(size) = rates->segment(first, size);
+      rates->segment(first, size) += time * omega.cross(rate).head(size);
     }
   };
+  for (const TurningBody& body : turning_bodies(mechanism, state)) {
+    turn(body.first, body.rotation - body.first);
+  }
   for (const int rotation : mechanism.rotations) {
     const Eigen::Vector3d step = time * state.v.segment<3>(rotation);
     next.q.segment<3>(rotation) = compose(state.q.segment<3>(rotation), step);
-    turn(rotation - 3);
   }
-  for (const int point : mechanism.points) turn(point);
+  for (const int point : mechanism.points) turn(point, mechanism.angles.empty() ? 3 : 2);
   return next;
 }
 
@@ -199,7 +209,7 @@ bool changes_with_angle(const Mechanism& mechanism, const State& state,
   return change.norm() > share * std::abs(lowest);
 }
 
-/// Of a mechanism that turns in space. Deformations without stiffness may be held by gyroscopic
+/// Of a mechanism that turns. Deformations without stiffness may be held by gyroscopic
 /// forces, which is asked of the lowest modes; damping by what turns takes that away (Kelvin, Tait &
 /// Chetaev), and what stands still may give it back.
 /// @param shapes  the deformations, if they are known
@@ -268,7 +278,7 @@ struct Parts {
 };
 
 /// By parts of the mechanism which nothing connects with each other.
-Parts parts_of(const Mechanism& mechanism, const State& state, const FastestTurn& turn) {
+Parts parts_of(const Mechanism& mechanism, const State& state, const BodyTurn& turn) {
   constexpr double standing = 0.01;
   System& system = *mechanism.system;
   const System::Matrix matrix = system.make_matrix();
@@ -279,9 +289,9 @@ Parts parts_of(const Mechanism& mechanism, const State& state, const FastestTurn
     }
   }
   std::set<int> turning;
-  for (const int rotation : mechanism.rotations) {
-    const bool turns = state.v.segment<3>(rotation).norm() > standing * turn.omega.norm();
-    if (turns) turning.insert(parts.find(rotation));
+  for (const TurningBody& body : turning_bodies(mechanism, state)) {
+    const bool turns = body.turn.omega.norm() > standing * turn.omega.norm();
+    if (turns) turning.insert(parts.find(body.rotation));
   }
   Parts result;
   for (int i = 0; i < system.coordinates(); ++i) {
@@ -293,24 +303,20 @@ Parts parts_of(const Mechanism& mechanism, const State& state, const FastestTurn
 /// Deformations counted in axes that turn with each body.
 Eigen::MatrixXd in_turning_axes(const Mechanism& mechanism, const State& state,
                                 const Eigen::MatrixXd& deformations) {
-  const Eigen::VectorXd& scale = mechanism.scale;
-  const Eigen::MatrixXd T =
-      scale.cwiseInverse().asDiagonal() * turning_of(mechanism, state).T * scale.asDiagonal();
-  return DenseLu(T).solve(deformations);
+  return DenseLu(scaled(mechanism, turning_of(mechanism, state).T)).solve(deformations);
 }
 
 /// The elastic coordinates of bodies that stand still, and of those that turn, beside those that
 /// are not looked at.
-Parts deforming_parts(const Mechanism& mechanism, const State& state, const FastestTurn& turn,
+Parts deforming_parts(const Mechanism& mechanism, const State& state, const BodyTurn& turn,
                       const std::vector<int>& fixed) {
   constexpr double standing = 0.01;
   const std::set<int> elastic(mechanism.elastic.begin(), mechanism.elastic.end()),
       left(fixed.begin(), fixed.end());
   Parts result;
-  for (const int rotation : mechanism.rotations) {
-    const bool turns = state.v.segment<3>(rotation).norm() > standing * turn.omega.norm();
-    // Elastic coordinates stand behind the rotation of their frame.
-    for (int i = rotation + 3; elastic.contains(i); ++i) {
+  for (const TurningBody& body : turning_bodies(mechanism, state)) {
+    const bool turns = body.turn.omega.norm() > standing * turn.omega.norm();
+    for (int i = body.elastic; elastic.contains(i); ++i) {
       if (!left.contains(i)) (turns ? result.turning : result.standing).push_back(i);
     }
   }
@@ -325,7 +331,7 @@ std::vector<int> joined(std::vector<int> some, const std::vector<int>& others) {
 /// Of the parts in which something turns. Where what turns and what it turns on both deform, as a
 /// fan on a mast, no axes make the coefficients constant: each is judged with the other one rigid.
 ElasticStability stability_of_turning(const Mechanism& mechanism, const State& state,
-                                      const FastestTurn& turn, const std::vector<int>& fixed) {
+                                      const BodyTurn& turn, const std::vector<int>& fixed) {
   const Parts deforming = deforming_parts(mechanism, state, turn, fixed);
   if (!mechanism.elastic.empty() && deforming.turning.empty()) {
     return standing_stability(mechanism, state, free_deformations(mechanism, state, fixed));
@@ -347,12 +353,12 @@ ElasticStability stability_of_turning(const Mechanism& mechanism, const State& s
 }  // namespace
 
 bool is_rotor(const Mechanism& mechanism, const State& state) {
-  const FastestTurn turn = fastest_turn(mechanism, state);
+  const BodyTurn turn = fastest_turn(mechanism, state);
   return !turn.omega.isZero(0.0) && turns_alike(mechanism, state, turn);
 }
 
 ElasticStability elastic_stability(const Mechanism& mechanism, const State& state) {
-  const FastestTurn turn = fastest_turn(mechanism, state);
+  const BodyTurn turn = fastest_turn(mechanism, state);
   if (turn.omega.isZero(0.0) || is_at_rest(mechanism, state)) {
     return standing_stability(mechanism, state, free_deformations(mechanism, state));
   }
@@ -366,6 +372,36 @@ ElasticStability elastic_stability(const Mechanism& mechanism, const State& stat
 }
 
 namespace {
+
+/// The axes in which the deformations of a mechanism are counted: those that turn with it, if all
+/// that deforms turns alike, or those of the file.
+class MotionAxes {
+ public:
+  MotionAxes(const Mechanism& mechanism, const State& state) : mechanism_(mechanism) {
+    const BodyTurn turn = fastest_turn(mechanism, state);
+    if (turn.omega.isZero(0.0) || !turns_alike(mechanism, state, turn)) return;
+    if (!deforming_parts(mechanism, state, turn, {}).standing.empty()) return;
+    turning_ = scaled(mechanism, rotor_turning(mechanism, state));
+  }
+
+  /// The symmetric part of the stiffness, with the inertia forces of axes that turn.
+  /// @param z  deformations in axes that stand still
+  Eigen::MatrixXd stiffness(const State& state, const Eigen::MatrixXd& z) const {
+    Eigen::MatrixXd all = deformation_stiffness(mechanism_, state, z);
+    if (turning_) {
+      const int n = mechanism_.system->coordinates();
+      const Eigen::MatrixXd y = DenseLu(turning_->T).solve(z);
+      all += z.transpose() *
+             (scaled_tangent(mechanism_, state, {.a = 1.0}).topRows(n) * (turning_->Q * y) +
+              scaled_tangent(mechanism_, state, {.v = 1.0}).topRows(n) * (turning_->V * y));
+    }
+    return symmetric_part(all);
+  }
+
+ private:
+  const Mechanism& mechanism_;
+  std::optional<Turning> turning_;
+};
 
 /// What deflection couples of bending with stretching.
 Eigen::MatrixXd coupling_of_strains(const MechanismState& at, const Eigen::MatrixXd& z) {
@@ -390,31 +426,33 @@ double buckling_load_factor(const MechanismState& unloaded, const MechanismState
       z.cols() > deformations_beside(phi, rigid_motions(unloaded.mechanism, phi)).cols();
   if (are_held) return std::nan("");  // dead loads turn with them, which is not of first order
   const State &begin = unloaded.state, &end = loaded.state;
-  const auto stiffness = [&](const MechanismState& of, const Eigen::VectorXd& q,
-                             const Eigen::VectorXd& a,
+  // Without loads, weight, motion and what bears them.
+  State at_rest = begin;
+  at_rest.v.setZero();
+  at_rest.a = unloaded.mechanism.free_fall;
+  at_rest.lambda.setZero();
+  const Eigen::MatrixXd elastic =
+      symmetric_part(deformation_stiffness(unloaded.mechanism, at_rest, z)) -
+      symmetric_part(z.transpose() * stiffness_of_loads(unloaded.mechanism, begin) * z);
+  if (!is_positive_definite(elastic)) return none;
+  const MotionAxes axes(loaded.mechanism, end);
+  const auto stiffness = [&](const Eigen::VectorXd& q, const Eigen::VectorXd& a,
                              const Eigen::VectorXd& lambda) -> Eigen::MatrixXd {
-    State at = of.state;
+    State at = end;
     at.q = q;
     at.a = a;
     at.lambda = lambda;
-    return symmetric_part(deformation_stiffness(of.mechanism, at, z));
+    return axes.stiffness(at, z);
   };
-  // Without loads, weight and what bears them.
-  const Eigen::VectorXd no_forces = Eigen::VectorXd::Zero(begin.lambda.size());
-  const Eigen::MatrixXd elastic =
-      stiffness(unloaded, begin.q, unloaded.mechanism.free_fall, no_forces) -
-      symmetric_part(z.transpose() * stiffness_of_loads(unloaded.mechanism, begin) * z);
-  if (!is_positive_definite(elastic)) return none;
   // Accelerations and multipliers bear all loads at the begin, and change to those of equilibrium;
   // deformation grows with the share.
   const Eigen::VectorXd a = begin.a + (end.a - begin.a) / share,
                         lambda = begin.lambda + (end.lambda - begin.lambda) / share;
-  const Eigen::MatrixXd of_strains = stiffness(loaded, end.q, end.a, end.lambda) -
-                                     stiffness(loaded, begin.q, end.a, end.lambda) -
+  const Eigen::MatrixXd of_strains = stiffness(end.q, end.a, end.lambda) -
+                                     stiffness(begin.q, end.a, end.lambda) -
                                      coupling_of_strains(loaded, z);
   // −ΔK φ = μ K₀ φ, s = 1/μ
-  const Eigen::MatrixXd change =
-      elastic - stiffness(loaded, begin.q, a, lambda) - of_strains / share;
+  const Eigen::MatrixXd change = elastic - stiffness(begin.q, a, lambda) - of_strains / share;
   const double largest = symmetric_eigenvalues(change, elastic).maxCoeff();
   return largest > 0.0 ? 1.0 / largest : none;
 }

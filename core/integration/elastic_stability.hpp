@@ -23,7 +23,7 @@ struct ElasticStability {
 /// stable: Floquet's theory would have to tell.
 ElasticStability elastic_stability(const Mechanism& mechanism, const State& state);
 
-/// Whether all that turns in space turns alike and at a constant speed, but for small vibrations.
+/// Whether all that turns does so alike and at a constant speed, but for small vibrations.
 bool is_rotor(const Mechanism& mechanism, const State& state);
 
 /// A mechanism at a state.

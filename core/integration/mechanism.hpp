@@ -30,7 +30,7 @@ struct Mechanism {
   /// frames): their rates are angular velocities in body axes, and their changes are right
   /// perturbations (core/base/rotation_vector.hpp).
   std::vector<int> rotations;
-  /// First coordinates of point masses in space (three each).
+  /// First coordinates of point masses (three each in space, two in a plane).
   std::vector<int> points;
   /// Coordinates that are angles of frames in a plane: whole turns change nothing but their number.
   std::vector<int> angles;

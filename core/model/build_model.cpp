@@ -200,7 +200,7 @@ class ModelBuilder {
         model_.mechanism.rotations.push_back(body.frame.offset + body.frame.translations());
       } else if (body.frame.rotation == RotationCoordinates::angle) {
         model_.mechanism.angles.push_back(body.frame.offset + body.frame.translations());
-      } else if (body.frame.translations() == 3) {
+      } else {
         model_.mechanism.points.push_back(body.frame.offset);
       }
       has_damping = has_damping || !body.invariants.damping.isZero(0.0);
