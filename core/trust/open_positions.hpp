@@ -11,7 +11,8 @@ namespace pleuel {
 /// others they are: as a drive that begins at an angle between two bodies that are both free to
 /// turn. The mechanism starts as close to the file as possible, by lengths and angles, which are
 /// compared by the size of the mechanism at the start of its variables; serious where another
-/// measure moves a body by more than a hundredth of this size, or of a radian.
+/// measure, of which angles or one direction count more, moves a body by more than a hundredth of
+/// this size, or of a radian.
 std::vector<Doubt> doubt_open_positions(const TrustedRun& run);
 
 }  // namespace pleuel

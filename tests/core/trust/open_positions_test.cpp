@@ -49,5 +49,32 @@ TEST(OpenPositions, AreToldWhereAMotorTurnsWhatIsFree) {
   EXPECT_THAT(doubts_of_arms(0.5, 0.0, "fixed"), IsEmpty());
 }
 
+/// A mass that hangs from a carriage, or slides in a slot of it, need not come along as a motor puts the
+/// carriage elsewhere: only what a joint leaves no other place does.
+TEST(OpenPositions, AreToldOfAMassThatHangsFromACarriage) {
+  const auto doubts_of_mass = [](const char* joint) {
+    return doubts_of(read_scene(fmt::format(R"j({{"scene": {{"gravity": [0, -9.81, 0],
+      "bodies": {{
+        "carriage": {{"type": "rigid", "at": [0, 0, 0], "mass": 1,
+                     "inertia": [0.01, 0.01, 0.01, 0, 0, 0]}},
+        "mass": {{"type": "point-mass", "at": [0, -0.3, 0], "mass": 1}}}},
+      "joints": {{
+        "rail": {{"type": "prismatic", "bodies": ["ground", "carriage"], "at": [0, 0, 0],
+                 "axis": [1, 0, 0], "drive": {{"type": "polynomial", "coefficients": [0.1, 0.1]}}}},
+        "hook": {{"bodies": ["carriage", "mass"], {}}}}}}},
+    "simulation": {{"end_time": 0.01, "step": 0.001}},
+    "responses": {{"m": {{"type": "mass"}}}}}})j",
+                                            joint)),
+                     doubt_open_positions);
+  };
+  const std::vector<Doubt> rope =
+      doubts_of_mass(R"("type": "distance", "at": [0, 0, 0], "to": [0, -0.3, 0])");
+  ASSERT_THAT(rope, SizeIs(1));
+  EXPECT_THAT(rope[0].text, HasSubstr("\"mass\" begins 0.0"));
+  EXPECT_THAT(doubts_of_mass(R"("type": "point-on-line", "at": [0, -0.3, 0], "axis": [1, 1, 0])"),
+              SizeIs(1));
+  EXPECT_THAT(doubts_of_mass(R"("type": "spherical", "at": [0, -0.3, 0])"), IsEmpty());
+}
+
 }  // namespace
 }  // namespace pleuel::test::open_positions_test
