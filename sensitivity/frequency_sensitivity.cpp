@@ -2,7 +2,7 @@
 
 #include <Eigen/LU>
 
-#include "core/integration/configuration.hpp"
+#include "core/mechanism/configuration.hpp"
 #include "core/response/modal_vectors.hpp"
 #include "core/response/motion_along.hpp"
 

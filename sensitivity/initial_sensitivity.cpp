@@ -4,10 +4,10 @@
 
 #include "core/base/error.hpp"
 #include "core/base/rotation_vector.hpp"
-#include "core/integration/configuration.hpp"
 #include "core/integration/damped_start.hpp"
-#include "core/integration/equilibrium.hpp"
-#include "core/integration/linear_solver.hpp"
+#include "core/mechanism/configuration.hpp"
+#include "core/mechanism/linear_solver.hpp"
+#include "core/start/equilibrium.hpp"
 #include "core/system/linear_forces.hpp"
 
 namespace pleuel {

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "core/integration/initial_state.hpp"
 #include "core/integration/simulate.hpp"
 #include "core/integration/state_sensitivity.hpp"
+#include "core/start/initial_state.hpp"
 
 namespace pleuel {
 

@@ -9,7 +9,7 @@
 #include "cli/text/table.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/number_text.hpp"
-#include "core/integration/configuration.hpp"
+#include "core/mechanism/configuration.hpp"
 #include "core/scene/shown_unit.hpp"
 
 namespace pleuel {

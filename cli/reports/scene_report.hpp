@@ -3,8 +3,8 @@
 #include <string>
 
 #include "cli/text/json.hpp"
-#include "core/integration/degrees_of_freedom.hpp"
 #include "core/response/analysis.hpp"
+#include "core/start/degrees_of_freedom.hpp"
 
 /// What `check` says of bodies and variables.
 namespace pleuel {

@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "core/base/error.hpp"
-#include "core/integration/configuration.hpp"
 #include "core/integration/jerk.hpp"
-#include "core/integration/linear_solver.hpp"
+#include "core/mechanism/configuration.hpp"
+#include "core/mechanism/linear_solver.hpp"
 
 namespace pleuel {
 

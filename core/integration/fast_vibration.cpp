@@ -6,7 +6,7 @@
 
 #include "core/base/dense_solvers.hpp"
 #include "core/base/int_size.hpp"
-#include "core/integration/linear_solver.hpp"
+#include "core/mechanism/linear_solver.hpp"
 
 namespace pleuel {
 

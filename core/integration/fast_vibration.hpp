@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "core/integration/mechanism.hpp"
+#include "core/mechanism/mechanism.hpp"
 
 namespace pleuel {
 

@@ -1,8 +1,8 @@
 #include "core/integration/jerk.hpp"
 
 #include "core/base/error.hpp"
-#include "core/integration/configuration.hpp"
-#include "core/integration/linear_solver.hpp"
+#include "core/mechanism/configuration.hpp"
+#include "core/mechanism/linear_solver.hpp"
 #include "core/system/linear_forces.hpp"
 
 namespace pleuel {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/integration/mechanism.hpp"
+#include "core/mechanism/mechanism.hpp"
 
 namespace pleuel {
 

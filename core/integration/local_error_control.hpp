@@ -1,8 +1,8 @@
 #pragma once
 
-#include "core/integration/mechanism.hpp"
 #include "core/integration/scheme.hpp"
 #include "core/integration/simulation_options.hpp"
+#include "core/mechanism/mechanism.hpp"
 
 namespace pleuel {
 

@@ -3,8 +3,8 @@
 #include <limits>
 #include <optional>
 
-#include "core/integration/linear_solver.hpp"
 #include "core/integration/step_equations.hpp"
+#include "core/mechanism/linear_solver.hpp"
 
 namespace pleuel {
 

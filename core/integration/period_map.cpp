@@ -4,8 +4,8 @@
 #include <tuple>
 #include <utility>
 
-#include "core/integration/configuration.hpp"
 #include "core/integration/step_differentiation.hpp"
+#include "core/mechanism/configuration.hpp"
 
 namespace pleuel {
 

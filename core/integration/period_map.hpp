@@ -3,9 +3,9 @@
 #include <optional>
 
 #include "core/base/dense_solvers.hpp"
-#include "core/integration/mechanism.hpp"
 #include "core/integration/stacked_states.hpp"
 #include "core/integration/trajectory.hpp"
+#include "core/mechanism/mechanism.hpp"
 
 namespace pleuel {
 

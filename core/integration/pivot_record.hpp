@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "core/integration/linear_solver.hpp"
+#include "core/mechanism/linear_solver.hpp"
 
 namespace pleuel {
 

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "core/integration/mechanism.hpp"
 #include "core/integration/scheme_state.hpp"
 #include "core/integration/simulation_options.hpp"
 #include "core/integration/trajectory.hpp"
+#include "core/mechanism/mechanism.hpp"
 
 namespace pleuel {
 

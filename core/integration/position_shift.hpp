@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "core/integration/mechanism.hpp"
 #include "core/integration/state_sensitivity.hpp"
+#include "core/mechanism/mechanism.hpp"
 #include "core/system/constraint_terms.hpp"
 
 namespace pleuel {

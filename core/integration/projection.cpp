@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
-#include "core/integration/assembly.hpp"
-#include "core/integration/configuration.hpp"
+#include "core/mechanism/configuration.hpp"
+#include "core/start/assembly.hpp"
 
 namespace pleuel {
 

@@ -2,9 +2,9 @@
 
 #include <array>
 
-#include "core/integration/linear_solver.hpp"
-#include "core/integration/mechanism.hpp"
 #include "core/integration/state_sensitivity.hpp"
+#include "core/mechanism/linear_solver.hpp"
+#include "core/mechanism/mechanism.hpp"
 #include "core/system/linear_forces.hpp"
 
 namespace pleuel {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "core/integration/mechanism.hpp"
 #include "core/integration/trajectory.hpp"
+#include "core/mechanism/mechanism.hpp"
 
 namespace pleuel {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/integration/configuration.hpp"
+#include "core/mechanism/configuration.hpp"
 
 namespace pleuel {
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "core/integration/mechanism.hpp"
 #include "core/integration/scheme_state.hpp"
 #include "core/integration/state_sensitivity.hpp"
+#include "core/mechanism/mechanism.hpp"
 
 namespace pleuel {
 

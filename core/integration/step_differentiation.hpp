@@ -2,10 +2,10 @@
 
 #include <optional>
 
-#include "core/integration/linear_solver.hpp"
 #include "core/integration/projection.hpp"
 #include "core/integration/step_equations.hpp"
 #include "core/integration/trajectory.hpp"
+#include "core/mechanism/linear_solver.hpp"
 
 namespace pleuel {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 
-#include "core/integration/configuration.hpp"
 #include "core/integration/matrix_entries.hpp"
 #include "core/integration/sparse_products.hpp"
+#include "core/mechanism/configuration.hpp"
 #include "core/system/matrix_slot.hpp"
 
 namespace pleuel {

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "core/base/stop.hpp"
-#include "core/integration/initial_state.hpp"
+#include "core/start/initial_state.hpp"
 
 namespace pleuel {
 

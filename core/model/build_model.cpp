@@ -8,7 +8,6 @@
 #include "core/base/error.hpp"
 #include "core/base/find_named.hpp"
 #include "core/base/int_size.hpp"
-#include "core/integration/redundancy.hpp"
 #include "core/model/body_builder.hpp"
 #include "core/model/divided_beams.hpp"
 #include "core/model/drive_rows.hpp"
@@ -20,6 +19,7 @@
 #include "core/model/stiffening_builder.hpp"
 #include "core/scene/body_groups.hpp"
 #include "core/scene/scene_rules.hpp"
+#include "core/start/redundancy.hpp"
 
 namespace pleuel {
 

@@ -11,10 +11,10 @@
 #include "core/base/error.hpp"
 #include "core/base/find_named.hpp"
 #include "core/beam/elastic_basis.hpp"
-#include "core/integration/least_norm.hpp"
 #include "core/integration/simulate.hpp"
 #include "core/model/divided_beams.hpp"
 #include "core/model/model.hpp"
+#include "core/start/least_norm.hpp"
 
 namespace pleuel {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/integration/mechanism.hpp"
+#include "core/mechanism/mechanism.hpp"
 #include "core/model/body_builder.hpp"
 #include "core/model/build_context.hpp"
 

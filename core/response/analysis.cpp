@@ -9,8 +9,6 @@
 
 #include "core/base/error.hpp"
 #include "core/base/machine_memory.hpp"
-#include "core/integration/equilibrium.hpp"
-#include "core/integration/initial_state.hpp"
 #include "core/response/expression_value.hpp"
 #include "core/response/history_reduction.hpp"
 #include "core/response/make_responses.hpp"
@@ -21,6 +19,8 @@
 #include "core/response/validity.hpp"
 #include "core/response/whole_turns.hpp"
 #include "core/scene/time_breaks.hpp"
+#include "core/start/equilibrium.hpp"
+#include "core/start/initial_state.hpp"
 
 namespace pleuel {
 

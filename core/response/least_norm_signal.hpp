@@ -2,10 +2,10 @@
 
 #include <memory>
 
-#include "core/integration/least_norm.hpp"
 #include "core/model/model.hpp"
 #include "core/response/signal.hpp"
 #include "core/response/term_product.hpp"
+#include "core/start/least_norm.hpp"
 
 namespace pleuel {
 

@@ -3,7 +3,7 @@
 #include <complex>
 #include <vector>
 
-#include "core/integration/mechanism.hpp"
+#include "core/mechanism/mechanism.hpp"
 
 /// Small vibrations of a whole mechanism about an instant of its motion.
 namespace pleuel {

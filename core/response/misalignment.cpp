@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/integration/redundancy.hpp"
 #include "core/model/drive_rows.hpp"
+#include "core/start/redundancy.hpp"
 
 namespace pleuel {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/integration/initial_state.hpp"
+#include "core/start/initial_state.hpp"
 
 namespace pleuel {
 

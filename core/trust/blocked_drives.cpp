@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/integration/degrees_of_freedom.hpp"
 #include "core/model/drive_rows.hpp"
+#include "core/start/degrees_of_freedom.hpp"
 
 namespace pleuel {
 

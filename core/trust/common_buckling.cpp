@@ -4,9 +4,9 @@
 #include <fmt/ranges.h>
 
 #include "core/base/error.hpp"
-#include "core/integration/elastic_stability.hpp"
-#include "core/integration/equilibrium.hpp"
 #include "core/response/full_mechanism.hpp"
+#include "core/start/elastic_stability.hpp"
+#include "core/start/equilibrium.hpp"
 #include "core/trust/unstable_members.hpp"
 
 namespace pleuel {

@@ -9,10 +9,10 @@
 #include <fmt/ranges.h>
 
 #include "core/base/error.hpp"
-#include "core/integration/turning.hpp"
 #include "core/response/full_mechanism.hpp"
 #include "core/response/mechanism_modes.hpp"
 #include "core/scene/shown_unit.hpp"
+#include "core/start/turning.hpp"
 #include "core/trust/turning_axes.hpp"
 
 namespace pleuel {

@@ -9,11 +9,11 @@
 
 #include "core/base/dense_solvers.hpp"
 #include "core/base/find_named.hpp"
-#include "core/integration/degrees_of_freedom.hpp"
 #include "core/model/body_energy.hpp"
 #include "core/model/drive_rows.hpp"
 #include "core/scene/joint_kind.hpp"
 #include "core/scene/response_parts.hpp"
+#include "core/start/degrees_of_freedom.hpp"
 #include "core/trust/connections.hpp"
 
 namespace pleuel {

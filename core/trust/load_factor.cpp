@@ -1,6 +1,6 @@
 #include "core/trust/load_factor.hpp"
 
-#include "core/integration/elastic_stability.hpp"
+#include "core/start/elastic_stability.hpp"
 #include "core/trust/unstable_members.hpp"
 
 namespace pleuel {

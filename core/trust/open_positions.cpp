@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
-#include "core/integration/assembly.hpp"
-#include "core/integration/configuration.hpp"
-#include "core/integration/free_deformations.hpp"
+#include "core/mechanism/configuration.hpp"
 #include "core/model/model.hpp"
+#include "core/start/assembly.hpp"
+#include "core/start/free_deformations.hpp"
 
 namespace pleuel {
 

@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "core/integration/turning.hpp"
 #include "core/response/mechanism_modes.hpp"
+#include "core/start/turning.hpp"
 
 namespace pleuel {
 

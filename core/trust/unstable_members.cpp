@@ -9,10 +9,10 @@
 
 #include "core/base/error.hpp"
 #include "core/base/int_size.hpp"
-#include "core/integration/elastic_stability.hpp"
-#include "core/integration/equilibrium.hpp"
-#include "core/integration/turning.hpp"
 #include "core/response/lateral_buckling_signal.hpp"
+#include "core/start/elastic_stability.hpp"
+#include "core/start/equilibrium.hpp"
+#include "core/start/turning.hpp"
 
 namespace pleuel {
 

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/rotation_vector.hpp"
-#include "core/integration/configuration.hpp"
+#include "core/mechanism/configuration.hpp"
 #include "tests/support/common_basis.hpp"
 #include "tests/support/dense_algebra.hpp"
 #include "tests/support/differences.hpp"

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/integration/configuration.hpp"
+#include "core/mechanism/configuration.hpp"
 #include "sensitivity/direct.hpp"
 #include "tests/support/common_basis.hpp"
 #include "tests/support/dense_algebra.hpp"

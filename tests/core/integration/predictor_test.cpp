@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/integration/configuration.hpp"
+#include "core/mechanism/configuration.hpp"
 #include "core/response/analysis.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "tests/support/random_state.hpp"

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/integration/initial_state.hpp"
 #include "core/model/model.hpp"
+#include "core/start/initial_state.hpp"
 #include "tests/support/sample_scenes.hpp"
 
 namespace pleuel::test::projection_test {

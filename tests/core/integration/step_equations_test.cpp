@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/integration/configuration.hpp"
+#include "core/mechanism/configuration.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/random_state.hpp"
 #include "tests/support/sample_name.hpp"

@@ -1,8 +1,8 @@
-#include "core/integration/least_norm.hpp"
+#include "core/start/least_norm.hpp"
 
 #include <gtest/gtest.h>
 
-#include "core/integration/initial_state.hpp"
+#include "core/start/initial_state.hpp"
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/core/response/response_samples.hpp"

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "core/integration/configuration.hpp"
+#include "core/mechanism/configuration.hpp"
 #include "core/model/body_energy.hpp"
 #include "core/response/analysis.hpp"
 #include "core/response/monitors.hpp"

@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.hpp"
-#include "core/integration/initial_state.hpp"
 #include "core/response/analysis.hpp"
 #include "core/response/body_frequency.hpp"
 #include "core/response/mechanism_modes.hpp"
+#include "core/start/initial_state.hpp"
 #include "tests/core/response/response_samples.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/sample_name.hpp"

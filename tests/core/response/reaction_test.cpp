@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "core/integration/initial_state.hpp"
 #include "core/joints/joint_term.hpp"
 #include "core/response/analysis.hpp"
+#include "core/start/initial_state.hpp"
 #include "tests/core/response/response_samples.hpp"
 #include "tests/support/dense.hpp"
 #include "tests/support/sample_name.hpp"

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "core/integration/configuration.hpp"
+#include "core/mechanism/configuration.hpp"
 #include "core/response/analysis.hpp"
 #include "tests/core/response/response_samples.hpp"
 #include "tests/support/differences.hpp"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/integration/configuration.hpp"
+#include "core/mechanism/configuration.hpp"
 #include "tests/support/common_basis.hpp"
 #include "tests/support/dense.hpp"
 #include "tests/support/differences.hpp"

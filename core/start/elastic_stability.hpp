@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+
+#include "core/mechanism/mechanism.hpp"
+
+/// Whether the members of a mechanism are in stable elastic equilibrium, and at what share of the
+/// loads they buckle.
+namespace pleuel {
+
+struct ElasticStability {
+  bool is_stable = true;
+  int negative = 0;   ///< real negative eigenvalues of the stiffness
+  std::string where;  ///< what moves most in the lowest mode: "the body \"rod\""; if unstable
+  std::string how = "buckles";  ///< what it does, for people; if unstable
+};
+
+/// Counts the negative eigenvalues of the stiffness at a state. One is a deformation that grows.
+/// Gyroscopic forces may hold an even number, and so may a stiffness that is not symmetric (loads
+/// that follow); an odd one grows (Thomson & Tait). Whether they do is asked of the deformations of
+/// these eigenvalues alone, with their mass.
+/// A rotor whose stiffness changes with its angle, and that does not buckle standing still, counts as
+/// stable: Floquet's theory would have to tell.
+ElasticStability elastic_stability(const Mechanism& mechanism, const State& state);
+
+/// Whether all that turns does so alike and at a constant speed, but for small vibrations.
+bool is_rotor(const Mechanism& mechanism, const State& state);
+
+/// A mechanism at a state.
+struct MechanismState {
+  const Mechanism& mechanism;
+  const State& state;
+};
+
+/// By what factor the loads of a state buckle the members, from how they change the stiffness:
+///     (K₀ + s (K₁ − K₀)) φ = 0,   the smallest s > 0; infinite if there is none
+/// Not a number where springs hold motions as rigid bodies, which loads turn at once.
+/// Linear buckling: K with the forces that the loads cause, without the coupling of bending with
+/// stretching by deflection, which is of second order in both.
+/// @param unloaded  at a state without deformation, where accelerations and multipliers bear the
+///                  loads, or without loads
+/// @param loaded    in equilibrium with `share` of the loads, in the same coordinates
+double buckling_load_factor(const MechanismState& unloaded, const MechanismState& loaded,
+                            double share);
+
+}  // namespace pleuel

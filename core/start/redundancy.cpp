@@ -1,0 +1,253 @@
+#include "core/start/redundancy.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/sparse_rows.hpp"
+#include "core/mechanism/configuration.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// What is left of a direction is round-off below this.
+constexpr double no_direction = 1e-8;
+/// The small motion, in scales of the coordinates and in seconds.
+constexpr double small = 1e-3;
+/// The independent constraints are closed to a tenth of this. One that is independent at its end
+/// is off by small².
+constexpr double closed = 1e-10;
+constexpr int max_closing_steps = 20;
+/// What opens by more, of the way that is moved, does not follow from the others but from a drive.
+constexpr double most_misaligned = 3e-2;
+
+/// A mechanism that is moved while some of its constraints are kept.
+class MovedMechanism {
+ public:
+  MovedMechanism(const Mechanism& mechanism, State state, Eigen::VectorXd scale)
+      : mechanism_(mechanism),
+        system_(*mechanism.system),
+        state_(std::move(state)),
+        start_(state_.q),
+        scale_(std::move(scale)),
+        matrix_(system_.make_matrix()) {}
+
+  Eigen::VectorXd constraints() {
+    system_.residual(state_, ConstraintLevel::position, residual_);
+    return residual_.tail(system_.multipliers());
+  }
+
+  /// Φ_q with respect to coordinates over their scale, m × n.
+  SparseRows jacobian() {
+    system_.tangent(state_, {.q = 1.0}, ConstraintLevel::position, matrix_);
+    const int n = system_.coordinates();
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int column = 0; column < n; ++column) {
+      for (System::Matrix::InnerIterator entry(matrix_, column); entry; ++entry) {
+        if (entry.row() < n) continue;
+        entries.emplace_back(entry.row() - n, column, entry.value() * scale_(column));
+      }
+    }
+    SparseRows rows(system_.multipliers(), n);
+    rows.setFromTriplets(entries.begin(), entries.end());
+    return rows;
+  }
+
+  /// A motion that the kept constraints leave free, of length one in each of the parts of the
+  /// mechanism that no constraint connects; zero if they leave none.
+  Eigen::VectorXd free_motion(const std::vector<int>& kept) {
+    const SparseRows all = jacobian(), rows = select_rows(all, kept);
+    // A direction of no meaning, the same at every call; its free part is what is left of it.
+    Eigen::VectorXd direction(rows.cols());
+    for (Eigen::Index i = 0; i < direction.size(); ++i)
+      direction(i) = std::sin(1.0 + 2.3 * double(i));
+    direction -= least_norm_solution(rows, rows * direction);
+    Eigen::VectorXd motion = Eigen::VectorXd::Zero(direction.size());
+    for (const RowBlock& block : connected_blocks(all)) {
+      const Eigen::VectorXd part = direction(block.columns);
+      if (part.norm() > no_direction) motion(block.columns) = part.normalized();
+    }
+    return motion;
+  }
+
+  /// How far the part of each constraint has been moved, in scales of the coordinates.
+  Eigen::VectorXd ways() {
+    const Eigen::VectorXd moved =
+        difference(mechanism_.rotations, state_.q, start_).cwiseQuotient(scale_);
+    Eigen::VectorXd ways = Eigen::VectorXd::Zero(system_.multipliers());
+    for (const RowBlock& block : connected_blocks(jacobian())) {
+      ways(block.rows).setConstant(Eigen::VectorXd(moved(block.columns)).norm());
+    }
+    return ways;
+  }
+
+  /// Moves and closes the kept constraints. @returns whether they close
+  bool move(const Eigen::VectorXd& scaled, double time, const std::vector<int>& kept) {
+    add(scaled);
+    state_.time += time;
+    for (int iteration = 0; iteration < max_closing_steps; ++iteration) {
+      const Eigen::VectorXd open = constraints()(kept);
+      if (open.size() == 0 || open.lpNorm<Eigen::Infinity>() <= 0.1 * closed) return true;
+      add(-least_norm_solution(select_rows(jacobian(), kept), open));
+    }
+    return false;
+  }
+
+ private:
+  void add(const Eigen::VectorXd& scaled) {
+    const Eigen::VectorXd start = state_.q;
+    advance(mechanism_.rotations, start, scale_.cwiseProduct(scaled), state_.q);
+  }
+
+  const Mechanism& mechanism_;
+  System& system_;
+  State state_;
+  Eigen::VectorXd start_;  ///< q
+  Eigen::VectorXd scale_;
+  System::Matrix matrix_;
+  Eigen::VectorXd residual_;
+};
+
+std::vector<int> first_rows(const RankedRows& ranked, std::size_t count) {
+  return {ranked.order.begin(), ranked.order.begin() + static_cast<std::ptrdiff_t>(count)};
+}
+
+/// What is left of a row without its share of others.
+Eigen::VectorXd part_across(const SparseRows& jacobian, int row, const std::vector<int>& others) {
+  const SparseRows rows = select_rows(jacobian, others);
+  const Eigen::VectorXd whole = jacobian.row(row).transpose();
+  return whole - least_norm_solution(rows, rows * whole);
+}
+
+/// The rows of which a row is made, after the largest factor.
+std::vector<int> rows_that_make(const SparseRows& jacobian, int row,
+                                const std::vector<int>& others) {
+  constexpr double counts = 0.05;
+  const Eigen::VectorXd factors =
+      factors_of_rows(select_rows(jacobian, others), jacobian.row(row).transpose());
+  std::vector<int> found;
+  if (factors.size() == 0) return found;
+  const double largest = factors.lpNorm<Eigen::Infinity>();
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    if (std::abs(factors(i)) > counts * largest) found.push_back(others[i]);
+  }
+  return found;
+}
+
+int row_of(const RowBlock& block, int local) {
+  return block.rows[local];
+}
+
+std::vector<int> rows_of(const RowBlock& block, const std::vector<int>& local) {
+  std::vector<int> rows;
+  for (const int i : local) rows.push_back(row_of(block, i));
+  return rows;
+}
+
+/// Elastic coordinates in units that are as large as those of frames.
+Eigen::VectorXd generous_scale(const Mechanism& mechanism) {
+  constexpr double elastic = 1e3;
+  Eigen::VectorXd scale = mechanism.scale;
+  for (const int i : mechanism.elastic) scale(i) *= elastic;
+  return scale;
+}
+
+/// In a large part of the mechanism, and in one of several parts, every coordinate counts alike: the
+/// whole may be so much larger than its bodies that, in its size, their turning would count for
+/// nothing.
+Eigen::VectorXd local_scale(const Mechanism& mechanism, const State& state, Eigen::VectorXd scale) {
+  const SparseRows jacobian = MovedMechanism(mechanism, state, scale).jacobian();
+  Eigen::VectorXd squares = Eigen::VectorXd::Zero(scale.size());
+  for (Eigen::Index row = 0; row < jacobian.rows(); ++row) {
+    for (SparseRows::InnerIterator entry(jacobian, row); entry; ++entry) {
+      squares(entry.col()) += entry.value() * entry.value();
+    }
+  }
+  const std::vector<RowBlock> blocks = connected_blocks(jacobian);
+  for (const RowBlock& block : blocks) {
+    if (blocks.size() == 1 && !is_large(block)) continue;
+    for (const int column : block.columns) {
+      if (squares(column) > 0.0) scale(column) /= std::sqrt(squares(column));
+    }
+  }
+  return scale;
+}
+
+/// Takes out what opens a little when drives are let go.
+void erase_misaligned(const Mechanism& mechanism, const std::vector<int>& drives,
+                      std::vector<int> kept, std::vector<int>& candidates) {
+  const auto is_drive = [&](int row) {
+    return std::find(drives.begin(), drives.end(), row) != drives.end();
+  };
+  if (std::erase_if(kept, is_drive) == 0) return;
+  MovedMechanism moved(mechanism, mechanism.guess,
+                       local_scale(mechanism, mechanism.guess, mechanism.scale));
+  const Eigen::VectorXd motion = moved.free_motion(kept);
+  if (motion.isZero(0.0) || !moved.move(small * motion, 0.0, kept)) return;
+  const Eigen::VectorXd open = moved.constraints().cwiseAbs();
+  std::erase_if(candidates, [&](int row) {
+    return !is_drive(row) && open(row) > closed + alignment_tolerance * small &&
+           open(row) < most_misaligned * small;
+  });
+}
+
+}  // namespace
+
+std::vector<int> redundant_constraints(Mechanism& mechanism, const std::vector<int>& drives) {
+  if (mechanism.system->multipliers() == 0) return {};
+  MovedMechanism moved(mechanism, mechanism.guess,
+                       local_scale(mechanism, mechanism.guess, mechanism.scale));
+  const RankedRows ranked = rank_rows(moved.jacobian(), alignment_tolerance);
+  const std::size_t independent = (ranked.pivots.array() > alignment_tolerance).count();
+  std::vector<int> kept = first_rows(ranked, independent);
+  std::vector<int> candidates(ranked.order.begin() + static_cast<std::ptrdiff_t>(independent),
+                              ranked.order.end());
+  if (candidates.empty() || !moved.move(small * moved.free_motion(kept), small, kept)) return {};
+  const Eigen::VectorXd ways = moved.ways().cwiseMax(small);
+  const Eigen::VectorXd open = moved.constraints().cwiseAbs();
+  std::erase_if(candidates,
+                [&](int row) { return !(open(row) <= closed + alignment_tolerance * ways(row)); });
+  erase_misaligned(mechanism, drives, std::move(kept), candidates);
+  std::sort(candidates.begin(), candidates.end());
+  return candidates;
+}
+
+std::vector<NearRedundancy> nearly_redundant_constraints(const Mechanism& mechanism,
+                                                         const State& state,
+                                                         const std::vector<int>& drives,
+                                                         double largest) {
+  const System& system = *mechanism.system;
+  if (system.multipliers() == 0) return {};
+  const Eigen::VectorXd scale = local_scale(mechanism, state, generous_scale(mechanism));
+  SparseRows jacobian = MovedMechanism(mechanism, state, scale).jacobian();
+  for (const int row : system.left_out()) jacobian.row(row) *= 0.0;
+  for (const int row : drives) jacobian.row(row) *= 0.0;
+  std::vector<NearRedundancy> found;
+  for (const RowBlock& block : connected_blocks(jacobian)) {
+    // Its rows among all columns.
+    const SparseRows rows = select_rows(jacobian, block.rows);
+    const RankedRows ranked = rank_rows(rows, largest);
+    for (std::size_t i = 1; i < ranked.order.size(); ++i) {
+      if (ranked.pivots(i) > largest) continue;
+      const int local = ranked.order[i];
+      const double length = rows.row(local).norm();
+      if (length == 0.0) continue;
+      const std::vector<int> others = first_rows(ranked, i);
+      const Eigen::VectorXd blocked = part_across(rows, local, others);
+      const double misalignment = blocked.norm() / length;
+      if (misalignment > largest || misalignment < no_direction * alignment_tolerance) continue;
+      MovedMechanism moved(mechanism, state, scale);
+      const int row = row_of(block, local);
+      const double before = moved.constraints()(row);
+      const double way = std::clamp(10.0 * misalignment, small, 100.0 * small);
+      if (!moved.move(way * blocked.normalized(), 0.0, rows_of(block, others))) continue;
+      const double opened = std::abs(moved.constraints()(row) - before) / length;
+      if (opened > 2.0 * misalignment * way + closed) continue;
+      found.push_back({row, rows_of(block, rows_that_make(rows, local, others)), misalignment,
+                       blocked.normalized()});
+    }
+  }
+  return found;
+}
+
+}  // namespace pleuel

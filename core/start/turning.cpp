@@ -1,0 +1,103 @@
+#include "core/start/turning.hpp"
+
+#include "core/base/rotation_vector.hpp"
+#include "core/base/skew.hpp"
+
+namespace pleuel {
+
+namespace {
+
+constexpr int in_space = 3, in_plane = 2;  // translations of a frame
+
+/// Coefficients that change nothing.
+Turning standing(Eigen::Index n) {
+  return {Eigen::MatrixXd::Identity(n, n), Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n),
+          Eigen::MatrixXd::Zero(n, n)};
+}
+
+void set_translation(int first, int size, const BodyTurn& turn, Turning& turning) {
+  const Eigen::Matrix3d omega = skew(turn.omega), alpha = skew(turn.alpha);
+  const auto set = [&](Eigen::MatrixXd& all, const Eigen::Matrix3d& block) {
+    all.block(first, first, size, size) = block.topLeftCorner(size, size);
+  };
+  set(turning.T, turn.axes);
+  set(turning.V, turn.axes * omega);
+  set(turning.P, 2.0 * turn.axes * omega);
+  set(turning.Q, turn.axes * (omega * omega + alpha));
+}
+
+void set_points(const Mechanism& mechanism, const BodyTurn& fastest, Turning& turning) {
+  const int size = mechanism.angles.empty() ? in_space : in_plane;
+  for (const int point : mechanism.points) set_translation(point, size, fastest, turning);
+}
+
+void set_rotation(int first, const BodyTurn& turn, Turning& turning) {
+  const Eigen::Matrix3d omega = skew(turn.omega);
+  turning.V.block<3, 3>(first, first) = omega;
+  turning.P.block<3, 3>(first, first) = omega;
+  turning.Q.block<3, 3>(first, first) = skew(turn.alpha);
+}
+
+/// The same in the axes R of the rotor, which turn with W and Ẇ (global): with δψ = B y, B = Aᵀ R,
+/// w = Aᵀ W and dB/dt = (w − ω)~ B
+///     δω = B ẏ + w̃ B y,   δα = B ÿ + (2w − ω)~ B ẏ + ((Aᵀ Ẇ − ω × w)~ + w̃ (w − ω)~) B y
+void set_rotation(int first, const BodyTurn& own, const BodyTurn& rotor, Turning& turning) {
+  const Eigen::Matrix3d B = own.axes.transpose() * rotor.axes;
+  const Eigen::Vector3d w = B * rotor.omega;
+  const Eigen::Vector3d change = B * rotor.alpha - own.omega.cross(w);
+  turning.T.block<3, 3>(first, first) = B;
+  turning.V.block<3, 3>(first, first) = skew(w) * B;
+  turning.P.block<3, 3>(first, first) = skew<double>(2.0 * w - own.omega) * B;
+  turning.Q.block<3, 3>(first, first) = (skew(change) + skew(w) * skew<double>(w - own.omega)) * B;
+}
+
+}  // namespace
+
+std::vector<TurningBody> turning_bodies(const Mechanism& mechanism, const State& state) {
+  std::vector<TurningBody> bodies;
+  for (const int rotation : mechanism.rotations) {
+    const BodyTurn turn{rotation_of(state.q.segment<3>(rotation)), state.v.segment<3>(rotation),
+                        state.a.segment<3>(rotation)};
+    bodies.push_back({rotation - in_space, rotation, rotation + 3, turn});
+  }
+  for (const int angle : mechanism.angles) {
+    const Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
+    const BodyTurn turn{rotation_of(state.q(angle) * normal), state.v(angle) * normal,
+                        state.a(angle) * normal};
+    bodies.push_back({angle - in_plane, angle, angle + 1, turn});
+  }
+  return bodies;
+}
+
+BodyTurn fastest_turn(const Mechanism& mechanism, const State& state) {
+  BodyTurn fastest;
+  for (const TurningBody& body : turning_bodies(mechanism, state)) {
+    if (body.turn.omega.norm() > fastest.omega.norm()) fastest = body.turn;
+  }
+  return fastest;
+}
+
+Turning turning_of(const Mechanism& mechanism, const State& state) {
+  Turning turning = standing(state.q.size());
+  for (const TurningBody& body : turning_bodies(mechanism, state)) {
+    const int translations = body.rotation - body.first;
+    set_translation(body.first, translations, body.turn, turning);
+    if (translations == in_space) set_rotation(body.rotation, body.turn, turning);
+  }
+  set_points(mechanism, fastest_turn(mechanism, state), turning);
+  return turning;
+}
+
+Turning rotor_turning(const Mechanism& mechanism, const State& state) {
+  Turning turning = standing(state.q.size());
+  const BodyTurn rotor = fastest_turn(mechanism, state);
+  for (const TurningBody& body : turning_bodies(mechanism, state)) {
+    const int translations = body.rotation - body.first;
+    set_translation(body.first, translations, rotor, turning);
+    if (translations == in_space) set_rotation(body.rotation, body.turn, rotor, turning);
+  }
+  set_points(mechanism, rotor, turning);
+  return turning;
+}
+
+}  // namespace pleuel

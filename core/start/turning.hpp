@@ -1,0 +1,48 @@
+#pragma once
+
+#include <vector>
+
+#include "core/mechanism/mechanism.hpp"
+
+namespace pleuel {
+
+/// How a body turns: its axes, and its angular velocity and acceleration in them [rad/s, rad/s²]. In
+/// a plane all are counted in the directions of the plane, whose normal is the third.
+struct BodyTurn {
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d omega = Eigen::Vector3d::Zero(), alpha = Eigen::Vector3d::Zero();
+};
+
+/// A body that is no point mass.
+struct TurningBody {
+  int first;     ///< coordinate of its frame
+  int rotation;  ///< the first that turns the frame
+  int elastic;   ///< behind those of its frame
+  BodyTurn turn;
+};
+
+std::vector<TurningBody> turning_bodies(const Mechanism& mechanism, const State& state);
+
+/// Of the body that turns fastest.
+BodyTurn fastest_turn(const Mechanism& mechanism, const State& state);
+
+/// Small motions y of a mechanism, counted in axes A that turn with its bodies: how changes of
+/// coordinates, rates and accelerations follow from them,
+///     δq = T y,   δv = T ẏ + V y,   δa = T ÿ + P ẏ + Q y
+/// With ω and α of a body in its axes δr = A y_r, δω = ẏ_θ + ω × y_θ,
+///     δr̈ = A (ÿ_r + 2 ω × ẏ_r + (ω̃ω̃ + α̃) y_r),   δα = ÿ_θ + ω × ẏ_θ + α × y_θ;
+/// elastic coordinates turn with their body anyway, and so does the angle of a frame in a plane. A
+/// point mass takes the axes of the body that turns fastest. Where the whole mechanism turns alike
+/// the coefficients of y are constant.
+struct Turning {
+  Eigen::MatrixXd T, V, P, Q;  ///< n × n
+};
+
+Turning turning_of(const Mechanism& mechanism, const State& state);
+
+/// The same with all bodies in axes that turn with the one that turns fastest: what stands still beside
+/// a rotor, as the block of a bearing, has constant coefficients there, if it is alike in all
+/// directions across the axis.
+Turning rotor_turning(const Mechanism& mechanism, const State& state);
+
+}  // namespace pleuel

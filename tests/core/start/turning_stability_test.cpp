@@ -1,0 +1,217 @@
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/start/turning.hpp"
+#include "tests/core/start/quasi_static_beam.hpp"
+
+/// Shafts, rotors and columns that turn: where their elastic equilibrium is stable.
+namespace pleuel::test::turning_stability_test {
+namespace {
+
+using namespace quasi_static_beam;
+using testing::HasSubstr;
+
+/// A shaft of 1 m × 10 mm × h between a ball joint and a line, which turns about itself at Ω and is
+/// pressed by P, both relative to its first critical speed and its Euler load.
+/// @param damping  by stiffness [s]
+std::string shaft(const std::string& frame, double h, double speed, double press,
+                  double damping = 0.0) {
+  return fmt::format(R"({{"scene": {{
+      "materials": {{"m": {{"young": 7e10, "poisson": 0.3, "density": 2700}}}},
+      "bodies": {{"b": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "m",
+                       "section": {{"type": "rectangle", "width": 0.01, "height": {}}},
+                       "elements": 6, "frame": "{}", "angular_velocity": [{}, 0, 0],
+                       "damping": {{"stiffness": {}}}}}}},
+      "joints": {{"a": {{"type": "spherical", "bodies": ["ground", "b"], "at": [0, 0, 0]}},
+                "l": {{"type": "point-on-line", "bodies": ["ground", "b"], "at": [1, 0, 0],
+                      "axis": [1, 0, 0]}}}},
+      "loads": {{"p": {{"type": "force", "body": "b", "at": [1, 0, 0], "direction": [-1, 0, 0],
+                      "value": {}}}}}}},
+      "effects": {{"spatial_motion": "on"}},
+      "simulation": {{"end_time": 2e-4, "step": 1e-4, "initial_state": "quasi-static"}},
+      "responses": {{
+        "x": {{"type": "position", "body": "b", "at": 1, "direction": "x", "over_time": "final"}},
+        "y": {{"type": "position", "body": "b", "at": 1, "direction": "y", "over_time": "final"}}}}}})",
+                     h, frame,
+                     speed * std::pow(std::numbers::pi, 2) * std::sqrt(7e10 / 2700 / 12) * 0.01,
+                     damping, press * std::pow(std::numbers::pi, 2) * 7e10 * h * 1e-6 / 12);
+}
+
+/// In axes that turn with it the waves n of a shaft have ω² = n⁴ b − n² p in units of its lowest
+/// critical speed, with b = 1 and p in its thin plane, (h/b)² and p in the other one: K = ω² − Ω²,
+///     (s² + K₁)(s² + K₂) + 4Ω² s² = 0
+/// which grows unless K₁ K₂ > 0, K₁ + K₂ + 4Ω² > 2 √(K₁ K₂).
+bool is_stable_shaft(double ratio, double speed, double press) {
+  for (int n : {1, 2, 3}) {
+    const double square = speed * speed, n2 = n * n;
+    const double thin = n2 * n2 - n2 * press - square;
+    const double thick = n2 * n2 * ratio * ratio - n2 * press - square;
+    if (thin * thick < 0.0) return false;
+    if (thin + thick + 4.0 * square < 2.0 * std::sqrt(thin * thick)) return false;
+  }
+  return true;
+}
+
+/// Between its critical speeds a flat shaft grows; beyond them, and a round one at any speed, it does
+/// not, whatever the frame of the body is, and a press beyond its Euler load may be borne.
+TEST(QuasiStaticStart, OfAShaftThatTurnsIsFoundWhereItIsStable) {
+  for (const double h : {0.0101, 0.012, 0.02}) {
+    for (const char* frame : {"tangent", "tangent-end", "chord", "mean-axis"}) {
+      for (const double speed : {0.5, 1.5, 2.5, 6.0}) {
+        for (const double press : {0.0, 0.2, 0.8, 1.2}) {
+          const std::string error = error_of(shaft(frame, h, speed, press));
+          EXPECT_EQ(error.empty(), is_stable_shaft(h / 0.01, speed, press))
+              << h << " " << frame << " " << speed << " " << press << ": " << error;
+        }
+      }
+    }
+  }
+}
+
+/// What gyroscopic forces alone hold, damping that turns with the shaft lets go (Kelvin, Tait &
+/// Chetaev): it is stable only where K₁ > 0.
+TEST(QuasiStaticStart, OfAShaftBeyondItsCriticalSpeedIsRefusedWhereItDampsItself) {
+  for (const char* frame : {"tangent", "chord", "mean-axis"}) {
+    EXPECT_EQ(error_of(shaft(frame, 0.0101, 0.85, 0.2, 1e-4)), "") << frame;
+    for (const double speed : {1.5, 2.5}) {
+      EXPECT_EQ(error_of(shaft(frame, 0.0101, speed, 0.2)), "") << frame << " " << speed;
+      EXPECT_THAT(error_of(shaft(frame, 0.0101, speed, 0.2, 1e-4)), HasSubstr("\"b\" whirls"))
+          << frame << " " << speed;
+    }
+  }
+}
+
+/// A column without mass, 0.3 m long, which points from the rim of a turning hub of 0.5 m towards the
+/// axis, with 2 kg at its end.
+/// @param out_of_plane    whether it is thin along the axis
+/// @param spatial_motion  on, off
+std::string inward_column(bool out_of_plane, double speed, const std::string& spatial_motion) {
+  return fmt::format(R"({{"scene": {{
+      "materials": {{"light": {{"young": 2.1e11, "poisson": 0.3, "density": 1}}}},
+      "bodies": {{
+        "hub": {{"type": "rigid", "at": [0, 0, 0], "mass": 1, "inertia": [0.01, 0.01, 0.01, 0, 0, 0],
+                "angular_velocity": [0, 0, {0}]}},
+        "column": {{"type": "beam", "from": [0.5, 0, 0], "to": [0.2, 0, 0], "material": "light",
+                   "section": {{"type": "rectangle", "width": {1}, "height": {2}}}, "elements": 10,
+                   "reference": [0, 1, 0], "angular_velocity": [0, 0, {0}],
+                   "velocity": [0, {3}, 0]}},
+        "end": {{"type": "rigid", "at": [0.2, 0, 0], "mass": 2,
+                "inertia": [2e-7, 2e-7, 2e-7, 0, 0, 0], "angular_velocity": [0, 0, {0}],
+                "velocity": [0, {4}, 0]}}}},
+      "joints": {{
+        "bearing": {{"type": "revolute", "bodies": ["ground", "hub"], "at": [0, 0, 0],
+                    "axis": [0, 0, 1], "drive": {{"type": "constant-speed", "speed": {0}}}}},
+        "root": {{"type": "fixed", "bodies": ["hub", "column"], "at": [0.5, 0, 0]}},
+        "weld": {{"type": "fixed", "bodies": ["column", "end"], "at": [0.2, 0, 0]}}}}}},
+      "effects": {{"spatial_motion": "{5}"}},
+      "simulation": {{"end_time": 2e-4, "step": 1e-4, "initial_state": "quasi-static"}},
+      "responses": {{
+        "x": {{"type": "position", "body": "end", "direction": "x", "over_time": "final"}},
+        "y": {{"type": "position", "body": "end", "direction": "y", "over_time": "final"}}}}}})",
+                     speed, out_of_plane ? 0.004 : 0.02, out_of_plane ? 0.02 : 0.004, 0.5 * speed,
+                     0.2 * speed, spatial_motion);
+}
+
+/// P = m Ω² (R − L) presses it. Across the turning it keeps its direction: P = π² EI/4L². In the plane
+/// it comes from the axis, so that k² = P/EI has tan kL = kR. Its own light elements vibrate 10⁶ times
+/// as fast as it buckles.
+double critical_speed(bool out_of_plane) {
+  constexpr double length = 0.3, radius = 0.5, mass = 2.0;
+  const double bending = young * 0.02 * std::pow(0.004, 3) / 12;
+  double low = 1.0, high = 0.5 * std::numbers::pi / length - 1e-6;
+  for (int i = 0; i < 60; ++i) {
+    const double k = 0.5 * (low + high);
+    (std::tan(k * length) < k * radius ? low : high) = k;
+  }
+  const double k = out_of_plane ? 0.5 * std::numbers::pi / length : low;
+  return k * std::sqrt(bending / (mass * (radius - length)));
+}
+
+/// Its loads are inertia forces, which grow with the square of the speed.
+TEST(QuasiStaticStart, OfAColumnThatTurnsInwardsIsFoundBelowItsCriticalSpeed) {
+  const std::pair in_space{true, "on"}, thin_in_plane{false, "on"}, in_plane{false, "off"};
+  for (const auto& [out_of_plane, spatial] : {in_space, thin_in_plane, in_plane}) {
+    const double critical = critical_speed(out_of_plane);
+    EXPECT_EQ(error_of(inward_column(out_of_plane, 0.98 * critical, spatial)), "")
+        << out_of_plane << spatial;
+    for (const double share : {1.02, 1.1, 1.5}) {
+      EXPECT_THAT(error_of(inward_column(out_of_plane, share * critical, spatial)),
+                  HasSubstr(fmt::format("\"column\" buckles, at some {:.3g} of these loads",
+                                        1.0 / (share * share))))
+          << out_of_plane << spatial;
+    }
+  }
+}
+
+/// A shaft almost without mass with a disk of 1 kg on its middle, and a block of 1 kg that does not
+/// turn, on a bearing; two dampers hold the block. Stiffness 48 EI/L³ of two pins, L = 1.
+/// @param spring  along y, stiffness
+std::string held_rotor(double speed, double damping, double damper, double spring = 0.0) {
+  return fmt::format(R"({{"scene": {{
+      "materials": {{"light": {{"young": 2.1e11, "poisson": 0.3, "density": 10}}}},
+      "bodies": {{
+        "b": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "light",
+              "section": {{"type": "circle", "diameter": 0.01}}, "elements": 4, "frame": "chord",
+              "angular_velocity": [{0}, 0, 0], "damping": {{"stiffness": {1}}}}},
+        "disk": {{"type": "rigid", "at": [0.5, 0, 0], "mass": 1,
+                 "inertia": [1e-6, 1e-6, 1e-6, 0, 0, 0], "angular_velocity": [{0}, 0, 0]}},
+        "block": {{"type": "rigid", "at": [0.5, 0, 0], "mass": 1,
+                  "inertia": [1e-6, 1e-6, 1e-6, 0, 0, 0]}}}},
+      "joints": {{
+        "a": {{"type": "spherical", "bodies": ["ground", "b"], "at": [0, 0, 0]}},
+        "l": {{"type": "point-on-line", "bodies": ["ground", "b"], "at": [1, 0, 0],
+              "axis": [1, 0, 0]}},
+        "weld": {{"type": "fixed", "bodies": ["b", "disk"], "at": [0.5, 0, 0]}},
+        "bearing": {{"type": "revolute", "bodies": ["b", "block"], "at": [0.5, 0, 0],
+                    "axis": [1, 0, 0]}}}},
+      "loads": {{
+        "y": {{"type": "spring", "bodies": ["ground", "block"], "at": [[0.5, 10, 0], [0.5, 0, 0]],
+              "stiffness": {3}, "damping": {2}}},
+        "z": {{"type": "spring", "bodies": ["ground", "block"], "at": [[0.5, 0, 10], [0.5, 0, 0]],
+              "stiffness": 0, "damping": {2}}}}}}},
+      "effects": {{"spatial_motion": "on"}},
+      "simulation": {{"end_time": 2e-4, "step": 1e-4, "initial_state": "quasi-static"}},
+      "responses": {{
+        "x": {{"type": "position", "body": "disk", "direction": "x", "over_time": "final"}},
+        "y": {{"type": "position", "body": "disk", "direction": "y", "over_time": "final"}}}}}})",
+                     speed, damping, damper, spring);
+}
+
+/// With c_i = β k of the shaft, which turns, and c_e of the dampers, which stand still, it whirls from
+/// Ω = √(k/m) (1 + c_e/c_i) on (Smith 1933), where m is the
+/// mass of disk and block. Without damping nothing grows.
+TEST(QuasiStaticStart, OfARotorInDampersIsFoundUpToTheSpeedThatTheyHold) {
+  constexpr double mass = 2.0;
+  const double stiff = 48 * young * std::numbers::pi * 1e-8 / 64;
+  const double critical = std::sqrt(stiff / mass), damping = 1e-3;
+  for (const double share : {0.0, 0.5, 2.0}) {
+    const double damper = share * damping * stiff, limit = (1.0 + share) * critical;
+    EXPECT_EQ(error_of(held_rotor(0.97 * limit, damping, damper)), "") << share;
+    EXPECT_THAT(error_of(held_rotor(1.03 * limit, damping, damper)), HasSubstr("\"b\" whirls"))
+        << share;
+  }
+  for (const double speed : {0.9, 1.1, 1.5, 3.0}) {
+    EXPECT_EQ(error_of(held_rotor(speed * critical, 0.0, 0.0)), "") << speed;
+  }
+}
+
+/// In a bearing that is softer one way a round shaft without damping grows at no speed: in axes that
+/// stand still y and z are vibrations of their own.
+TEST(QuasiStaticStart, OfARoundShaftInABearingThatIsSofterOneWayIsFound) {
+  const double stiff = 48 * young * std::numbers::pi * 1e-8 / 64;
+  for (const double ratio : {0.3, 3.0}) {
+    for (const double speed : {0.9, 1.1, 1.5, 1.9, 2.5}) {
+      const double critical = std::sqrt(stiff / 2.0);
+      EXPECT_EQ(error_of(held_rotor(speed * critical, 0.0, 0.0, ratio * stiff)), "")
+          << ratio << " " << speed;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pleuel::test::turning_stability_test
