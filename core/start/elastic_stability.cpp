@@ -193,20 +193,27 @@ State advanced(const Mechanism& mechanism, const State& state, double time) {
 }
 
 /// Whether the stiffness of a rotor changes as it turns, as in bearings that are softer one way: by
-/// more than what is negative in it, so that one instant does not tell whether it grows.
-/// @param low     modes with φᵀ M φ = 1, the lowest first
-/// @param lowest  φᵀ K φ of that
+/// more than what is negative in it, so that one instant does not tell whether it grows. What couples
+/// the lowest mode with another one counts by how far it lowers the first,  κ₀ⱼ²/(κⱼ − κ₀), or by
+/// itself where they are close.
+/// @param low  modes with φᵀ M φ = 1, the lowest first, and their φᵀ K φ
 bool changes_with_angle(const Mechanism& mechanism, const State& state,
-                        const Eigen::MatrixXd& shapes, const Eigen::MatrixXd& low, double lowest) {
+                        const Eigen::MatrixXd& shapes, const SymmetricModes& low) {
   constexpr double angle = 1e-4, share = 0.25;
-  const double speed = fastest_turn(mechanism, state).omega.norm();
+  const double lowest = low.values(0), speed = fastest_turn(mechanism, state).omega.norm();
   if (lowest < -(1.0 + share) * speed * speed) return false;  // it would buckle standing still, too
-  const auto row = [&](double time) -> Eigen::MatrixXd {
+  const auto row = [&](double time) -> Eigen::RowVectorXd {
     const State moved = advanced(mechanism, state, time);
-    return low.col(0).transpose() * turning_deformations(mechanism, moved, &shapes).stiffness * low;
+    return low.vectors.col(0).transpose() *
+           turning_deformations(mechanism, moved, &shapes).stiffness * low.vectors;
   };
-  const Eigen::MatrixXd change = (row(angle / speed) - row(-angle / speed)) / (2.0 * angle);
-  return change.norm() > share * std::abs(lowest);
+  const Eigen::RowVectorXd change = (row(angle / speed) - row(-angle / speed)) / (2.0 * angle);
+  double effect = std::abs(change(0));
+  for (Eigen::Index i = 1; i < change.size(); ++i) {
+    const double coupling = std::abs(change(i)), gap = low.values(i) - lowest;
+    effect += coupling < gap ? coupling * coupling / gap : coupling;
+  }
+  return effect > share * std::abs(lowest);
 }
 
 /// Of a mechanism that turns. Deformations without stiffness may be held by gyroscopic
@@ -231,15 +238,14 @@ ElasticStability turning_stability(const Mechanism& mechanism, const State& stat
   mass.diagonal().array() += round_off_mass * mass.diagonal().maxCoeff();
   const SymmetricModes modes = symmetric_modes(symmetric, mass);
   const Eigen::Index size = modes.vectors.cols();
-  const auto low =
-      modes.vectors.leftCols(std::min<Eigen::Index>(size, 2 * result.negative + more_modes));
+  const Eigen::Index count = std::min<Eigen::Index>(size, 2 * result.negative + more_modes);
+  const SymmetricModes low{modes.values.head(count), modes.vectors.leftCols(count)};
   const auto reduced = [&](const Eigen::MatrixXd& matrix) -> Eigen::MatrixXd {
-    return low.transpose() * matrix * low;
+    return low.vectors.transpose() * matrix * low.vectors;
   };
   const Eigen::MatrixXd m = reduced(mass), c = reduced(all.rates), k = reduced(all.stiffness);
-  result.is_stable =
-      !grows(m, c, k) || (is_rotor(mechanism, state) &&
-                          changes_with_angle(mechanism, state, all.shapes, low, modes.values(0)));
+  result.is_stable = !grows(m, c, k) || (is_rotor(mechanism, state) &&
+                                         changes_with_angle(mechanism, state, all.shapes, low));
   if (result.is_stable) return result;
   result.where = owner(mechanism, all.shapes * modes.vectors.col(0));
   if (!grows(m, skew_part(c), symmetric_part(k))) {

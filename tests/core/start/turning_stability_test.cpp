@@ -86,35 +86,36 @@ TEST(QuasiStaticStart, OfAShaftBeyondItsCriticalSpeedIsRefusedWhereItDampsItself
   }
 }
 
-/// A column without mass, 0.3 m long, which points from the rim of a turning hub of 0.5 m towards the
-/// axis, with 2 kg at its end.
+/// A column without mass, which points from the rim of a turning hub of 0.5 m towards the axis, with
+/// 2 kg at its end.
 /// @param out_of_plane    whether it is thin along the axis
 /// @param spatial_motion  on, off
-std::string inward_column(bool out_of_plane, double speed, const std::string& spatial_motion) {
+std::string inward_column(bool out_of_plane, double speed, const std::string& spatial_motion,
+                          double length = 0.3) {
   return fmt::format(R"({{"scene": {{
       "materials": {{"light": {{"young": 2.1e11, "poisson": 0.3, "density": 1}}}},
       "bodies": {{
         "hub": {{"type": "rigid", "at": [0, 0, 0], "mass": 1, "inertia": [0.01, 0.01, 0.01, 0, 0, 0],
                 "angular_velocity": [0, 0, {0}]}},
-        "column": {{"type": "beam", "from": [0.5, 0, 0], "to": [0.2, 0, 0], "material": "light",
+        "column": {{"type": "beam", "from": [0.5, 0, 0], "to": [{6}, 0, 0], "material": "light",
                    "section": {{"type": "rectangle", "width": {1}, "height": {2}}}, "elements": 10,
                    "reference": [0, 1, 0], "angular_velocity": [0, 0, {0}],
                    "velocity": [0, {3}, 0]}},
-        "end": {{"type": "rigid", "at": [0.2, 0, 0], "mass": 2,
+        "end": {{"type": "rigid", "at": [{6}, 0, 0], "mass": 2,
                 "inertia": [2e-7, 2e-7, 2e-7, 0, 0, 0], "angular_velocity": [0, 0, {0}],
                 "velocity": [0, {4}, 0]}}}},
       "joints": {{
         "bearing": {{"type": "revolute", "bodies": ["ground", "hub"], "at": [0, 0, 0],
                     "axis": [0, 0, 1], "drive": {{"type": "constant-speed", "speed": {0}}}}},
         "root": {{"type": "fixed", "bodies": ["hub", "column"], "at": [0.5, 0, 0]}},
-        "weld": {{"type": "fixed", "bodies": ["column", "end"], "at": [0.2, 0, 0]}}}}}},
+        "weld": {{"type": "fixed", "bodies": ["column", "end"], "at": [{6}, 0, 0]}}}}}},
       "effects": {{"spatial_motion": "{5}"}},
       "simulation": {{"end_time": 2e-4, "step": 1e-4, "initial_state": "quasi-static"}},
       "responses": {{
         "x": {{"type": "position", "body": "end", "direction": "x", "over_time": "final"}},
         "y": {{"type": "position", "body": "end", "direction": "y", "over_time": "final"}}}}}})",
                      speed, out_of_plane ? 0.004 : 0.02, out_of_plane ? 0.02 : 0.004, 0.5 * speed,
-                     0.2 * speed, spatial_motion);
+                     (0.5 - length) * speed, spatial_motion, 0.5 - length);
 }
 
 /// P = m Ω² (R − L) presses it. Across the turning it keeps its direction: P = π² EI/4L². In the plane
@@ -144,6 +145,63 @@ TEST(QuasiStaticStart, OfAColumnThatTurnsInwardsIsFoundBelowItsCriticalSpeed) {
                   HasSubstr(fmt::format("\"column\" buckles, at some {:.3g} of these loads",
                                         1.0 / (share * share))))
           << out_of_plane << spatial;
+    }
+  }
+}
+
+/// Where it reaches beyond the axis, by c, its mass pulls it, with P = m Ω² c, and aside, from the
+/// axis, the more it is bent: k² = P/EI has tanh kL = kR.
+TEST(QuasiStaticStart, OfAnArmThatReachesBeyondTheAxisIsFoundBelowItsCriticalSpeed) {
+  constexpr double length = 0.8, radius = 0.5, mass = 2.0;
+  const double bending = young * 0.02 * std::pow(0.004, 3) / 12;
+  double low = 1.0, high = 10.0;
+  for (int i = 0; i < 60; ++i) {
+    const double k = 0.5 * (low + high);
+    (std::tanh(k * length) > k * radius ? low : high) = k;
+  }
+  const double critical = low * std::sqrt(bending / (mass * (length - radius)));
+  for (const char* spatial : {"on", "off"}) {
+    EXPECT_EQ(error_of(inward_column(false, 0.98 * critical, spatial, length)), "") << spatial;
+    for (const double share : {1.02, 1.1, 1.5}) {
+      EXPECT_THAT(error_of(inward_column(false, share * critical, spatial, length)),
+                  HasSubstr(fmt::format("\"column\" buckles, at some {:.3g} of these loads",
+                                        1.0 / (share * share))))
+          << share << spatial;
+    }
+  }
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  return text.replace(text.find(what), what.size(), by);
+}
+
+/// On a hinge with a spring of stiffness c, EI k² = m Ω² (R − L) has tan kL (1 + EI k² R/c) = kR. The
+/// spring is a third as stiff as the column, 3 EI/L.
+TEST(QuasiStaticStart, OfAColumnOnASpringThatTurnsInwardsIsFoundBelowItsCriticalSpeed) {
+  constexpr double length = 0.3, radius = 0.5, mass = 2.0;
+  const double bending = young * 0.02 * std::pow(0.004, 3) / 12, spring = bending / length;
+  double low = 0.1, high = 0.5 * std::numbers::pi / length - 1e-6;
+  for (int i = 0; i < 60; ++i) {
+    const double k = 0.5 * (low + high);
+    const double turned = std::tan(k * length) * (1.0 + bending * k * k * radius / spring);
+    (turned < k * radius ? low : high) = k;
+  }
+  const double critical = low * std::sqrt(bending / (mass * (radius - length)));
+  const std::string fixed = R"("root": {"type": "fixed",)";
+  for (const std::string frame : {"tangent", "chord", "mean-axis", "tangent-end"}) {
+    const auto on_spring = [&](double share) {
+      std::string text = inward_column(false, share * critical, "off");
+      text = replaced(text, fixed, R"("root": {"type": "revolute", "axis": [0, 0, 1],)");
+      text = replaced(text, R"("elements": 10,)",
+                      fmt::format(R"("elements": 10, "frame": "{}",)", frame));
+      return replaced(text, R"("joints":)",
+                      fmt::format(R"("loads": {{"spring": {{"type": "joint", "joint": "root",
+                                     "stiffness": {}}}}}, "joints":)",
+                                  spring));
+    };
+    EXPECT_EQ(error_of(on_spring(0.98)), "") << frame;
+    for (const double share : {1.02, 1.1, 1.5}) {
+      EXPECT_THAT(error_of(on_spring(share)), HasSubstr("\"column\" buckles")) << frame << share;
     }
   }
 }
