@@ -345,7 +345,7 @@ class ModelBuilder {
       set_velocity(body, frame);
       mechanism.scale.segment(frame.offset, frame.translations()).setConstant(size);
       mechanism.free_fall.segment(frame.offset, frame.translations()) =
-          context_.gravity.head(frame.translations());
+          frame.basis.transpose() * context_.gravity;
       mechanism.assembly_weight.segment(frame.offset, frame.size()).setOnes();
       set_elastic_scale(built, size);
       for (int k = 0; k < built.elastic_size(); ++k) {

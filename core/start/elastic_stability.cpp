@@ -188,7 +188,7 @@ State advanced(const Mechanism& mechanism, const State& state, double time) {
     const Eigen::Vector3d step = time * state.v.segment<3>(rotation);
     next.q.segment<3>(rotation) = compose(state.q.segment<3>(rotation), step);
   }
-  for (const int point : mechanism.points) turn(point, mechanism.angles.empty() ? 3 : 2);
+  for (const int point : mechanism.points) turn(point, translations_of_points(mechanism));
   return next;
 }
 

@@ -36,7 +36,8 @@ struct MechanismState {
 ///     (K₀ + s (K₁ − K₀)) φ = 0,   the smallest s > 0; infinite if there is none
 /// Not a number where springs hold motions as rigid bodies, which loads turn at once.
 /// Linear buckling: K with the forces that the loads cause, without the coupling of bending with
-/// stretching by deflection, which is of second order in both.
+/// stretching by deflection, which is of second order in both. Where all that deforms turns alike, it
+/// is counted in axes that turn, and inertia forces grow with the loads.
 /// @param unloaded  at a state without deformation, where accelerations and multipliers bear the
 ///                  loads, or without loads
 /// @param loaded    in equilibrium with `share` of the loads, in the same coordinates

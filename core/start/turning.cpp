@@ -27,7 +27,7 @@ void set_translation(int first, int size, const BodyTurn& turn, Turning& turning
 }
 
 void set_points(const Mechanism& mechanism, const BodyTurn& fastest, Turning& turning) {
-  const int size = mechanism.angles.empty() ? in_space : in_plane;
+  const int size = translations_of_points(mechanism);
   for (const int point : mechanism.points) set_translation(point, size, fastest, turning);
 }
 
@@ -67,6 +67,10 @@ std::vector<TurningBody> turning_bodies(const Mechanism& mechanism, const State&
     bodies.push_back({angle - in_plane, angle, angle + 1, turn});
   }
   return bodies;
+}
+
+int translations_of_points(const Mechanism& mechanism) {
+  return mechanism.angles.empty() ? in_space : in_plane;
 }
 
 BodyTurn fastest_turn(const Mechanism& mechanism, const State& state) {

@@ -23,6 +23,9 @@ struct TurningBody {
 
 std::vector<TurningBody> turning_bodies(const Mechanism& mechanism, const State& state);
 
+/// How many coordinates each of Mechanism::points has: three in space, two in a plane.
+int translations_of_points(const Mechanism& mechanism);
+
 /// Of the body that turns fastest.
 BodyTurn fastest_turn(const Mechanism& mechanism, const State& state);
 

@@ -83,8 +83,7 @@ std::string text_of(const Model& model, Eigen::Index coordinate, const Eigen::Ve
       "else: \"{}\" begins {:.3g} {} away, the closest by a measure of lengths and angles that "
       "goes by the size of the mechanism where variables start; by another one it would be {:.3g} "
       "{}. Place the bodies as joints and drives have them at t = 0, or let a drive begin where "
-      "they "
-      "stand.",
+      "they stand.",
       owner->name, moved(placed), is_angle ? "rad" : "m", moved(other), is_angle ? "rad" : "m");
 }
 
