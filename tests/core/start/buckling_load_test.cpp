@@ -56,14 +56,14 @@ std::string text_of(const Eigen::Vector3d& vector) {
 
 /// A clamped column that stands along one axis, thin along another one, under so many times the weight
 /// that buckles it, q L³/EI = 7.837 (Timoshenko & Gere, Theory of Elastic Stability, art. 2.12). A
-/// force across says which plane it moves in.
+/// force across says which plane it moves in. Its frame turns with it, and so with its weight.
 std::string heavy_column(const Eigen::Vector3d& up, const Eigen::Vector3d& across, double share) {
   const double weight = share * 7.837 * stiffness / (7850 * width * height);
   return fmt::format(R"({{"scene": {{
       "materials": {{"m": {{"young": 2.1e11, "poisson": 0.3, "density": 7850}}}},
       "bodies": {{"b": {{"type": "beam", "from": [0, 0, 0], "to": {0}, "reference": {1},
                        "section": {{"type": "rectangle", "width": 0.02, "height": 0.002}},
-                       "material": "m", "elements": 8}}}},
+                       "material": "m", "elements": 8, "frame": "chord"}}}},
       "joints": {{"c": {{"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]}}}},
       "loads": {{"w": {{"type": "force", "body": "b", "at": {0}, "direction": {1}, "value": 1e-6}}}},
       "gravity": {2}}},
