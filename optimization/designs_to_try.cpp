@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/eager_matrices.hpp"
 #include "optimization/restoration.hpp"
 #include "optimization/scaling.hpp"
 #include "optimization/starts.hpp"

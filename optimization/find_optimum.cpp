@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
 #include "core/base/number_text.hpp"
 #include "optimization/backends.hpp"

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/eager_matrices.hpp"
 #include "optimization/generic_numbers.hpp"
 #include "optimization/scaling.hpp"
 

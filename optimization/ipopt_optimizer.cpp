@@ -7,6 +7,8 @@
 #include <IpTNLP.hpp>
 #include <fmt/format.h>
 
+#include "core/base/eager_matrices.hpp"
+
 namespace pleuel {
 
 namespace {

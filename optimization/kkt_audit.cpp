@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/eager_matrices.hpp"
 #include "optimization/nonnegative_least_squares.hpp"
 #include "optimization/scaling.hpp"
 

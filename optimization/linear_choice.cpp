@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/base/eager_matrices.hpp"
+
 namespace pleuel {
 
 namespace {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/base/dense_solvers.hpp"
+#include "core/base/eager_matrices.hpp"
 #include "optimization/generic_numbers.hpp"
 
 namespace pleuel {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/dense_solvers.hpp"
+#include "core/base/eager_matrices.hpp"
 #include "optimization/lowest_curvature.hpp"
 #include "optimization/scaling.hpp"
 

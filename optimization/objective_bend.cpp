@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/eager_matrices.hpp"
 #include "optimization/scaling.hpp"
 
 namespace pleuel {

@@ -1,5 +1,7 @@
 #include "optimization/prices.hpp"
 
+#include "core/base/eager_matrices.hpp"
+
 namespace pleuel {
 
 namespace {

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/eager_matrices.hpp"
 #include "optimization/elastic_problem.hpp"
 #include "optimization/scaling.hpp"
 #include "optimization/violation_step.hpp"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/eager_matrices.hpp"
 #include "optimization/scaling.hpp"
 
 namespace pleuel {

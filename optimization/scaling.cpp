@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/eager_matrices.hpp"
+
 namespace pleuel {
 
 namespace {

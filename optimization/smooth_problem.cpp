@@ -1,5 +1,6 @@
 #include "optimization/smooth_problem.hpp"
 
+#include "core/base/eager_matrices.hpp"
 #include "optimization/forwarding_problem.hpp"
 
 namespace pleuel {

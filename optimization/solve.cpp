@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "optimization/backends.hpp"
 #include "optimization/objective_bend.hpp"
 #include "optimization/polish.hpp"

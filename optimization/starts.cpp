@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/eager_matrices.hpp"
+
 namespace pleuel {
 
 namespace {

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "optimization/broken_limits.hpp"
 #include "optimization/gradient_check.hpp"
 #include "optimization/neighbourhood.hpp"

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/base/dense_solvers.hpp"
+#include "core/base/eager_matrices.hpp"
 
 namespace pleuel {
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/response/make_responses.hpp"
 #include "core/scene/magnitude_direction.hpp"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/model/scene_geometry.hpp"
 #include "core/scene/beam_mesh.hpp"
 

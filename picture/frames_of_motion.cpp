@@ -5,6 +5,7 @@
 #include <numbers>
 #include <set>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/frame/body_frame.hpp"
 
 namespace pleuel {

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/base/int_size.hpp"
 #include "core/frame/body_frame.hpp"

@@ -4,6 +4,8 @@
 #include <numbers>
 #include <variant>
 
+#include "core/base/eager_matrices.hpp"
+
 namespace pleuel {
 
 namespace {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
 #include "core/model/scene_geometry.hpp"
 #include "picture/section_outline.hpp"

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <set>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
 
 namespace pleuel {

@@ -1,7 +1,7 @@
 #include "sensitivity/frequency_sensitivity.hpp"
 
-#include <Eigen/LU>
-
+#include "core/base/dense_solvers.hpp"
+#include "core/base/eager_matrices.hpp"
 #include "core/mechanism/configuration.hpp"
 #include "core/response/modal_vectors.hpp"
 #include "core/response/motion_along.hpp"
@@ -49,7 +49,7 @@ class FrequencySensitivity {
     const Complex s = vectors_.s;
     const Eigen::MatrixXcd slope =
         vectors_.left.adjoint() * (2.0 * s * frozen_.M + frozen_.G) * vectors_.right;
-    const Eigen::PartialPivLU<Eigen::MatrixXcd> solver(slope);
+    const ComplexLu solver(slope);
     std::vector<Eigen::MatrixXcd> changes = changes_by_design();
     Eigen::VectorXd result(changes.size());
     for (std::size_t j = 0; j < changes.size(); ++j) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/base/rotation_vector.hpp"
 #include "core/integration/damped_start.hpp"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/eager_matrices.hpp"
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/method_choice.hpp"
 

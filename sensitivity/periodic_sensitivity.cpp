@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/integration/period_map.hpp"
 #include "core/integration/periodic_start.hpp"

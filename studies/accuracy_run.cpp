@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/base/relative_error.hpp"
 #include "core/trust/doubts.hpp"

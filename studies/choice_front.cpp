@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
 #include "core/base/number_text.hpp"
 #include "optimization/design/design_problem.hpp"

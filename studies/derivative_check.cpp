@@ -6,6 +6,7 @@
 #include <optional>
 #include <tuple>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/base/relative_error.hpp"
 #include "sensitivity/finite_difference.hpp"

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
 #include "core/scene/case_goals.hpp"
 #include "core/scene/packed_problem.hpp"

@@ -1,5 +1,6 @@
 #include "studies/method_comparison.hpp"
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/base/relative_error.hpp"
 #include "core/base/stop.hpp"

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/base/parallel.hpp"
 #include "core/response/analysis.hpp"

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
 #include "core/base/parallel.hpp"
 #include "core/base/stop.hpp"

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/model/motion_plane.hpp"
 #include "core/response/analysis.hpp"

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "optimization/design/peak_windows.hpp"
 #include "optimization/kkt_audit.hpp"

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/scene/case_goals.hpp"
 

@@ -86,7 +86,7 @@ Json curve_document(const Eigen::VectorXd& time, const Eigen::VectorXd& values,
     curve.col(i).head<2>() << time(points[i]), values(points[i]);
     if (has_band) curve(2, i) = band(points[i]);
   }
-  return packed(curve);
+  return packed_numbers(curve);
 }
 
 /// {VARIABLE: curve} of the derivatives of a history, of the variables that change most of it.
@@ -166,13 +166,13 @@ Json motion_document(const Scene& scene, const Analysis& analysis, std::size_t d
                      const Room& room) {
   const int frames = frames_for(sample_motion(scene, analysis, {0}), designs, room);
   const Motion motion = sample_motion(scene, analysis, frames_of_motion(analysis, frames));
-  Json document = {{"time", packed(motion.time.transpose())}, {"bodies", Json::array()}};
+  Json document = {{"time", packed_numbers(motion.time.transpose())}, {"bodies", Json::array()}};
   for (const BodyTrack& body : motion.bodies) {
     Json entry = {{"stations", body.stations},
                   {"parts", body.parts},
-                  {"positions", packed(body.positions)},
-                  {"rotations", packed(body.rotations)}};
-    if (body.stress.size() > 0) entry["stress"] = packed(body.stress);
+                  {"positions", packed_numbers(body.positions)},
+                  {"rotations", packed_numbers(body.rotations)}};
+    if (body.stress.size() > 0) entry["stress"] = packed_numbers(body.stress);
     document["bodies"].push_back(std::move(entry));
   }
   return document;

@@ -184,7 +184,7 @@ Json law_document(const TimeFunction& function, double end_time, const Values& d
   Eigen::MatrixXd curve(2, points.times.size());
   curve.row(0) = Eigen::Map<const Eigen::RowVectorXd>(points.times.data(), curve.cols());
   curve.row(1) = Eigen::Map<const Eigen::RowVectorXd>(points.values.data(), curve.cols());
-  return packed(curve);
+  return packed_numbers(curve);
 }
 
 class GeometryWriter {

@@ -28,7 +28,7 @@ std::string base64(const std::vector<unsigned char>& bytes) {
 
 }  // namespace
 
-Json packed(const Eigen::MatrixXd& numbers) {
+Json packed_numbers(const Eigen::MatrixXd& numbers) {
   std::vector<unsigned char> bytes;
   bytes.reserve(4 * static_cast<std::size_t>(numbers.size()));
   for (const double number : numbers.reshaped()) {

@@ -1,12 +1,13 @@
 #pragma once
 
-#include <memory>
+#include <complex>
 #include <vector>
 
 #include <Eigen/Core>
 
-/// Decompositions of dense matrices. Each takes the compiler seconds wherever it is used, so that
-/// they are compiled here, once.
+/// Decompositions of dense matrices by LAPACK (Anderson et al. 1999), which is compiled already:
+/// those of Eigen are templates that take the compiler seconds wherever they stand. What is made of
+/// a matrix that is not finite is not a number.
 namespace pleuel {
 
 /// Q R = A P with |R_11| ≥ |R_22| ≥ …: Householder QR with column pivoting (Golub & Van Loan,
@@ -17,7 +18,6 @@ class PivotedQr {
   explicit PivotedQr(const Eigen::MatrixXd& matrix);
   /// @param threshold  pivots that are smaller, relative to the largest, are zero.
   PivotedQr(const Eigen::MatrixXd& matrix, double threshold);
-  ~PivotedQr();
 
   Eigen::Index rank() const;
   /// The columns of A in the order of their pivots.
@@ -31,24 +31,54 @@ class PivotedQr {
   Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
 
  private:
-  std::unique_ptr<Eigen::ColPivHouseholderQR<Eigen::MatrixXd>> qr_;
+  Eigen::MatrixXd qr_;       ///< R above, Householder vectors below the diagonal
+  Eigen::VectorXd factors_;  ///< of the Householder reflections
+  std::vector<int> order_;   ///< counts from one
+  double threshold_;
 };
 
 /// P A = L U of a square matrix with partial pivoting.
-class DenseLu {
+template <class Scalar>
+class Lu {
  public:
-  explicit DenseLu(const Eigen::MatrixXd& matrix);
-  ~DenseLu();
+  using Matrix = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+
+  explicit Lu(const Matrix& matrix);
 
   /// A⁻¹ b, columns as one block.
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
+  Matrix solve(const Matrix& b) const;
   /// A⁻ᵀ b.
-  Eigen::MatrixXd solve_transposed(const Eigen::MatrixXd& b) const;
+  Matrix solve_transposed(const Matrix& b) const;
   /// Estimate of 1/condition in the 1-norm.
   double reciprocal_condition() const;
 
  private:
-  std::unique_ptr<Eigen::PartialPivLU<Eigen::MatrixXd>> lu_;
+  Matrix solve(char operation, const Matrix& b) const;
+
+  Matrix lu_;
+  std::vector<int> rows_;
+  double norm_;
+};
+
+using DenseLu = Lu<double>;
+using ComplexLu = Lu<std::complex<double>>;
+
+/// A = L Lᵀ of a symmetric matrix (its lower triangle counts).
+class Cholesky {
+ public:
+  Cholesky() = default;
+  explicit Cholesky(const Eigen::MatrixXd& matrix);
+
+  bool is_positive_definite() const { return is_positive_definite_; }
+  /// A⁻¹ b, columns as one block.
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
+  /// L⁻¹ b.
+  Eigen::MatrixXd solve_lower(const Eigen::MatrixXd& b) const;
+  const Eigen::MatrixXd& lower() const { return lower_; }
+
+ private:
+  Eigen::MatrixXd lower_;
+  bool is_positive_definite_ = true;
 };
 
 /// Of all z that make ‖A z − b‖ least the shortest one, by a complete orthogonal decomposition.
@@ -79,8 +109,5 @@ Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& a, const Eigen::Mat
 
 /// Of any square matrix.
 Eigen::VectorXcd eigenvalues_of(const Eigen::MatrixXd& matrix);
-
-/// Whether a symmetric matrix has a Cholesky factor.
-bool is_positive_definite(const Eigen::MatrixXd& matrix);
 
 }  // namespace pleuel

@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "core/base/small_matrices.hpp"
+
 /// Forward-mode dual numbers: value and derivatives in `Slots` directions, exact to round-off.
 namespace pleuel {
 
@@ -105,6 +107,40 @@ class DualOf {
 
 /// One direction: the model is built once for each design variable, with that variable seeded.
 using Dual = DualOf<1>;
+
+/// As many directions as a marker has coordinates. Formulas with more of them take these in groups:
+/// each width of dual numbers has the compiler make all kinematics anew.
+inline constexpr int wide_slots = 12;
+using WideDual = DualOf<wide_slots>;
+
+/// Seeds a group of wide_slots directions, from the first one on.
+class SeedGroup {
+ public:
+  explicit SeedGroup(int first) : first_(first) {}
+
+  /// Makes the number that of a direction, if it belongs to the group.
+  void operator()(WideDual& number, int direction) const {
+    const int slot = direction - first_;
+    if (slot >= 0 && slot < wide_slots) number.derivatives()[slot] = 1.0;
+  }
+
+ private:
+  int first_;
+};
+
+/// The derivatives of a number in `directions` directions.
+/// @param formula  what the number is, as a WideDual, for a SeedGroup that it seeds its variables with
+template <int directions, class Formula>
+Eigen::Matrix<double, directions, 1> derivatives_of(const Formula& formula) {
+  Eigen::Matrix<double, directions, 1> derivatives;
+  for (int first = 0; first < directions; first += wide_slots) {
+    const WideDual number = formula(SeedGroup(first));
+    for (int i = 0; i < wide_slots && first + i < directions; ++i) {
+      derivatives[first + i] = number.derivatives()[i];
+    }
+  }
+  return derivatives;
+}
 
 inline double value_of(double number) {
   return number;

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/rotation_series.hpp"
 #include "core/base/skew.hpp"
 

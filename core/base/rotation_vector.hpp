@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include "core/base/small_matrices.hpp"
+
 /// Rotations in space by rotation vectors. The rotation of a frame is A = exp(ψ̃); its rates are the
 /// angular velocity ω and acceleration α in body axes; small changes δ are right perturbations
 ///     A ⊕ δ = A exp(δ̃)

@@ -2,6 +2,8 @@
 
 #include <Eigen/Core>
 
+#include "core/base/small_matrices.hpp"
+
 namespace pleuel {
 
 /// w̃ of the cross product: w̃ u = w × u.

@@ -9,6 +9,7 @@
 
 #include "core/base/dense_solvers.hpp"
 #include "core/base/disjoint_sets.hpp"
+#include "core/base/eager_matrices.hpp"
 
 namespace pleuel {
 

@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
-
+#include "core/base/dense_solvers.hpp"
+#include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
 #include "core/beam/natural_modes.hpp"
 
@@ -76,7 +75,7 @@ BasisWithDerivatives craig_bampton_basis(const NodalMatrices& matrices,
   const Eigen::Index boundary = b.size();
   Eigen::Index size = boundary;
   for (const ModeFamily& family : kept.families) size += family.modes;
-  const Eigen::LLT<MatrixXd> factors(MatrixXd(matrices.stiffness(i, i)));
+  const Cholesky factors(matrices.stiffness(i, i));
   const MatrixXd constraint = -factors.solve(MatrixXd(matrices.stiffness(i, b)));
   BasisWithDerivatives result;
   result.basis.setZero(matrices.mass.rows(), size);
@@ -119,7 +118,7 @@ BasisWithDerivatives mean_axis_basis(const NodalMatrices& matrices,
   const auto all = Eigen::all;
   const MatrixXd c = matrices.momentum(active, all), r = matrices.rigid(all, active);
   const MatrixXd& d = deformations.basis;
-  const Eigen::PartialPivLU<MatrixXd> inertia(MatrixXd(c * r));
+  const DenseLu inertia(c * r);
   const MatrixXd motion = inertia.solve(c * d);
   BasisWithDerivatives result;
   result.basis = d - r * motion;
@@ -127,7 +126,7 @@ BasisWithDerivatives mean_axis_basis(const NodalMatrices& matrices,
     const MatrixXd dc = derivatives[k].momentum(active, all),
                    dr = derivatives[k].rigid(all, active);
     const MatrixXd& dd = deformations.derivatives[k];
-    const MatrixXd d_motion = inertia.solve(MatrixXd(dc * d + c * dd - (dc * r + c * dr) * motion));
+    const MatrixXd d_motion = inertia.solve(dc * d + c * dd - (dc * r + c * dr) * motion);
     result.derivatives.push_back(dd - dr * motion - r * d_motion);
   }
   return result;

@@ -1,5 +1,7 @@
 #include "core/beam/element_stretching.hpp"
 
+#include "core/base/eager_matrices.hpp"
+
 namespace pleuel {
 
 std::vector<int> active_displacements(const ElasticCoordinates& coordinates, int element) {

@@ -1,5 +1,6 @@
 #include "core/beam/invariant_vector.hpp"
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
 
 namespace pleuel {

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/beam/beam_shape.hpp"
 
 namespace pleuel {

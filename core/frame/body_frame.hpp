@@ -181,5 +181,8 @@ extern template FrameMotion<double> frame_motion(const BodyFrame&, const Coordin
                                                  const Coordinates<double>&);
 extern template FrameMotion<Dual> frame_motion(const BodyFrame&, const Coordinates<Dual>&,
                                                const Coordinates<Dual>&, const Coordinates<Dual>&);
+extern template FrameMotion<WideDual> frame_motion(const BodyFrame&, const Coordinates<WideDual>&,
+                                                   const Coordinates<WideDual>&,
+                                                   const Coordinates<WideDual>&);
 
 }  // namespace pleuel

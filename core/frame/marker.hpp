@@ -8,6 +8,7 @@ namespace pleuel {
 
 /// Most coordinates that a marker has: frame and elastic ones.
 inline constexpr int max_marker_size = 6 + 6;
+static_assert(max_marker_size == wide_slots, "tangents of a marker take one group of directions");
 
 /// A place on a body: the frame, and the elastic coordinates that displace and turn it.
 struct Marker {
@@ -20,14 +21,5 @@ struct Marker {
     return elastic[3] >= 0 || elastic[4] >= 0 || elastic[5] >= 0;
   }
 };
-
-/// Compiled once, for tangents with respect to all coordinates of one marker or of two.
-extern template FrameMotion<DualOf<max_marker_size>> frame_motion(
-    const BodyFrame&, const Coordinates<DualOf<max_marker_size>>&,
-    const Coordinates<DualOf<max_marker_size>>&, const Coordinates<DualOf<max_marker_size>>&);
-extern template FrameMotion<DualOf<2 * max_marker_size>> frame_motion(
-    const BodyFrame&, const Coordinates<DualOf<2 * max_marker_size>>&,
-    const Coordinates<DualOf<2 * max_marker_size>>&,
-    const Coordinates<DualOf<2 * max_marker_size>>&);
 
 }  // namespace pleuel

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/base/dense_solvers.hpp"
+#include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
 #include "core/mechanism/linear_solver.hpp"
 

@@ -4,6 +4,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/integration/step_differentiation.hpp"
 #include "core/mechanism/configuration.hpp"
 

@@ -118,10 +118,6 @@ class JointTerm : public Term {
  private:
   /// Bounds the number of local coordinates and equations together.
   static constexpr int max_slots = JointLinearization::max_size + 7;
-  using WideDual = DualOf<JointLinearization::max_size>;
-  /// As many directions as joints of planar motion need, and those of rigid bodies in space.
-  static constexpr int narrow = JointLinearization::max_size / 2;
-  using NarrowDual = DualOf<narrow>;
 
   template <class Scalar>
   struct Local {
@@ -210,32 +206,29 @@ class JointTerm : public Term {
                              const EntryBlocks& entries) {
     const auto uses_q = [](const Weights& w) { return w.q != 0.0; };
     if (std::none_of(weights.begin(), weights.end(), uses_q)) return;
-    if (local_size() <= narrow) {
-      add_third_derivatives(cast_once(narrow_data_), state, weights, entries);
-    } else {
-      add_third_derivatives(cast_once(wide_data_), state, weights, entries);
+    // Tens of kilobytes a joint, which most simulations do without.
+    if (!wide_data_) wide_data_ = std::make_unique<JointData<WideDual>>(cast_data<WideDual>(data_));
+    const Local<WideDual> fixed = load<WideDual>(state);
+    for (int first = 0; first < local_size(); first += wide_slots) {
+      Local<WideDual> local = fixed;
+      const SeedGroup seed(first);
+      for (int i = 0; i < local_size(); ++i) seed(local.q[index(i)], i);
+      const Result<WideDual> result =
+          evaluate(*wide_data_, local, state.time, ConstraintLevel::acceleration);
+      add_third_derivatives(result, first, weights, entries);
     }
   }
 
-  /// Tens of kilobytes a joint, which most simulations do without.
-  template <class Scalar>
-  const JointData<Scalar>& cast_once(std::unique_ptr<JointData<Scalar>>& cast) const {
-    if (!cast) cast = std::make_unique<JointData<Scalar>>(cast_data<Scalar>(data_));
-    return *cast;
-  }
-
-  template <class Scalar>
-  void add_third_derivatives(const JointData<Scalar>& data, const State& state,
-                             const WeightList& weights, const EntryBlocks& entries) const {
+  /// Those by coordinates from the first one of a group on.
+  void add_third_derivatives(const Result<WideDual>& result, int first, const WeightList& weights,
+                             const EntryBlocks& entries) const {
     const int size = local_size(), count = equations();
-    Local<Scalar> local = load<Scalar>(state);
-    for (int i = 0; i < size; ++i) local.q[index(i)].derivatives()[i] = 1.0;
-    const Result<Scalar> result = evaluate(data, local, state.time, ConstraintLevel::acceleration);
+    const int columns = std::min(wide_slots, size - first);
     for (std::size_t k = 0; k < weights.size(); ++k) {
-      double* rows = entries.block(k) + size * (size + count);
-      for (int i = 0; i < count; ++i) {
+      double* rows = entries.block(k) + size * (size + count) + first;
+      for (int i = 0; i < count; ++i, rows += size) {
         const auto& derivatives = result.equations[index(i)].derivatives();
-        for (int col = 0; col < size; ++col) *rows++ += weights[k].q * derivatives[col];
+        for (int col = 0; col < columns; ++col) rows[col] += weights[k].q * derivatives[col];
       }
     }
   }
@@ -266,8 +259,7 @@ class JointTerm : public Term {
 
   JointTopology topology_;
   JointData<double> data_;
-  std::unique_ptr<JointData<WideDual>> wide_data_;      ///< once they are needed
-  std::unique_ptr<JointData<NarrowDual>> narrow_data_;  ///< once they are needed
+  std::unique_ptr<JointData<WideDual>> wide_data_;  ///< once it is needed
   std::vector<DesignDerivative<JointData<Dual>>> derivatives_;
   std::vector<int> coordinates_;
 };

@@ -3,6 +3,7 @@
 #include <cassert>
 #include <map>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/model/imported_constants.hpp"
 #include "core/scene/beam_mesh.hpp"
 #include "core/scene/joint_kind.hpp"

@@ -4,6 +4,7 @@
 #include <array>
 #include <set>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/beam/beam_place.hpp"
 #include "core/beam/elastic_basis.hpp"
 #include "core/model/beam_shapes.hpp"

@@ -1,5 +1,6 @@
 #include "core/model/beam_shapes.hpp"
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
 #include "core/beam/beam_shape.hpp"
 #include "core/beam/element_stretching.hpp"

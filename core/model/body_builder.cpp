@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/effects/floating_frame_body.hpp"
 #include "core/model/beam_builder.hpp"

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "core/base/eager_matrices.hpp"
+
 namespace pleuel {
 
 using Eigen::Matrix3d;

@@ -1,5 +1,7 @@
 #include "core/model/body_point.hpp"
 
+#include "core/base/eager_matrices.hpp"
+
 namespace pleuel {
 
 namespace {

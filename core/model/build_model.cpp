@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/diameter.hpp"
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/base/find_named.hpp"
 #include "core/base/int_size.hpp"

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <optional>
 
-#include <Eigen/Cholesky>
-
+#include "core/base/dense_solvers.hpp"
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/base/find_named.hpp"
 #include "core/beam/elastic_basis.hpp"
@@ -88,7 +88,7 @@ class QuasiStaticBeam {
   }
 
   const BodyModel& body_;
-  Eigen::LLT<Eigen::MatrixXd> stiffness_;
+  Cholesky stiffness_;
   double depth_ = 0.0;
   Nodal last_, before_;
   int count_ = 0;

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/model/stiffening_builder.hpp"
 
 namespace pleuel {

@@ -5,10 +5,11 @@
 #include <optional>
 #include <set>
 
-#include <Eigen/Cholesky>
 #include <Eigen/SparseCholesky>
 #include <fmt/format.h>
 
+#include "core/base/dense_solvers.hpp"
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/model/attachment.hpp"
 #include "core/model/elastic_forces.hpp"
@@ -37,7 +38,7 @@ class HeldShape {
   HeldShape(const Eigen::SparseMatrix<double>& matrix, const MatrixXd& rows)
       : rows_(rows), factors_(matrix) {
     by_pull_ = factors_.solve(MatrixXd(rows.transpose()));
-    compliance_.compute(rows * by_pull_);
+    compliance_.emplace(rows * by_pull_);
   }
 
   struct Solution {
@@ -45,7 +46,7 @@ class HeldShape {
   };
   Solution solve(const MatrixXd& f, const MatrixXd& d) const {
     const MatrixXd free = factors_.solve(f);
-    const MatrixXd pulls = compliance_.solve(d - rows_ * free);
+    const MatrixXd pulls = compliance_->solve(d - rows_ * free);
     return {free + by_pull_ * pulls, pulls};
   }
   /// What the places move by unit pulls on them: S A⁻¹ Sᵀ.
@@ -55,7 +56,7 @@ class HeldShape {
   MatrixXd rows_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors_;
   MatrixXd by_pull_;
-  Eigen::LDLT<MatrixXd> compliance_;
+  std::optional<DenseLu> compliance_;
 };
 
 class InitialShape {
@@ -191,8 +192,7 @@ class InitialShape {
     const VectorXd scale = own.cwiseSqrt().cwiseInverse();
     MatrixXd correlation = scale.asDiagonal() * compliance * scale.asDiagonal();
     for (Eigen::Index i = 1; i < own.size(); ++i) {
-      const Eigen::LDLT<MatrixXd> factors(correlation.topLeftCorner(i + 1, i + 1));
-      if (factors.vectorD().minCoeff() > 1e-10) continue;
+      if (symmetric_eigenvalues(correlation.topLeftCorner(i + 1, i + 1))(0) > 1e-10) continue;
       fail(i, "says the same as those before it, or contradicts them");
     }
   }

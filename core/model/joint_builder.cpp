@@ -1,5 +1,6 @@
 #include "core/model/joint_builder.hpp"
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
 #include "core/frame/number_data.hpp"
 #include "core/joints/joint_term.hpp"

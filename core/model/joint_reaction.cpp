@@ -2,9 +2,11 @@
 
 #include <array>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
+#include "core/frame/marker_kinematics.hpp"
 #include "core/frame/number_data.hpp"
-#include "core/joints/joint_residual.hpp"
+#include "core/joints/joint_wrench.hpp"
 
 namespace pleuel {
 
@@ -12,20 +14,16 @@ namespace {
 
 /// Coordinates of both markers (a frame and six displacements each), and equations.
 constexpr int max_coordinates = 2 * (6 + 6), max_equations = 7;
-using WideDual = DualOf<max_coordinates + max_equations>;
 
-/// Rates do not matter at position level, but the kinematics wants them.
 template <class Scalar>
 struct Local {
-  std::array<Scalar, max_coordinates> q, v, a;
+  std::array<Scalar, max_coordinates> q;
   std::array<Scalar, max_equations> lambda;
 };
 
 template <class Scalar>
 Local<Scalar> load(const JointReaction& reaction, const State& state) {
   Local<Scalar> local;
-  local.v.fill(Scalar(0));
-  local.a.fill(Scalar(0));
   const std::vector<int>& coordinates = reaction.coordinates();
   for (std::size_t i = 0; i < coordinates.size(); ++i) {
     local.q[i] = Scalar(state.q(coordinates[i]));
@@ -39,13 +37,7 @@ Local<Scalar> load(const JointReaction& reaction, const State& state) {
 template <class Scalar>
 Eigen::Matrix<Scalar, 6, 1> evaluate(const JointTopology& topology, const JointData<Scalar>& data,
                                      const Local<Scalar>& local, double time) {
-  std::array<Scalar, max_equations> equations;
-  JointEvaluation<Scalar> evaluation(topology, data, time, local.q.data(), local.v.data(),
-                                     local.a.data());
-  evaluation.evaluate(ConstraintLevel::position, local.lambda.data(), equations.data());
-  Eigen::Matrix<Scalar, 6, 1> result;
-  result << evaluation.wrench().force, evaluation.wrench().moment;
-  return result;
+  return joint_wrench(topology, data, time, local.q.data(), local.lambda.data());
 }
 
 }  // namespace
@@ -77,22 +69,22 @@ JointReaction::Wrench JointReaction::wrench(const State& state) const {
 
 JointReaction::Derivatives JointReaction::derivatives(const State& state) const {
   const auto coordinates = int_size(coordinates_);
-  Local<WideDual> local = load<WideDual>(*this, state);
-  for (int i = 0; i < coordinates; ++i) {
-    local.q[i].derivatives()[i] = 1.0;
+  const int directions = coordinates + joint_.equations();
+  const Local<WideDual> fixed = load<WideDual>(*this, state);
+  Columns columns(6, directions);
+  for (int first = 0; first < directions; first += wide_slots) {
+    const SeedGroup seed(first);
+    Local<WideDual> local = fixed;
+    for (int i = 0; i < coordinates; ++i) seed(local.q[i], i);
+    for (int i = 0; i < joint_.equations(); ++i) seed(local.lambda[i], coordinates + i);
+    const auto wrench = evaluate(joint_.topology, numbers_->constants, local, state.time);
+    for (int i = 0; i < wide_slots && first + i < directions; ++i) {
+      for (int row = 0; row < 6; ++row) columns(row, first + i) = derivative_of(wrench(row), i);
+    }
   }
-  for (int i = 0; i < joint_.equations(); ++i) {
-    local.lambda[i].derivatives()[max_coordinates + i] = 1.0;
-  }
-  const auto wrench = evaluate(joint_.topology, numbers_->constants, local, state.time);
   Derivatives result;
-  result.q.resize(6, coordinates);
-  result.lambda.resize(6, joint_.equations());
-  for (int row = 0; row < 6; ++row) {
-    const auto& slopes = wrench(row).derivatives();
-    result.q.row(row) = slopes.head(coordinates).transpose();
-    result.lambda.row(row) = slopes.segment(max_coordinates, joint_.equations()).transpose();
-  }
+  result.q = columns.leftCols(coordinates);
+  result.lambda = columns.rightCols(joint_.equations());
   const Local<Dual> constant = load<Dual>(*this, state);
   for (const auto& [variable, data] : numbers_->by_variable) {
     result.design.push_back(

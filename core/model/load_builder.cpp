@@ -4,6 +4,7 @@
 #include <cassert>
 #include <span>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/find_named.hpp"
 #include "core/forces/force_element.hpp"
 #include "core/forces/joint_force.hpp"

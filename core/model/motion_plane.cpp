@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/model/imported_constants.hpp"
 #include "core/scene/held_points.hpp"

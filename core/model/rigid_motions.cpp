@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/base/dense_solvers.hpp"
+#include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
 #include "core/scene/joint_kind.hpp"
 

@@ -2,6 +2,8 @@
 
 #include <set>
 
+#include "core/base/eager_matrices.hpp"
+
 namespace pleuel {
 
 namespace {

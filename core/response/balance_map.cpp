@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/eager_matrices.hpp"
+
 namespace pleuel {
 
 std::vector<int> BalanceMap::observed_channels(int channel) const {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/beam/elastic_basis.hpp"
 #include "core/beam/natural_modes.hpp"

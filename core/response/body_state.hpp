@@ -12,8 +12,8 @@ namespace pleuel {
 /// their rates and for the rates of these.
 inline constexpr int most_frame_coordinates = 6;
 
-/// A formula in the coordinates of a frame and their rates.
-using FrameDual = DualOf<3 * most_frame_coordinates>;
+/// Directions of a formula in the coordinates of a frame and their rates.
+inline constexpr int frame_directions = 3 * most_frame_coordinates;
 
 /// p, ṗ and p̈ of a point, local axes.
 using PointMotion = std::array<Eigen::Vector3d, 3>;
@@ -43,17 +43,16 @@ class BodyState {
   }
 
   /// The frame with its coordinates and their rates as the first directions.
-  template <class Scalar>
-  FrameMotion<Scalar> seeded_frame() const {
-    Eigen::Matrix<Scalar, Eigen::Dynamic, 1> parts[3];
+  FrameMotion<WideDual> seeded_frame(const SeedGroup& seed) const {
+    Eigen::Matrix<WideDual, Eigen::Dynamic, 1> parts[3];
     const Eigen::VectorXd* vectors[3] = {&state_.q, &state_.v, &state_.a};
     for (int k = 0; k < 3; ++k) {
-      parts[k] = of_frame(*vectors[k]).template cast<Scalar>();
+      parts[k] = of_frame(*vectors[k]).template cast<WideDual>();
       for (int i = 0; i < body_.frame.size(); ++i) {
-        parts[k](i).derivatives()[most_frame_coordinates * k + i] = 1.0;
+        seed(parts[k](i), most_frame_coordinates * k + i);
       }
     }
-    return frame_motion<Scalar>(body_.frame, parts[0], parts[1], parts[2]);
+    return frame_motion<WideDual>(body_.frame, parts[0], parts[1], parts[2]);
   }
 
   /// @param position  undeformed

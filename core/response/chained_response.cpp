@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "core/base/eager_matrices.hpp"
+
 namespace pleuel {
 
 ChainedResponse::ChainedResponse(Eigen::Index variables, ExpressionOf expression_of,

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/model/effect_estimates.hpp"
 #include "core/response/linearized_expression.hpp"

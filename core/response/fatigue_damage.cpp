@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/integration/periodic_start.hpp"
 #include "core/response/fatigue.hpp"
 #include "core/response/history_jump.hpp"

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/base/eager_matrices.hpp"
+
 namespace pleuel {
 
 bool jumps_beside(const Eigen::VectorXd& time, const Eigen::MatrixXd& values, Eigen::Index channel,

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/response/balance_map.hpp"
 #include "core/response/body_frequency.hpp"

@@ -3,11 +3,8 @@
 #include <algorithm>
 #include <array>
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
-#include <Eigen/QR>
-
 #include "core/base/dense_solvers.hpp"
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/base/skew.hpp"
 
@@ -36,11 +33,10 @@ class FreeMotions {
     null_space_ = Eigen::MatrixXd::Identity(n_, n_).rightCols(n_ - m);
     if (m > 0) {
       const Eigen::MatrixXd phi = frozen.phi(rows, Eigen::all);
-      const Eigen::HouseholderQR<Eigen::MatrixXd> qr(phi.transpose());
-      null_space_ = qr.householderQ() * null_space_;
+      null_space_ = PivotedQr(phi.transpose()).q().rightCols(n_ - m);
     }
-    mass_.compute(null_space_.transpose() * frozen.M * null_space_);
-    if (mass_.info() != Eigen::Success) {
+    mass_ = Cholesky(null_space_.transpose() * frozen.M * null_space_);
+    if (!mass_.is_positive_definite()) {
       throw SimulationError("the natural frequencies do not exist: a free motion has no inertia");
     }
   }
@@ -49,24 +45,24 @@ class FreeMotions {
 
   /// L⁻¹ Zᵀ (matrix) Z L⁻ᵀ
   Eigen::MatrixXd project(const Eigen::MatrixXd& matrix) const {
-    const Eigen::MatrixXd half = mass_.matrixL().solve(null_space_.transpose() * matrix);
-    return mass_.matrixL().solve((half * null_space_).transpose()).transpose();
+    const Eigen::MatrixXd half = mass_.solve_lower(null_space_.transpose() * matrix);
+    return mass_.solve_lower((half * null_space_).transpose()).transpose();
   }
 
   /// (σ² + σG + K)⁻¹ = Lᵀ Zᵀ P⁻¹ Z L, with P⁻¹ from the pencil.
   Eigen::MatrixXd flexibility(double sigma) const {
     const Eigen::MatrixXd pencil = pencil_at(frozen_, sigma).matrix.real();
     Eigen::MatrixXd rhs = Eigen::MatrixXd::Zero(pencil.rows(), count());
-    rhs.topRows(n_) = null_space_ * Eigen::MatrixXd(mass_.matrixL());
-    const Eigen::MatrixXd solution = pencil.partialPivLu().solve(rhs);
-    return mass_.matrixU() * (null_space_.transpose() * solution.topRows(n_));
+    rhs.topRows(n_) = null_space_ * mass_.lower();
+    const Eigen::MatrixXd solution = DenseLu(pencil).solve(rhs);
+    return mass_.lower().transpose() * (null_space_.transpose() * solution.topRows(n_));
   }
 
  private:
   const FrozenMechanism& frozen_;
   Eigen::Index n_;
   Eigen::MatrixXd null_space_;
-  Eigen::LLT<Eigen::MatrixXd> mass_;
+  Cholesky mass_;
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/model/drive_rows.hpp"
 #include "core/start/redundancy.hpp"
 

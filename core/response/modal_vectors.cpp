@@ -3,9 +3,8 @@
 #include <random>
 #include <vector>
 
-#include <Eigen/LU>
-#include <Eigen/QR>
-
+#include "core/base/dense_solvers.hpp"
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/base/int_size.hpp"
 #include "core/response/motion_along.hpp"
@@ -19,21 +18,31 @@ constexpr double coincidence_of_eigenvalues = 1e-6;
 /// Relative distance from the eigenvalue at which its vectors are sought.
 constexpr double detuning = 1e-9;
 
+/// Combines columns until their first n rows are orthonormal (modified Gram–Schmidt).
+void orthonormalize(Eigen::Index n, Eigen::MatrixXcd& x) {
+  for (Eigen::Index j = 0; j < x.cols(); ++j) {
+    for (Eigen::Index i = 0; i < j; ++i) {
+      const std::complex<double> along = x.col(i).head(n).dot(x.col(j).head(n));
+      x.col(j) -= along * x.col(i);
+    }
+    const double length = x.col(j).head(n).norm();
+    x.col(j) /= length;
+  }
+}
+
 /// Inverse iteration of a block of vectors, x ← P⁻¹ P_s x: others shrink by the detuning over their
 /// distance, a thousandth and less.
 /// @param n  number of coordinates, which come first
 Eigen::MatrixXcd null_vectors(const Eigen::MatrixXcd& pencil, const Eigen::MatrixXcd& slope,
                               Eigen::Index n, Eigen::Index count) {
-  const Eigen::PartialPivLU<Eigen::MatrixXcd> solver(pencil);
+  const ComplexLu solver(pencil);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   Eigen::MatrixXcd x = Eigen::MatrixXcd::NullaryExpr(
       pencil.rows(), count, [&] { return std::complex<double>(uniform(random), uniform(random)); });
   for (int iteration = 0; iteration < 5; ++iteration) {
     x = solver.solve(slope * x);
-    const Eigen::HouseholderQR<Eigen::MatrixXcd> qr(x.topRows(n));
-    const Eigen::MatrixXcd triangle = qr.matrixQR().topRows(count);
-    x = triangle.triangularView<Eigen::Upper>().solve<Eigen::OnTheRight>(x);
+    orthonormalize(n, x);
   }
   return x;
 }

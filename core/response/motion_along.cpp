@@ -1,6 +1,7 @@
 #include "core/response/motion_along.hpp"
 
 #include "core/base/dense_solvers.hpp"
+#include "core/base/eager_matrices.hpp"
 #include "core/base/skew.hpp"
 #include "core/beam/elastic_basis.hpp"
 

@@ -13,8 +13,8 @@ namespace pleuel {
 
 namespace {
 
-/// A formula in the frame and in p, ṗ, p̈ of a point.
-using PointDual = DualOf<3 * most_frame_coordinates + 9>;
+/// Directions of a formula in the frame and in p, ṗ, p̈ of a point.
+constexpr int point_directions = frame_directions + 9;
 
 class MotionSignal final : public Signal {
  public:
@@ -32,15 +32,14 @@ class MotionSignal final : public Signal {
   void add_gradient(const State& state, int, double weight, SignalGradient& gradient) override {
     const BodyState of_body(body_, state);
     const PointMotion fixed = of_body.motion(point_.point);
-    std::array<Vector3<PointDual>, 3> motion;
-    for (std::size_t k = 0; k < 3; ++k) {
-      motion[k] = fixed[k].cast<PointDual>();
-      for (int i = 0; i < 3; ++i) {
-        motion[k](i).derivatives()[first_of(k) + i] = 1.0;
+    const auto slopes = derivatives_of<point_directions>([&](const SeedGroup& seed) {
+      std::array<Vector3<WideDual>, 3> motion;
+      for (std::size_t k = 0; k < 3; ++k) {
+        motion[k] = fixed[k].cast<WideDual>();
+        for (int i = 0; i < 3; ++i) seed(motion[k](i), first_of(k) + i);
       }
-    }
-    const auto slopes =
-        evaluate<PointDual>(of_body.seeded_frame<PointDual>(), motion).derivatives();
+      return evaluate<WideDual>(of_body.seeded_frame(seed), motion);
+    });
     PointMotion of_point;
     for (std::size_t k = 0; k < 3; ++k) {
       of_point[k] = weight * slopes.template segment<3>(first_of(k));
@@ -109,8 +108,9 @@ class AxisSignal final : public Signal {
   void add_gradient(const State& state, int channel, double weight,
                     SignalGradient& gradient) override {
     const BodyState of_body(body_, state);
-    const FrameDual component = of_body.seeded_frame<FrameDual>().A(channel, axis_);
-    BodyGradient(body_, of_body, gradient).add_frame(weight, component.derivatives());
+    const auto slopes = derivatives_of<frame_directions>(
+        [&](const SeedGroup& seed) { return of_body.seeded_frame(seed).A(channel, axis_); });
+    BodyGradient(body_, of_body, gradient).add_frame(weight, slopes);
   }
 
  private:
@@ -132,8 +132,9 @@ class SpinSignal final : public Signal {
   }
   void add_gradient(const State& state, int, double weight, SignalGradient& gradient) override {
     const BodyState of_body(body_, state);
-    const FrameDual spin = evaluate<FrameDual>(of_body.seeded_frame<FrameDual>());
-    BodyGradient(body_, of_body, gradient).add_frame(weight, spin.derivatives());
+    const auto slopes = derivatives_of<frame_directions>(
+        [&](const SeedGroup& seed) { return evaluate<WideDual>(of_body.seeded_frame(seed)); });
+    BodyGradient(body_, of_body, gradient).add_frame(weight, slopes);
   }
 
  private:
@@ -176,8 +177,10 @@ class AngleSignal final : public Signal {
       return;
     }
     const BodyState of_body(body_, state);
-    const FrameDual angle = angle_of<FrameDual>(of_body.seeded_frame<FrameDual>().A, state.time);
-    BodyGradient(body_, of_body, gradient).add_frame(weight, angle.derivatives());
+    const auto slopes = derivatives_of<frame_directions>([&](const SeedGroup& seed) {
+      return angle_of<WideDual>(of_body.seeded_frame(seed).A, state.time);
+    });
+    BodyGradient(body_, of_body, gradient).add_frame(weight, slopes);
   }
 
  private:

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
 #include "core/response/recovered_signal.hpp"
 

@@ -244,18 +244,23 @@ class RecoveredSignal final : public Signal {
                          const BodyState& state, BodyGradient& writer) const {
     if (near.places.empty()) return;
     const FrameMotion<double> frame = state.frame();
-    const FrameMotion<FrameDual> seeded = state.seeded_frame<FrameDual>();
     for (int place : near.places) {
       Vector3d slope;
       for (Eigen::Index k = 0; k < 3; ++k) {
         slope(k) = slope_of(recovery_.of_accelerations, first, 3 * place + k, slopes);
       }
       if (slope.isZero(0.0)) continue;
-      std::array<Vector3<FrameDual>, 3> fixed;
+      std::array<Vector3<WideDual>, 3> fixed;
       const PointMotion moved = motion(place, state);
-      for (std::size_t k = 0; k < 3; ++k) fixed[k] = moved[k].cast<FrameDual>();
-      const auto acceleration = local_acceleration<FrameDual>(seeded, gravity_, fixed);
-      for (int k = 0; k < 3; ++k) writer.add_frame(slope(k), acceleration(k).derivatives());
+      for (std::size_t k = 0; k < 3; ++k) fixed[k] = moved[k].cast<WideDual>();
+      const auto slopes_of_frame =
+          derivatives_of<frame_directions>([&](const SeedGroup& seed) -> WideDual {
+            const auto acceleration =
+                local_acceleration<WideDual>(state.seeded_frame(seed), gravity_, fixed);
+            return acceleration(0) * slope(0) + acceleration(1) * slope(1) +
+                   acceleration(2) * slope(2);
+          });
+      writer.add_frame(1.0, slopes_of_frame);
       writer.add_place(place,
                        {frame.omega.cross(frame.omega.cross(slope)) - frame.alpha.cross(slope),
                         2.0 * slope.cross(frame.omega), slope});

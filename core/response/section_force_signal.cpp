@@ -1,5 +1,6 @@
 #include "core/response/section_force_signal.hpp"
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
 #include "core/response/section_stations.hpp"
 

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/beam/beam_shape.hpp"
 
 namespace pleuel {

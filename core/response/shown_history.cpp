@@ -1,5 +1,7 @@
 #include "core/response/shown_history.hpp"
 
+#include "core/base/eager_matrices.hpp"
+
 namespace pleuel {
 
 namespace {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
 
 namespace pleuel {

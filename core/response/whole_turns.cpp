@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/scene/response_quantity.hpp"
 
 namespace pleuel {

@@ -5,9 +5,9 @@
 #include <map>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
 
+#include "core/base/dense_solvers.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/visit_numbers.hpp"
 
@@ -50,7 +50,7 @@ Eigen::Vector3d principal_moments(const RigidBody& body, const Design<double>& d
   Eigen::Matrix3d inertia;
   inertia << entry(0), entry(3), entry(4), entry(3), entry(1), entry(5), entry(4), entry(5),
       entry(2);
-  return inertia.selfadjointView<Eigen::Lower>().eigenvalues();
+  return symmetric_eigenvalues(inertia);
 }
 
 /// Coefficients of size − share · limit at a design, by variable.

@@ -29,7 +29,7 @@ GradientMethod gradient_method(const std::string& name);
 /// How the derivatives of a body's invariants with respect to the design come about.
 enum class InvariantDerivatives {
   exact,         ///< dual numbers
-  complex_step,  ///< exact to round-off, too
+  complex_step,  ///< the same arithmetic as that of dual numbers
   central,       ///< differences of the invariants of two changed designs
   forward        ///< of one changed design and this one
 };

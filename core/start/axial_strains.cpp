@@ -1,5 +1,7 @@
 #include "core/start/axial_strains.hpp"
 
+#include "core/base/eager_matrices.hpp"
+
 namespace pleuel {
 
 namespace {

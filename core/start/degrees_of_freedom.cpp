@@ -3,6 +3,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
 #include "core/base/sparse_rows.hpp"
 #include "core/mechanism/configuration.hpp"

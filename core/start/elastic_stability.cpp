@@ -9,6 +9,7 @@
 
 #include "core/base/dense_solvers.hpp"
 #include "core/base/disjoint_sets.hpp"
+#include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
 #include "core/base/rotation_vector.hpp"
 #include "core/start/axial_strains.hpp"
@@ -229,7 +230,7 @@ ElasticStability turning_stability(const Mechanism& mechanism, const State& stat
   const TurningDeformations all = turning_deformations(mechanism, state, shapes, fixed);
   if (all.shapes.cols() == 0) return {};
   const Eigen::MatrixXd symmetric = symmetric_part(all.stiffness);
-  if (is_positive_definite(symmetric)) return {};
+  if (Cholesky(symmetric).is_positive_definite()) return {};
   ElasticStability result;
   // Not from those below: light bodies vibrate so fast that their round-off hides slow growth.
   result.negative = count_negative(symmetric_eigenvalues(symmetric).cast<std::complex<double>>());
@@ -261,7 +262,7 @@ ElasticStability standing_stability(const Mechanism& mechanism, const State& sta
   if (z.cols() == 0) return {};
   const Eigen::MatrixXd stiffness = deformation_stiffness(mechanism, state, z);
   const Eigen::MatrixXd symmetric = symmetric_part(stiffness);
-  if (is_positive_definite(symmetric)) return {};
+  if (Cholesky(symmetric).is_positive_definite()) return {};
   const SymmetricModes modes = symmetric_modes(symmetric);
   ElasticStability result;
   const bool is_conservative = is_symmetric(stiffness);
@@ -440,7 +441,7 @@ double buckling_load_factor(const MechanismState& unloaded, const MechanismState
   const Eigen::MatrixXd elastic =
       symmetric_part(deformation_stiffness(unloaded.mechanism, at_rest, z)) -
       symmetric_part(z.transpose() * stiffness_of_loads(unloaded.mechanism, begin) * z);
-  if (!is_positive_definite(elastic)) return none;
+  if (!Cholesky(elastic).is_positive_definite()) return none;
   const MotionAxes axes(loaded.mechanism, end);
   const auto stiffness = [&](const Eigen::VectorXd& q, const Eigen::VectorXd& a,
                              const Eigen::VectorXd& lambda) -> Eigen::MatrixXd {

@@ -6,10 +6,11 @@
 
 #include <fmt/format.h>
 
-#include "core/base/balanced_lu.hpp"
 #include "core/base/dense_solvers.hpp"
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/base/rotation_vector.hpp"
+#include "core/mechanism/balanced_lu.hpp"
 #include "core/mechanism/configuration.hpp"
 #include "core/start/elastic_stability.hpp"
 #include "core/start/free_deformations.hpp"

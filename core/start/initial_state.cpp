@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/start/equilibrium.hpp"
 
 namespace pleuel {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/start/assembly.hpp"
 
@@ -40,7 +41,8 @@ void LeastNorm::set(const State& state) {
   for (std::size_t i = 0; i < left_out.size(); ++i) {
     forceless_(left_out[i], i) = 1.0;
   }
-  weights_.compute(forceless_.transpose() * mechanism_.reaction_weight.asDiagonal() * forceless_);
+  weights_ =
+      Cholesky(forceless_.transpose() * mechanism_.reaction_weight.asDiagonal() * forceless_);
   is_set_ = true;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <Eigen/Cholesky>
-
+#include "core/base/dense_solvers.hpp"
 #include "core/mechanism/linear_solver.hpp"
 #include "core/mechanism/mechanism.hpp"
 
@@ -51,7 +50,7 @@ class LeastNorm {
   State position_;
   bool is_set_ = false;
   Eigen::MatrixXd forceless_;  ///< N, m × left out
-  Eigen::LLT<Eigen::MatrixXd> weights_;
+  Cholesky weights_;
 };
 
 }  // namespace pleuel

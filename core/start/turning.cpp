@@ -1,5 +1,6 @@
 #include "core/start/turning.hpp"
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/rotation_vector.hpp"
 #include "core/base/skew.hpp"
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/beam/beam_shape.hpp"
 
 namespace pleuel {

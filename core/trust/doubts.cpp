@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/response_parts.hpp"
 #include "core/trust/bending_range.hpp"

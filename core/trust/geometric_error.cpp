@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
 #include "core/base/rotation_vector.hpp"
 #include "core/beam/beam_shape.hpp"

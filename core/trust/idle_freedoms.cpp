@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "core/base/dense_solvers.hpp"
+#include "core/base/eager_matrices.hpp"
 #include "core/base/find_named.hpp"
 #include "core/model/body_energy.hpp"
 #include "core/model/drive_rows.hpp"

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/find_named.hpp"
 #include "core/model/scene_geometry.hpp"
 

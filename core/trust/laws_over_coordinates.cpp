@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/model/scene_geometry.hpp"
 #include "core/response/gauge_signal.hpp"
 #include "core/trust/missed_values.hpp"

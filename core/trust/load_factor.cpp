@@ -1,5 +1,6 @@
 #include "core/trust/load_factor.hpp"
 
+#include "core/base/eager_matrices.hpp"
 #include "core/start/elastic_stability.hpp"
 #include "core/trust/unstable_members.hpp"
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/model/body_point.hpp"
 #include "core/scene/attached_points.hpp"
 

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/frame/body_frame.hpp"
 #include "core/response/misalignment.hpp"
 

@@ -5,6 +5,7 @@
 #include <map>
 #include <variant>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/base/int_size.hpp"
 #include "core/base/parallel.hpp"

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/mechanism/configuration.hpp"
 #include "core/model/model.hpp"

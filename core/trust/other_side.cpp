@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/find_named.hpp"
 #include "core/scene/response_parts.hpp"
 #include "core/scene/shown_unit.hpp"

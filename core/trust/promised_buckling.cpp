@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
 #include "core/trust/load_factor.hpp"
 

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/base/diameter.hpp"
+#include "core/base/eager_matrices.hpp"
 #include "core/model/scene_geometry.hpp"
 #include "core/scene/held_points.hpp"
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/relative_error.hpp"
 #include "core/response/linearized_expression.hpp"

@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/response/linearized_expression.hpp"
 #include "core/scene/response_parts.hpp"
 

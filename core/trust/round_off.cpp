@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/response/history_reduction.hpp"
 #include "core/response/make_responses.hpp"
 #include "core/response/recorder.hpp"

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/base/relative_error.hpp"
 #include "core/integration/simulation_options.hpp"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/integration/periodic_start.hpp"
 
 namespace pleuel {

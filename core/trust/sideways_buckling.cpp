@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/response/lateral_buckling_signal.hpp"
 #include "core/scene/joint_kind.hpp"
 #include "core/trust/common_buckling.hpp"

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/model/scene_geometry.hpp"
 #include "core/scene/joint_kind.hpp"
 

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/find_named.hpp"
 #include "core/beam/beam_shape.hpp"
 #include "core/model/shear_area.hpp"

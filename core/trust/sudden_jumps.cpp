@@ -5,6 +5,8 @@
 #include <set>
 #include <utility>
 
+#include "core/base/eager_matrices.hpp"
+
 namespace pleuel {
 
 namespace {

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/response/lateral_buckling_signal.hpp"
 #include "core/scene/response_parts.hpp"
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/beam/beam_place.hpp"
 #include "core/response/make_responses.hpp"
 #include "core/trust/beam_state.hpp"

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/response/mechanism_modes.hpp"
 #include "core/start/turning.hpp"
 

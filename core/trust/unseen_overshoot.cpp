@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/number_text.hpp"
 #include "core/integration/fast_vibration.hpp"
 #include "core/response/fatigue.hpp"

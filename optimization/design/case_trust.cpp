@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/response/monitors.hpp"
 #include "core/scene/load_cases.hpp"

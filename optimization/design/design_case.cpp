@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/find_named.hpp"
 #include "core/base/stopwatch.hpp"
 #include "optimization/design/setting_text.hpp"

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/number_text.hpp"
 #include "core/response/describe_tie.hpp"
 #include "core/scene/load_cases.hpp"

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/base/number_text.hpp"
 #include "core/scene/body_rules.hpp"

@@ -1,5 +1,6 @@
 #include "optimization/design/margin_problem.hpp"
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "optimization/robust_problem.hpp"
 #include "sensitivity/gradients.hpp"

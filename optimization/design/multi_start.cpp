@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
 #include "core/base/parallel.hpp"
 #include "core/base/stopwatch.hpp"

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/number_text.hpp"
 #include "core/trust/asked_responses.hpp"
 #include "core/trust/doubts.hpp"

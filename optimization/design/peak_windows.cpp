@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/response/value_over_cases.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/response_parts.hpp"

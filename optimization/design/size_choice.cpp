@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/stopwatch.hpp"
 #include "optimization/broken_limits.hpp"

@@ -1,5 +1,7 @@
 #include "optimization/design/size_lists.hpp"
 
+#include "core/base/eager_matrices.hpp"
+
 namespace pleuel {
 
 SizeLists::SizeLists(const std::vector<DesignVariable>& variables) {

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 
+#include "core/base/eager_matrices.hpp"
 #include "tests/hard/hard_problems.hpp"
 #include "tests/hard/rigid_references.hpp"
 #include "tests/support/convergence.hpp"

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "optimization/backends.hpp"
 #include "optimization/design/design_problem.hpp"
 #include "optimization/design/design_solve.hpp"
@@ -134,7 +135,8 @@ struct Corner {
 class HardCorner : public testing::TestWithParam<Corner> {};
 
 /// At the bounds, where there may be nothing beyond: the last case ends one per mille
-/// before the crank locks. Best of several widths.
+/// before the crank locks. Best of several widths: truncation of seven nodes and round-off of values
+/// balance between 3e-3 and 3e-2 (rod_bow of the first case: 5e-8 at 3e-2, 4e-10 at 3e-3).
 TEST_P(HardCorner, HasTheGradientOfDifferencesInwards) {
   const Corner& corner = GetParam();
   ProblemFile problem = sample_problem("hard/" + corner.problem, corner.overrides);
@@ -154,7 +156,7 @@ TEST_P(HardCorner, HasTheGradientOfDifferencesInwards) {
     };
     const bool is_upper = corner.is_upper[j];
     Eigen::VectorXd best = Eigen::VectorXd::Constant(direct.rows(), infinity);
-    for (const double relative : {2e-1, 3e-2, 3e-3, 3e-4, 3e-5}) {
+    for (const double relative : {2e-1, 3e-2, 1e-2, 3e-3, 3e-4, 3e-5}) {
       const double width = relative * x(j);
       const Eigen::VectorXd differences =
           derivative_in_interval(values, is_upper ? -width : 0.0, is_upper ? 0.0 : width, 7);

@@ -1,3 +1,4 @@
+#include "core/base/eager_matrices.hpp"
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/hard/hard_problems.hpp"

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "tests/hard/hard_problems.hpp"
 #include "tests/hard/rigid_references.hpp"

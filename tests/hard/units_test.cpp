@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "core/base/eager_matrices.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/hard/hard_problems.hpp"
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/response/analysis.hpp"
 #include "core/response/monitors.hpp"

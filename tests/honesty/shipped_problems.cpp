@@ -1,5 +1,6 @@
 #include "tests/honesty/shipped_problems.hpp"
 
+#include "core/base/eager_matrices.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "tests/support/source_folder.hpp"
 

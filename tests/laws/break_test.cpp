@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/integration/simulate.hpp"
 #include "core/scene/time_breaks.hpp"
 #include "tests/laws/law_problems.hpp"

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/laws/law_gradients.hpp"
 #include "tests/laws/law_problems.hpp"

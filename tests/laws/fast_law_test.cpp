@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/response/monitors.hpp"
 #include "core/trust/doubts.hpp"
 #include "core/trust/fast_laws.hpp"

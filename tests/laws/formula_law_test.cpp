@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/model/scene_geometry.hpp"
 #include "core/scene/time_breaks.hpp"

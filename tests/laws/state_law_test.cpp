@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/trust/joint_turns.hpp"
 #include "sensitivity/finite_difference.hpp"

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "complex_step.hpp"
+#include "core/base/eager_matrices.hpp"
 #include "known_problems.hpp"
 #include "optimization/least_violation.hpp"
 #include "optimization/restoration.hpp"

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
+
 namespace pleuel::test::evaluation_cache_test {
 namespace {
 

@@ -6,6 +6,7 @@
 
 #include "backend_names.hpp"
 #include "complex_step.hpp"
+#include "core/base/eager_matrices.hpp"
 #include "known_problems.hpp"
 #include "optimization/backends.hpp"
 #include "optimization/solve.hpp"

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "backend_names.hpp"
+#include "core/base/eager_matrices.hpp"
 #include "known_problems.hpp"
 #include "optimization/backends.hpp"
 #include "optimization/solve.hpp"

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "optimization/scaling.hpp"
 #include "optimization/verdict.hpp"
 

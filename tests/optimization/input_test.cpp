@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "known_problems.hpp"
 #include "optimization/backends.hpp"
 #include "optimization/solve.hpp"

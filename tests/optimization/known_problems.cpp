@@ -3,7 +3,10 @@
 #include <array>
 #include <cmath>
 
+#include <Eigen/LU>
+
 #include "complex_step.hpp"
+#include "core/base/eager_matrices.hpp"
 #include "optimization/scaling.hpp"
 
 namespace pleuel::test {
@@ -182,7 +185,7 @@ Vector<Scalar> mass_and_stresses(const Vector<Scalar>& areas) {
   const Vector<Scalar> displacement = stiffness.partialPivLu().solve(force);
   for (std::size_t i = 0; i < bars.size(); ++i) {
     const Vector<Scalar> b = elongation_row(bars[i]).cast<Scalar>();
-    result[i + 1] = young / length(bars[i]) * (b.transpose() * displacement).value();
+    result[i + 1] = young / length(bars[i]) * (b.transpose() * displacement);
   }
   return result;
 }

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
+
 namespace pleuel::test::linear_choice_test {
 namespace {
 

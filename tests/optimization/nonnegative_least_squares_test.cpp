@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
+
 namespace pleuel::test::nonnegative_least_squares_test {
 namespace {
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "complex_step.hpp"
+#include "core/base/eager_matrices.hpp"
 #include "known_problems.hpp"
 #include "optimization/broken_limits.hpp"
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "optimization/backends.hpp"
 #include "optimization/solve.hpp"
 #include "tests/optimization/backend_names.hpp"

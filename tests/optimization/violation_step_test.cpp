@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "optimization/nonnegative_least_squares.hpp"
 
 namespace pleuel::test::violation_step_test {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/model/scene_geometry.hpp"
 #include "core/response/analysis.hpp"
 #include "tests/picture/picture_problems.hpp"

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/model/scene_geometry.hpp"
 
 namespace pleuel::test::section_outline_test {

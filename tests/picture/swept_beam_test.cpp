@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "tests/picture/picture_problems.hpp"
 
 namespace pleuel::test::swept_beam_test {

@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "optimization/backends.hpp"
 #include "optimization/design/peak_problem.hpp"

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/scene/response_parts.hpp"
 #include "optimization/backends.hpp"

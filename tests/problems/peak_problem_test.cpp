@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "optimization/design/design_solve.hpp"
 #include "tests/support/source_folder.hpp"

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/response/effect_measurement.hpp"
 #include "tests/random/seeds.hpp"
 #include "tests/random/simulated_scene.hpp"

@@ -12,6 +12,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/scene/problem_reader.hpp"
 
 namespace pleuel::test {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/response/monitors.hpp"
 

@@ -10,6 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace pleuel::test::run_database_test {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "sensitivity/adjoint.hpp"
 #include "sensitivity/direct.hpp"
 #include "tests/sensitivity/flexible_slider_crank_reference.hpp"

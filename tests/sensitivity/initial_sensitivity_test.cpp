@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/rotation_vector.hpp"
 #include "core/mechanism/configuration.hpp"
 #include "tests/support/common_basis.hpp"

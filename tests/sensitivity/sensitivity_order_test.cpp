@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "sensitivity/direct.hpp"
 #include "tests/support/convergence.hpp"
 #include "tests/support/sample_scenes.hpp"

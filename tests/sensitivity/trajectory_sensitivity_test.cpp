@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/mechanism/configuration.hpp"
 #include "sensitivity/direct.hpp"
 #include "tests/support/common_basis.hpp"

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/response/analysis.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "sensitivity/gradients.hpp"

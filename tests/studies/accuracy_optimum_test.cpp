@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "tests/studies/quick_problem.hpp"
 
 namespace pleuel::test::accuracy_optimum_test {

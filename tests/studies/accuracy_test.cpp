@@ -5,6 +5,7 @@
 
 #include <gmock/gmock.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/response/analysis.hpp"
 #include "tests/studies/quick_problem.hpp"

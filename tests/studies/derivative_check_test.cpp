@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/relative_error.hpp"
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/sampled_gradients.hpp"

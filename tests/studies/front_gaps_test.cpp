@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
+
 namespace pleuel::test::front_gaps_test {
 namespace {
 

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "tests/studies/quick_problem.hpp"
 
 namespace pleuel::test::method_comparison_test {

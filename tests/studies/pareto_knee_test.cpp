@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
+
 namespace pleuel::test::pareto_knee_test {
 namespace {
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "studies/random_numbers.hpp"
 #include "tests/studies/quick_problem.hpp"

@@ -3,7 +3,6 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
-#include <unsupported/Eigen/MatrixFunctions>
 
 namespace pleuel::test {
 
@@ -15,7 +14,7 @@ MatrixXd solve_dense(const MatrixXd& a, const MatrixXd& b) {
 }
 
 MatrixXd least_squares(const MatrixXd& a, const MatrixXd& b) {
-  return a.colPivHouseholderQr().solve(b);
+  return a.completeOrthogonalDecomposition().solve(b);
 }
 
 Eigen::Index rank_of(const MatrixXd& a) {
@@ -46,7 +45,17 @@ VectorXd eigenvalues_of_symmetric(const MatrixXd& a, const MatrixXd& b) {
 }
 
 MatrixXd exponential(const MatrixXd& a) {
-  return a.exp();
+  int halvings = 0;
+  MatrixXd small = a;
+  for (; small.cwiseAbs().maxCoeff() * double(a.rows()) > 0.5; ++halvings) small /= 2.0;
+  constexpr int terms = 16;  // 0.5¹⁶/16! is below round-off
+  MatrixXd result = MatrixXd::Identity(a.rows(), a.cols()), term = result;
+  for (int k = 1; k <= terms; ++k) {
+    term = term * small / double(k);
+    result += term;
+  }
+  for (int k = 0; k < halvings; ++k) result = result * result;
+  return result;
 }
 
 }  // namespace pleuel::test

@@ -35,7 +35,7 @@ Eigen::VectorXd eigenvalues_of_symmetric(const Eigen::MatrixXd& a);
 /// μ of A φ = μ B φ, of a symmetric A and a positive definite B, in rising order.
 Eigen::VectorXd eigenvalues_of_symmetric(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b);
 
-/// I + A + A²/2 + …
+/// I + A + A²/2 + …, by its series for A/2ᵏ, squared k times.
 Eigen::MatrixXd exponential(const Eigen::MatrixXd& a);
 
 }  // namespace pleuel::test

@@ -2,9 +2,10 @@
 
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/SparseCholesky>
 #include <fmt/format.h>
+
+#include "core/base/dense_solvers.hpp"
 
 namespace pleuel {
 
@@ -61,7 +62,7 @@ void check_rigid_inertia(const JsonNode& block, const BodyConstants& constants) 
   }
   const Eigen::Matrix3d central =
       second - constants.first_moment * constants.first_moment.transpose() / constants.mass;
-  if (central.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff() < -tolerance * size) {
+  if (symmetric_eigenvalues(central)(0) < -tolerance * size) {
     block.at("second_moment")
         .fail_with_value("must be at least first_moment first_momentᵀ / mass in every direction");
   }

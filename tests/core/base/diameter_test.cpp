@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
+
 namespace pleuel::test::diameter_test {
 namespace {
 

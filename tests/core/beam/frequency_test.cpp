@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "tests/support/sample_beams.hpp"
 
 namespace pleuel::test::frequency_test {

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/section/ellipse_section.hpp"
 #include "core/section/rectangle_section.hpp"
 #include "tests/support/parameter_name.hpp"

@@ -1,6 +1,7 @@
 #include <Eigen/Core>
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "tests/support/dense_algebra.hpp"
 #include "tests/support/sample_beams.hpp"
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/effects/general_body_equations.hpp"
 #include "core/effects/planar_body_equations.hpp"
 #include "core/effects/translating_body_equations.hpp"

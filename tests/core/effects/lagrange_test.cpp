@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/effects/floating_frame_body.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/sample_beams.hpp"

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "tests/support/dense.hpp"
 #include "tests/support/dense_algebra.hpp"
 #include "tests/support/differences.hpp"

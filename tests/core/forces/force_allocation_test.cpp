@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "tests/core/counted_allocations.hpp"
 #include "tests/core/forces/force_samples.hpp"
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "tests/core/forces/force_samples.hpp"
 #include "tests/support/dense.hpp"
 #include "tests/support/differences.hpp"

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <random>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/rotation_vector.hpp"
 #include "core/forces/joint_force.hpp"
 #include "core/forces/point_force.hpp"

@@ -1,6 +1,7 @@
 #include <Eigen/Core>
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/beam/natural_modes.hpp"
 #include "core/effects/floating_frame_body.hpp"
 #include "core/forces/joint_force.hpp"

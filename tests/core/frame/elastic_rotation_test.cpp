@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "tests/support/differences.hpp"
 
 namespace pleuel::test::elastic_rotation_test {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
+
 namespace pleuel::test::local_error_control_test {
 namespace {
 

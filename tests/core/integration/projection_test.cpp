@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/model/model.hpp"
 #include "core/start/initial_state.hpp"
 #include "tests/support/sample_scenes.hpp"

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/integration/simulate.hpp"
 #include "tests/support/convergence.hpp"
 #include "tests/support/sample_scenes.hpp"

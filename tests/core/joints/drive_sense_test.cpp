@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/integration/simulate.hpp"
 #include "tests/support/places.hpp"
 

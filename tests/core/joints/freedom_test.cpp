@@ -1,6 +1,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/integration/simulate.hpp"
 #include "core/scene/joint_kind.hpp"
 #include "tests/support/dense.hpp"

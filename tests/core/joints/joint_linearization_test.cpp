@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
 #include "core/frame/marker_kinematics.hpp"
 #include "core/frame/number_data.hpp"

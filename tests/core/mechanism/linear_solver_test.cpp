@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "tests/support/dense_algebra.hpp"
 
 namespace pleuel::test::linear_solver_test {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/find_named.hpp"
 #include "core/model/body_builder.hpp"
 #include "tests/support/places.hpp"

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/trust/initial_motion.hpp"
 #include "sensitivity/gradients.hpp"

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/integration/simulate.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/sample_name.hpp"

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/response/analysis.hpp"
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/source_folder.hpp"

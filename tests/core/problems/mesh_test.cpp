@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/response/analysis.hpp"
 #include "tests/support/problem_runs.hpp"
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/parameter_name.hpp"

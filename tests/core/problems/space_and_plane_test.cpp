@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/response/monitors.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "sensitivity/gradients.hpp"

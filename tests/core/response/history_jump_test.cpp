@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/response/reduction.hpp"
 
 namespace pleuel::test::history_jump_test {

@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
 #include "core/response/balance_map.hpp"
 #include "core/response/rate_map.hpp"

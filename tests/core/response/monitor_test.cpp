@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/mechanism/configuration.hpp"
 #include "core/model/body_energy.hpp"
 #include "core/response/analysis.hpp"

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/dense_solvers.hpp"
+#include "core/base/eager_matrices.hpp"
 #include "core/base/rotation_vector.hpp"
 #include "core/beam/elastic_basis.hpp"
 #include "core/response/mechanism_modes.hpp"

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/joints/joint_term.hpp"
 #include "core/response/analysis.hpp"
 #include "core/start/initial_state.hpp"

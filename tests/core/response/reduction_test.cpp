@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "tests/support/parameter_name.hpp"
 
 namespace pleuel::test::reduction_test {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/response/analysis.hpp"
 #include "core/scene/problem_reader.hpp"
 

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/response/stress_signal.hpp"
 #include "tests/support/dense.hpp"
 #include "tests/support/dense_algebra.hpp"

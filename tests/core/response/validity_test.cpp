@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error.hpp"
+#include "core/response/analysis.hpp"
 #include "core/response/monitors.hpp"
 #include "tests/support/problem_runs.hpp"
 

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/response/analysis.hpp"
 #include "core/scene/problem_reader.hpp"
 

@@ -6,6 +6,8 @@
 
 #include <Eigen/SparseCholesky>
 
+#include "core/base/eager_matrices.hpp"
+
 namespace pleuel::test {
 namespace {
 

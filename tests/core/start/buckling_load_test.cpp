@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/start/elastic_stability.hpp"
 #include "tests/core/start/quasi_static_beam.hpp"
 

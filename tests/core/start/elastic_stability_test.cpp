@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "tests/core/start/quasi_static_beam.hpp"
 
 /// Columns on springs and below what turns.

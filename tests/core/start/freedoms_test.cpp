@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/mechanism/configuration.hpp"
 #include "core/response/analysis.hpp"
 #include "core/start/degrees_of_freedom.hpp"

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/integration/simulate.hpp"
 #include "core/mechanism/configuration.hpp"

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/system/linear_forces.hpp"
 #include "tests/support/random_state.hpp"
 #include "tests/support/sample_name.hpp"

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/mechanism/configuration.hpp"
 #include "tests/support/common_basis.hpp"
 #include "tests/support/dense.hpp"

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/response/shown_history.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/trust/doubts.hpp"

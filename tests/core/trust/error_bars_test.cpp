@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
+
 /// Estimates from runs with refined steps, on values whose error is known.
 namespace pleuel::test::error_bars_test {
 namespace {

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/trust/beam_state.hpp"
 #include "core/trust/bending_range.hpp"
 #include "tests/support/bent_cantilever.hpp"

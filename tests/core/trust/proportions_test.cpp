@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "tests/core/trust/crank_rocker.hpp"
 #include "tests/core/trust/doubts_of.hpp"
 #include "tests/support/parameter_name.hpp"

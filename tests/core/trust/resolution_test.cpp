@@ -11,6 +11,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/trust/energy_balance.hpp"
 #include "core/trust/nested_runs.hpp"

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/trust/initial_motion.hpp"
 #include "core/trust/shear_range.hpp"
 #include "tests/core/trust/doubts_of.hpp"

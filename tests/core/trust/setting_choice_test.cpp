@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/relative_error.hpp"
 #include "core/response/monitors.hpp"
 #include "core/scene/problem_reader.hpp"

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/section/shear_coefficient.hpp"
 #include "tests/core/trust/sheared_beam.hpp"
 

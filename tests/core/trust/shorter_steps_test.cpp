@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include "core/base/eager_matrices.hpp"
+
 namespace pleuel::test::shorter_steps_test {
 namespace {
 

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/integration/fast_vibration.hpp"
 #include "tests/core/trust/doubts_of.hpp"
 #include "tests/support/source_folder.hpp"

@@ -1,6 +1,8 @@
-#include "core/base/balanced_lu.hpp"
+#include "core/mechanism/balanced_lu.hpp"
 
 #include <gtest/gtest.h>
+
+#include "core/base/eager_matrices.hpp"
 
 namespace pleuel::test::balanced_lu_test {
 namespace {

@@ -1,9 +1,9 @@
-#include "core/base/balanced_lu.hpp"
+#include "core/mechanism/balanced_lu.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/SparseLU>
+#include <klu.h>
 
 namespace pleuel {
 
@@ -19,8 +19,32 @@ double inverse_root(double x) {
 }  // namespace
 
 struct BalancedLu::Factors {
-  Eigen::SparseLU<Matrix> lu;
-  bool is_analyzed = false;
+  klu_common common;
+  klu_symbolic* symbolic = nullptr;
+  klu_numeric* numeric = nullptr;
+
+  Factors() {
+    klu_defaults(&common);
+    common.scale = -1;  // done here
+    common.tol = 1.0;   // the largest entry of its column is the pivot
+  }
+  Factors(const Factors&) = delete;
+  ~Factors() { clear(); }
+
+  void clear() {
+    klu_free_numeric(&numeric, &common);
+    klu_free_symbolic(&symbolic, &common);
+  }
+
+  bool factorize(Matrix& matrix) {
+    clear();
+    int* starts = matrix.outerIndexPtr();
+    int* rows = matrix.innerIndexPtr();
+    symbolic = klu_analyze(static_cast<int>(matrix.rows()), starts, rows, &common);
+    if (symbolic == nullptr) return false;
+    numeric = klu_factor(starts, rows, matrix.valuePtr(), symbolic, &common);
+    return numeric != nullptr && common.status == KLU_OK;
+  }
 };
 
 BalancedLu::BalancedLu() : factors_(std::make_unique<Factors>()) {}
@@ -47,16 +71,14 @@ bool BalancedLu::factorize(const Matrix& matrix) {
     columns_.array() *= column.array();
     balanced = row.asDiagonal() * balanced * column.asDiagonal();
   }
-  if (!factors_->is_analyzed) factors_->lu.analyzePattern(balanced);
-  factors_->is_analyzed = true;
-  factors_->lu.factorize(balanced);
-  return factors_->lu.info() == Eigen::Success;
+  return factors_->factorize(balanced);
 }
 
 Eigen::MatrixXd BalancedLu::solve(const Eigen::MatrixXd& b) const {
-  const Eigen::MatrixXd scaled = rows_.asDiagonal() * b;
-  const Eigen::MatrixXd solution = factors_->lu.solve(scaled);
-  return columns_.asDiagonal() * solution;
+  Eigen::MatrixXd x = rows_.asDiagonal() * b;
+  klu_solve(factors_->symbolic, factors_->numeric, static_cast<int>(x.rows()),
+            static_cast<int>(x.cols()), x.data(), &factors_->common);
+  return columns_.asDiagonal() * x;
 }
 
 }  // namespace pleuel

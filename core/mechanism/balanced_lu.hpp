@@ -9,12 +9,13 @@ namespace pleuel {
 
 /// P R A C = L U of a sparse square matrix, with diagonal R and C that bring the largest entry of each
 /// row and column near one (Ruiz 2001): rows and columns of different units do not decide the pivots.
+/// With partial pivoting by KLU (Davis & Palamadai Natarajan 2010).
 class BalancedLu {
  public:
   BalancedLu();
   ~BalancedLu();
 
-  /// @return whether the matrix is regular. Matrices that follow have the pattern of the first one.
+  /// @return whether the matrix is regular
   bool factorize(const Eigen::SparseMatrix<double>& matrix);
   /// x of A x = b, for each column.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;

@@ -1,0 +1,141 @@
+#include "core/base/dense_solvers.hpp"
+
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "core/base/eager_matrices.hpp"
+
+/// Each decomposition against what defines it. Matrices have entries below one and some ten rows.
+namespace pleuel::test::dense_solvers_test {
+namespace {
+
+using Eigen::MatrixXcd;
+using Eigen::MatrixXd;
+using Eigen::VectorXcd;
+using Eigen::VectorXd;
+
+constexpr double round_off = 1e-12;  // measured 1e-15 to 6e-14
+
+/// Its third column is the sum of the first two.
+MatrixXd dependent_columns() {
+  MatrixXd a = MatrixXd::Random(8, 4);
+  a.col(2) = a.col(0) + a.col(1);
+  return a;
+}
+
+MatrixXd positive_definite(int size) {
+  const MatrixXd a = MatrixXd::Random(size, size);
+  return a * a.transpose() + MatrixXd::Identity(size, size);
+}
+
+TEST(PivotedQr, FindsColumnsThatDependOnOthers) {
+  const MatrixXd a = dependent_columns();
+  const PivotedQr qr(a);
+  EXPECT_EQ(qr.rank(), 3);
+  EXPECT_EQ(PivotedQr(MatrixXd::Random(5, 5)).rank(), 5);
+  EXPECT_EQ(PivotedQr(MatrixXd::Zero(3, 2)).rank(), 0);
+  const MatrixXd normal = qr.normal_space();
+  ASSERT_EQ(normal.cols(), 5);
+  EXPECT_LE((a.transpose() * normal).norm(), round_off);
+  EXPECT_LE((normal.transpose() * normal - MatrixXd::Identity(5, 5)).norm(), round_off);
+}
+
+/// |R_ii| of Q R = A P is the distance of a column from those before it.
+TEST(PivotedQr, HasColumnsInTheOrderOfTheirPivots) {
+  MatrixXd a(3, 3);
+  a << 1.0, 0.0, 4.0, 0.0, 2.0, 0.0, 0.0, 0.0, 3.0;
+  const PivotedQr qr(a);
+  EXPECT_EQ(qr.order(), (std::vector<int>{2, 1, 0}));
+  const VectorXd expected = Eigen::Vector3d(5.0, 2.0, 0.6);  // e₁ off (4, 0, 3)/5: 3/5
+  EXPECT_LE((qr.pivots() - expected).norm(), round_off);
+}
+
+TEST(PivotedQr, SolvesLeastSquaresWithIndependentColumnsOnly) {
+  const MatrixXd a = dependent_columns();
+  const VectorXd b = VectorXd::Random(8), z = PivotedQr(a).solve(b);
+  EXPECT_LE((a.transpose() * (a * z - b)).norm(), round_off);
+  EXPECT_EQ((z.array() == 0.0).count(), 1);
+}
+
+/// Normal to the null space and a solution of the normal equations: nothing else is shortest.
+TEST(LeastNorm, IsTheShortestOfAllSolutions) {
+  const MatrixXd a = dependent_columns();
+  const VectorXd b = VectorXd::Random(8), z = least_norm_solution(a, b);
+  EXPECT_LE((a.transpose() * (a * z - b)).norm(), round_off);
+  EXPECT_NEAR(z(0) + z(1) - z(2), 0.0, round_off);
+  const VectorXd wide = least_norm_solution(a.transpose(), VectorXd(a.transpose() * b));
+  EXPECT_EQ(wide.size(), 8);
+  EXPECT_LE((a.transpose() * (wide - b)).norm(), round_off);
+}
+
+TEST(DenseLu, SolvesWithTheMatrixAndItsTranspose) {
+  const MatrixXd a = MatrixXd::Random(9, 9), b = MatrixXd::Random(9, 2);
+  const DenseLu lu(a);
+  EXPECT_LE((a * lu.solve(b) - b).norm(), round_off);
+  EXPECT_LE((a.transpose() * lu.solve_transposed(b) - b).norm(), round_off);
+  const MatrixXcd c = MatrixXcd::Random(9, 9), d = MatrixXcd::Random(9, 2);
+  EXPECT_LE((c * ComplexLu(c).solve(d) - d).norm(), round_off);
+}
+
+/// A diagonal has 1/condition = smallest over largest.
+TEST(DenseLu, EstimatesTheCondition) {
+  const VectorXd diagonal = Eigen::Vector3d(4.0, 1e-3, 2.0);
+  EXPECT_NEAR(DenseLu(diagonal.asDiagonal()).reciprocal_condition(), 2.5e-4, 1e-16);
+  EXPECT_EQ(DenseLu(MatrixXd::Zero(2, 2)).reciprocal_condition(), 0.0);
+}
+
+TEST(Cholesky, IsTheRootOfPositiveDefiniteMatricesOnly) {
+  const MatrixXd a = positive_definite(6), b = MatrixXd::Random(6, 2);
+  const Cholesky factor(a);
+  EXPECT_TRUE(factor.is_positive_definite());
+  EXPECT_LE((factor.lower() * factor.lower().transpose() - a).norm(), round_off);
+  EXPECT_LE((a * factor.solve(b) - b).norm(), round_off);
+  EXPECT_LE((factor.lower() * factor.solve_lower(b) - b).norm(), round_off);
+  EXPECT_FALSE(Cholesky(-a).is_positive_definite());
+}
+
+TEST(SymmetricModes, SolveTheEigenvalueProblem) {
+  const MatrixXd r = MatrixXd::Random(7, 7), a = r + r.transpose(), b = positive_definite(7);
+  const SymmetricModes plain = symmetric_modes(a), general = symmetric_modes(a, b);
+  EXPECT_LE((a * plain.vectors - plain.vectors * plain.values.asDiagonal()).norm(), round_off);
+  EXPECT_LE((a * general.vectors - b * general.vectors * general.values.asDiagonal()).norm(),
+            round_off);
+  EXPECT_LE((general.vectors.transpose() * b * general.vectors - MatrixXd::Identity(7, 7)).norm(),
+            round_off);
+  EXPECT_TRUE(std::is_sorted(plain.values.begin(), plain.values.end()));
+  EXPECT_LE((symmetric_eigenvalues(a) - plain.values).norm(), round_off);
+  EXPECT_LE((symmetric_eigenvalues(a, b) - general.values).norm(), round_off);
+}
+
+TEST(HermitianModes, SolveTheEigenvalueProblem) {
+  const MatrixXcd r = MatrixXcd::Random(5, 5), a = r + r.adjoint();
+  const MatrixXcd b = r * r.adjoint() + MatrixXcd::Identity(5, 5);
+  const HermitianModes modes = hermitian_modes(a, b);
+  const MatrixXcd values = modes.values.cast<std::complex<double>>().asDiagonal();
+  EXPECT_LE((a * modes.vectors - b * modes.vectors * values).norm(), round_off);
+}
+
+/// s² + 2 s + 5 = 0 at −1 ± 2i, by its companion matrix.
+TEST(Eigenvalues, OfACompanionMatrixAreTheRoots) {
+  MatrixXd companion(2, 2);
+  companion << 0.0, 1.0, -5.0, -2.0;
+  const VectorXcd roots = eigenvalues_of(companion);
+  EXPECT_NEAR(std::abs(roots(0) - std::complex<double>(-1.0, 2.0)), 0.0, round_off);
+  EXPECT_NEAR(std::abs(roots(1) - std::complex<double>(-1.0, -2.0)), 0.0, round_off);
+}
+
+TEST(DenseSolvers, MakeNoNumbersOfWhatIsNone) {
+  MatrixXd a = positive_definite(3);
+  a(1, 1) = std::numeric_limits<double>::quiet_NaN();
+  const VectorXd b = VectorXd::Ones(3);
+  EXPECT_TRUE(DenseLu(a).solve(b).hasNaN());
+  EXPECT_TRUE(least_norm_solution(a, b).hasNaN());
+  EXPECT_TRUE(symmetric_modes(a).values.hasNaN());
+  EXPECT_TRUE(eigenvalues_of(a).hasNaN());
+  EXPECT_FALSE(Cholesky(a).is_positive_definite());
+  EXPECT_EQ(PivotedQr(a).rank(), 0);
+}
+
+}  // namespace
+}  // namespace pleuel::test::dense_solvers_test
