@@ -30,7 +30,7 @@ def main():
     parser.add_argument("files", nargs="*")
     parser.add_argument("--commands", default="simulate,gradient,optimize")
     parser.add_argument("--pairs", type=int, default=9)
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()
     programs = [os.path.abspath(program) for program in options.programs]
     files = [os.path.abspath(file) for file in options.files] or [
         str(file) for file in sorted((ROOT / "problems").glob("*.json")) if "schema" not in file.name and
