@@ -44,7 +44,7 @@ endfunction()
 # file it takes longer. Names in anonymous namespaces then have to differ within a target. Sources with the operators of
 # core/base/eager_matrices.hpp are grouped by themselves: others must not see them.
 option(PLEUEL_UNITY "Compile several files at once: faster from scratch, slower after a change" OFF)
-set(PLEUEL_UNITY_SIZE 100000 CACHE STRING "Bytes of source in a group of files that are compiled at once")
+set(PLEUEL_UNITY_SIZE 250000 CACHE STRING "Bytes of source in a group of files that are compiled at once")
 function(pleuel_compile_together name)
   set_target_properties(${name} PROPERTIES UNITY_BUILD ${PLEUEL_UNITY} UNITY_BUILD_MODE GROUP)
   get_target_property(sources ${name} SOURCES)

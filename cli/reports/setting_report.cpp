@@ -28,7 +28,7 @@ std::string step_text(double step) {
   return significant(1e3 * step, 3) + " ms";
 }
 
-std::string target_text(double share) {
+std::string wanted_text(double share) {
   return fmt::format("{:.3g} %", 100.0 * share);
 }
 
@@ -76,7 +76,7 @@ Json setting_document(const ProblemInput& input, const SettingChoice& choice) {
 }
 
 std::string setting_text(const ProblemFile& problem, const SettingChoice& choice) {
-  const std::string target = target_text(problem.accuracy.target);
+  const std::string target = wanted_text(problem.accuracy.target);
   const TriedSetting& chosen = choice.chosen;
   const std::string setting = fmt::format(
       "a step of {}{}", step_text(chosen.step),
@@ -143,7 +143,7 @@ std::string stages_text(const std::vector<Stage>& stages) {
     if (stage.target <= 0.0) continue;
     for (const TriedSetting& setting : stage.settings) {
       const bool is_first = &setting == &stage.settings.front();
-      table.add_row({is_first ? target_text(stage.target) : "", step_text(setting.step),
+      table.add_row({is_first ? wanted_text(stage.target) : "", step_text(setting.step),
                      setting.elements > 0 ? std::to_string(setting.elements) : "–",
                      error_text(setting), setting.response,
                      is_first ? duration(stage.choice_seconds) : "",

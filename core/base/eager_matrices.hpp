@@ -28,54 +28,37 @@ using VectorRef = Eigen::Ref<const VectorOf<Scalar>>;
 using Columns = Eigen::SparseMatrix<double>;
 using Rows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-/// For double and std::complex<double>.
+/// With one operand as a function takes it: a VectorRef or a MatrixRef of double or
+/// std::complex<double>.
+template <class Operand>
+struct Arithmetic {
+  using Scalar = typename Operand::Scalar;
+  using Result = typename Operand::PlainObject;
+
+  static Result sum(const Operand& a, const Operand& b);
+  static Result difference(const Operand& a, const Operand& b);
+  static Result scaled(const Operand& a, Scalar factor);
+  static Result quotient(const Operand& a, Scalar divisor);
+  static Result product(const MatrixRef<Scalar>& a, const Operand& b);
+  /// aᵀ b.
+  static Result transposed_product(const MatrixRef<Scalar>& a, const Operand& b);
+  /// diag(d) a.
+  static Result scaled_rows(const VectorRef<Scalar>& d, const Operand& a);
+};
+
+/// For double and std::complex<double>: aᵀ b, a bᵀ and a diag(d).
 template <class S>
-VectorOf<S> sum(const VectorRef<S>& a, const VectorRef<S>& b);
-template <class S>
-MatrixOf<S> sum(const MatrixRef<S>& a, const MatrixRef<S>& b);
-template <class S>
-VectorOf<S> difference(const VectorRef<S>& a, const VectorRef<S>& b);
-template <class S>
-MatrixOf<S> difference(const MatrixRef<S>& a, const MatrixRef<S>& b);
-template <class S>
-VectorOf<S> scaled(const VectorRef<S>& a, S factor);
-template <class S>
-MatrixOf<S> scaled(const MatrixRef<S>& a, S factor);
-template <class S>
-VectorOf<S> quotient(const VectorRef<S>& a, S divisor);
-template <class S>
-MatrixOf<S> quotient(const MatrixRef<S>& a, S divisor);
-template <class S>
-VectorOf<S> product(const MatrixRef<S>& a, const VectorRef<S>& b);
-template <class S>
-MatrixOf<S> product(const MatrixRef<S>& a, const MatrixRef<S>& b);
-/// aᵀ b.
-template <class S>
-S transposed_product(const VectorRef<S>& a, const VectorRef<S>& b);
-template <class S>
-VectorOf<S> transposed_product(const MatrixRef<S>& a, const VectorRef<S>& b);
-template <class S>
-MatrixOf<S> transposed_product(const MatrixRef<S>& a, const MatrixRef<S>& b);
-/// a bᵀ.
+S inner_product(const VectorRef<S>& a, const VectorRef<S>& b);
 template <class S>
 MatrixOf<S> outer_product(const VectorRef<S>& a, const VectorRef<S>& b);
-/// diag(d) a.
-template <class S>
-MatrixOf<S> scaled_rows(const VectorRef<S>& d, const MatrixRef<S>& a);
-template <class S>
-VectorOf<S> scaled_rows(const VectorRef<S>& d, const VectorRef<S>& a);
-/// a diag(d).
 template <class S>
 MatrixOf<S> scaled_columns(const MatrixRef<S>& a, const VectorRef<S>& d);
 
-VectorOf<double> product(const Columns& a, const VectorRef<double>& b);
-MatrixOf<double> product(const Columns& a, const MatrixRef<double>& b);
-VectorOf<double> product(const Rows& a, const VectorRef<double>& b);
-MatrixOf<double> product(const Rows& a, const MatrixRef<double>& b);
-VectorOf<double> transposed_product(const Columns& a, const VectorRef<double>& b);
-MatrixOf<double> transposed_product(const Columns& a, const MatrixRef<double>& b);
-VectorOf<double> transposed_product(const Rows& a, const VectorRef<double>& b);
-MatrixOf<double> transposed_product(const Rows& a, const MatrixRef<double>& b);
+/// A sparse matrix, Columns or Rows, or its transpose times a VectorRef or a MatrixRef of double.
+template <class Matrix, class Operand>
+typename Operand::PlainObject sparse_product(const Matrix& a, const Operand& b);
+template <class Matrix, class Operand>
+typename Operand::PlainObject transposed_sparse_product(const Matrix& a, const Operand& b);
 
 template <class Scalar>
 inline constexpr bool is_complex = std::is_same_v<Scalar, std::complex<double>>;
@@ -133,14 +116,17 @@ using Common = std::conditional_t<is_complex<A> || is_complex<B>, std::complex<d
 template <class A, class B>
 using CommonScalar = Common<typename A::Scalar, typename B::Scalar>;
 
-/// As the functions take an operand: a copy if it does not stand in memory column by column.
+/// What a function takes in place of an operand.
+template <class Scalar, class Operand>
+using Taken = std::conditional_t<Vector<Operand>, VectorRef<Scalar>, MatrixRef<Scalar>>;
+
+/// A copy if the operand does not stand in memory column by column.
 template <class Scalar, Dense Operand>
-auto taken(const Operand& a) {
-  using Taken = std::conditional_t<Vector<Operand>, VectorRef<Scalar>, MatrixRef<Scalar>>;
+Taken<Scalar, Operand> taken(const Operand& a) {
   if constexpr (std::is_same_v<Scalar, typename Operand::Scalar>) {
-    return Taken(a);
+    return a;
   } else {
-    return Taken(a.template cast<Scalar>());
+    return a.template cast<Scalar>();
   }
 }
 
@@ -149,22 +135,22 @@ auto taken(const Operand& a) {
 template <eager::Dense A, eager::Dense B>
 requires(eager::Vector<A> == eager::Vector<B>) auto operator+(const A& a, const B& b) {
   using S = eager::CommonScalar<A, B>;
-  return eager::sum<S>(eager::taken<S>(a), eager::taken<S>(b));
+  return eager::Arithmetic<eager::Taken<S, A>>::sum(eager::taken<S>(a), eager::taken<S>(b));
 }
 template <eager::Dense A, eager::Dense B>
 requires(eager::Vector<A> == eager::Vector<B>) auto operator-(const A& a, const B& b) {
   using S = eager::CommonScalar<A, B>;
-  return eager::difference<S>(eager::taken<S>(a), eager::taken<S>(b));
+  return eager::Arithmetic<eager::Taken<S, A>>::difference(eager::taken<S>(a), eager::taken<S>(b));
 }
 template <eager::Dense A>
 auto operator-(const A& a) {
   using S = typename A::Scalar;
-  return eager::scaled<S>(eager::taken<S>(a), S(-1.0));
+  return eager::Arithmetic<eager::Taken<S, A>>::scaled(eager::taken<S>(a), S(-1.0));
 }
 template <eager::Dense A, eager::Number Factor>
 auto operator*(const A& a, const Factor& factor) {
   using S = eager::Common<typename A::Scalar, Factor>;
-  return eager::scaled<S>(eager::taken<S>(a), S(factor));
+  return eager::Arithmetic<eager::Taken<S, A>>::scaled(eager::taken<S>(a), S(factor));
 }
 template <eager::Dense A, eager::Number Factor>
 auto operator*(const Factor& factor, const A& a) {
@@ -173,35 +159,36 @@ auto operator*(const Factor& factor, const A& a) {
 template <eager::Dense A, eager::Number Divisor>
 auto operator/(const A& a, const Divisor& divisor) {
   using S = eager::Common<typename A::Scalar, Divisor>;
-  return eager::quotient<S>(eager::taken<S>(a), S(divisor));
+  return eager::Arithmetic<eager::Taken<S, A>>::quotient(eager::taken<S>(a), S(divisor));
 }
 template <eager::Matrix A, eager::Dense B>
 auto operator*(const A& a, const B& b) {
   using S = eager::CommonScalar<A, B>;
+  using Arithmetic = eager::Arithmetic<eager::Taken<S, B>>;
   if constexpr (eager::is_transposed_matrix<A>) {
-    return eager::transposed_product<S>(eager::taken<S>(a.nestedExpression()), eager::taken<S>(b));
+    return Arithmetic::transposed_product(eager::taken<S>(a.nestedExpression()),
+                                          eager::taken<S>(b));
   } else {
-    return eager::product<S>(eager::taken<S>(a), eager::taken<S>(b));
+    return Arithmetic::product(eager::taken<S>(a), eager::taken<S>(b));
   }
 }
 template <eager::Sparse A, eager::Dense B>
 requires(!eager::is_complex<typename B::Scalar>) auto operator*(const A& a, const B& b) {
-  return eager::product(a, eager::taken<double>(b));
+  return eager::sparse_product(a, eager::taken<double>(b));
 }
 template <eager::TransposedSparse A, eager::Dense B>
 requires(!eager::is_complex<typename B::Scalar>) auto operator*(const A& a, const B& b) {
-  return eager::transposed_product(a.nestedExpression(), eager::taken<double>(b));
+  return eager::transposed_sparse_product(a.nestedExpression(), eager::taken<double>(b));
 }
 template <eager::TransposedVector A, eager::Vector B>
 auto operator*(const A& a, const B& b) {
   using S = eager::CommonScalar<A, B>;
-  return eager::transposed_product<S>(eager::taken<S>(a.nestedExpression()), eager::taken<S>(b));
+  return eager::inner_product<S>(eager::taken<S>(a.nestedExpression()), eager::taken<S>(b));
 }
 template <eager::TransposedVector A, eager::Matrix B>
-Eigen::Matrix<eager::CommonScalar<A, B>, 1, Eigen::Dynamic> operator*(const A& a, const B& b) {
+auto operator*(const A& a, const B& b) {
   using S = eager::CommonScalar<A, B>;
-  return eager::transposed_product<S>(eager::taken<S>(b), eager::taken<S>(a.nestedExpression()))
-      .transpose();
+  return Eigen::Matrix<S, 1, Eigen::Dynamic>((b.transpose() * a.nestedExpression()).transpose());
 }
 template <eager::Vector A, eager::TransposedVector B>
 auto operator*(const A& a, const B& b) {
@@ -211,7 +198,8 @@ auto operator*(const A& a, const B& b) {
 template <eager::Vector D, eager::Dense A>
 auto operator*(const Eigen::DiagonalWrapper<const D>& d, const A& a) {
   using S = eager::CommonScalar<D, A>;
-  return eager::scaled_rows<S>(eager::taken<S>(d.diagonal()), eager::taken<S>(a));
+  using Arithmetic = eager::Arithmetic<eager::Taken<S, A>>;
+  return Arithmetic::scaled_rows(eager::taken<S>(d.diagonal()), eager::taken<S>(a));
 }
 template <eager::Matrix A, eager::Vector D>
 auto operator*(const A& a, const Eigen::DiagonalWrapper<const D>& d) {

@@ -57,8 +57,8 @@ class JointEvaluation {
     using std::cos;
     using std::sin;
     const Scalar c = cos(drive_.value), s = sin(drive_.value);
-    const Vector3<Scalar> a = data_.directions[equation.first];
-    const Vector3<Scalar> b = data_.directions[equation.third];
+    const Vector3<Scalar>& a = data_.directions[equation.first];
+    const Vector3<Scalar>& b = data_.directions[equation.third];
     const Vector3<Scalar> normal = c * b - s * a, tangent = -(s * b) - c * a;
     const Scalar rate2 = drive_.rate * drive_.rate;
     return {normal, Vector3<Scalar>(drive_.rate * tangent),

@@ -61,7 +61,7 @@ void check_places(const ProblemFile& problem, const std::vector<NumberGroup>& gr
   }
 }
 
-std::string written_unit(const Json& value) {
+std::string unit_written_in(const Json& value) {
   return value.is_string() ? split_quantity(value.get<std::string>()).unit : "";
 }
 
@@ -77,7 +77,7 @@ std::vector<SceneNumber> scene_numbers(const ProblemText& text) {
   for (const FixedNumber& fixed : reader.fixed_numbers()) {
     if (fixed.node.place().starts_with(gravity)) continue;
     numbers.push_back(
-        {fixed.node.place(), fixed.value, fixed.quantity, written_unit(fixed.node.value())});
+        {fixed.node.place(), fixed.value, fixed.quantity, unit_written_in(fixed.node.value())});
   }
   return numbers;
 }

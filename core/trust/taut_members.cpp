@@ -17,7 +17,7 @@ namespace {
 /// Lengths of an element over √(EI/N): below, runs with other elements tell.
 constexpr double long_element = 3.0;
 /// Of the largest stress of axial force and bending: what may be missed of it without a word.
-constexpr double small_share = 0.05;
+constexpr double small_stress_share = 0.05;
 /// Instants that are looked at, at most.
 constexpr Eigen::Index most_instants = 200;
 
@@ -57,7 +57,7 @@ class TautPlane {
   }
 
   std::optional<Tautness> worst() const {
-    if (worst_.missed <= small_share * largest_stress_) return std::nullopt;
+    if (worst_.missed <= small_stress_share * largest_stress_) return std::nullopt;
     return worst_;
   }
 

@@ -37,7 +37,7 @@ std::vector<ImportedVariable> find_variables(const JsonNode& name, const Invaria
           name.text(), of.variable));
     }
     if (is_zero(*of.derivative)) continue;
-    const std::optional<Quantity> quantity = find_quantity(of.unit);
+    const std::optional<Quantity> quantity = pleuel::find_quantity(of.unit);
     if (!quantity) {
       name.fail(fmt::format(
           "names the file {}, whose variable \"{}\" has the unit \"{}\", which is no SI "
