@@ -17,6 +17,16 @@ namespace {
 /// Squares of frequencies that differ by less are one, several times.
 constexpr double coincidence = 1e-6;
 
+/// Mean of x* A x over the columns x; A symmetric.
+double mean_form(const Eigen::MatrixXd& a, const Eigen::MatrixXcd& x) {
+  const Eigen::MatrixXd real = x.real();
+  const Eigen::MatrixXd imaginary = x.imag();
+  const Eigen::MatrixXd a_real = a * real;
+  const Eigen::MatrixXd a_imaginary = a * imaginary;
+  return (real.cwiseProduct(a_real).sum() + imaginary.cwiseProduct(a_imaginary).sum()) /
+         static_cast<double>(x.cols());
+}
+
 class BodyModes {
  public:
   explicit BodyModes(const BodyModel& body)
@@ -47,9 +57,7 @@ class BodyModes {
  private:
   /// By Rayleigh's quotient: of modes that nearly coincide each has its own.
   double square_of(const Eigen::MatrixXcd& shapes) const {
-    const Eigen::MatrixXd stiffness = dense(body_.invariants.stiffness);
-    return (shapes.adjoint() * stiffness * shapes).trace().real() /
-           static_cast<double>(shapes.cols());
+    return mean_form(dense(body_.invariants.stiffness), shapes);
   }
 
   Eigen::Index end_of_coinciding(Eigen::Index first) const {
@@ -89,9 +97,7 @@ DesignConstant body_frequency(const BodyModel& body, const ModeChoice& choice, i
   for (const auto& [variable, change] : body.invariants_x) {
     const Eigen::MatrixXd matrix =
         modes.dense(change.stiffness) - square * modes.dense(change.mass_matrix);
-    const double mean =
-        (shapes.adjoint() * matrix * shapes).trace().real() / static_cast<double>(shapes.cols());
-    frequency.derivatives(variable) = mean / (2.0 * frequency.value);
+    frequency.derivatives(variable) = mean_form(matrix, shapes) / (2.0 * frequency.value);
   }
   return frequency;
 }

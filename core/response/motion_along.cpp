@@ -90,8 +90,8 @@ Eigen::MatrixXd mass_along(const Model& model, const State& state, const Eigen::
 
 Eigen::MatrixXcd combinations_along(const Eigen::MatrixXcd& modes, const Eigen::MatrixXd& mass,
                                     const Eigen::MatrixXd& along) {
-  const HermitianModes shares =
-      hermitian_modes(modes.adjoint() * along * modes, modes.adjoint() * mass * modes);
+  const Eigen::MatrixXcd adjoint = modes.adjoint();
+  const HermitianModes shares = hermitian_modes(adjoint * along * modes, adjoint * mass * modes);
   return shares.vectors.rightCols((shares.values.array() > most).count());
 }
 

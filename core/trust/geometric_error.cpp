@@ -157,8 +157,10 @@ class ExactBeam {
     Matrix3d turned = Matrix3d::Identity();
     Vector3d shift = Vector3d::Zero();
     if (is_chord()) {
-      turned = Eigen::Quaterniond::FromTwoVectors(shape.position.back(), Vector3d::UnitX())
-                   .toRotationMatrix();
+      const Vector3d tip = shape.position.back();
+      const Vector3d axis = tip.cross(Vector3d::UnitX());
+      const double sine = axis.norm();
+      if (sine > 0.0) turned = rotation_of(axis * (std::atan2(sine, tip.x()) / sine));
     } else if (body_.condition == ReferenceCondition::tangent_end) {
       turned = shape.rotation.back().transpose();
       shift = length() * Vector3d::UnitX() - turned * shape.position.back();
