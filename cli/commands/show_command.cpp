@@ -15,6 +15,7 @@
 #include "cli/reports/warnings.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/error.hpp"
+#include "core/mobility/lock.hpp"
 #include "core/model/drive_rows.hpp"
 #include "core/response/misalignment.hpp"
 #include "core/scene/body_rules.hpp"
@@ -51,6 +52,12 @@ void add_assembly(const ProblemFile& problem, Model& model, Shown& shown,
     freedoms.blocked = blocked_drives(model.mechanism, start, drive_rows(model));
     const std::string blocked = blocked_drives_text(model, start);
     if (!blocked.empty()) warnings.push_back(blocked);
+    const RigidPath path =
+        follow_drives(model, problem.simulation.end_time, problem.simulation.step);
+    if (path.end == RigidPath::End::locks) {
+      warnings.insert(warnings.begin(), lock_text(model, path));
+      shown.document["lock"] = {{"time", path.time}, {"gap", path.gap}};
+    }
     shown.document["rigid_motion"] = freedoms_document(freedoms, model);
     shown.text += "\n" + freedoms_text(freedoms, model);
   } catch (const SimulationError& error) {

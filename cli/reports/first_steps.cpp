@@ -19,6 +19,7 @@ constexpr double first_count = 16.0;         ///< of steps
 ProblemFile beginning(ProblemFile problem, double end_time) {
   problem.simulation.end_time = end_time;
   problem.simulation.period = 0.0;
+  problem.simulation.moves_by_bending = true;  // a lock is told without them
   for (ResponseSettings& response : problem.responses) {
     response.from.reset();
     response.to.reset();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <klu.h>
 
@@ -14,6 +15,19 @@ using Matrix = Eigen::SparseMatrix<double>;
 /// A power of two near 1/√x, so that scaling leaves no round-off; 1 for a row of zeros.
 double inverse_root(double x) {
   return x > 0.0 ? std::exp2(-std::round(0.5 * std::log2(x))) : 1.0;
+}
+
+/// 1 if an even number of exchanges makes it, −1 otherwise.
+int parity(const int* permutation, int size) {
+  std::vector<bool> is_seen(size, false);
+  int sign = 1;
+  for (int first = 0; first < size; ++first) {
+    for (int i = first; !is_seen[i]; i = permutation[i]) {
+      is_seen[i] = true;
+      if (permutation[i] != first) sign = -sign;  // a cycle of k has k − 1 exchanges
+    }
+  }
+  return sign;
 }
 
 }  // namespace
@@ -79,6 +93,16 @@ Eigen::MatrixXd BalancedLu::solve(const Eigen::MatrixXd& b) const {
   klu_solve(factors_->symbolic, factors_->numeric, static_cast<int>(x.rows()),
             static_cast<int>(x.cols()), x.data(), &factors_->common);
   return columns_.asDiagonal() * x;
+}
+
+int BalancedLu::determinant_sign() const {
+  const klu_symbolic& symbolic = *factors_->symbolic;
+  const auto* diagonal = static_cast<const double*>(factors_->numeric->Udiag);
+  int sign = parity(factors_->numeric->Pnum, symbolic.n) * parity(symbolic.Q, symbolic.n);
+  for (int i = 0; i < symbolic.n; ++i) {
+    if (diagonal[i] < 0.0) sign = -sign;
+  }
+  return sign;
 }
 
 }  // namespace pleuel

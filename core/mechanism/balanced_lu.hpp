@@ -19,6 +19,8 @@ class BalancedLu {
   bool factorize(const Eigen::SparseMatrix<double>& matrix);
   /// x of A x = b, for each column.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& b) const;
+  /// Of det A: 1 or −1.
+  int determinant_sign() const;
 
  private:
   struct Factors;

@@ -10,6 +10,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/base/machine_memory.hpp"
+#include "core/mobility/lock.hpp"
 #include "core/response/expression_value.hpp"
 #include "core/response/history_reduction.hpp"
 #include "core/response/make_responses.hpp"
@@ -227,6 +228,9 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
   analysis->responses =
       make_responses(problem.responses, analysis->model, model_of_modes(*analysis));
   const SimulationOptions options = options_of(problem);
+  if (!problem.simulation.moves_by_bending) {
+    require_no_lock(analysis->model, options.end_time, options.step);
+  }
   require_memory(analysis->responses, options);
   Recorder recorder(analysis->responses, step_count(options) + 1);
   ConstraintGuard guard(analysis->model, options);

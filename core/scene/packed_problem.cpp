@@ -48,14 +48,14 @@ void transfer(Unpacker& archive, InvariantsFile& file) {
 
 /// Of a struct with a base there is no list of all members: what is not named here is seen here.
 struct NamedSimulationSettings : TimeIntegration {
-  bool quasi_static_start, checks_resolution;
+  bool quasi_static_start, moves_by_bending, checks_resolution;
 };
 static_assert(sizeof(NamedSimulationSettings) == sizeof(SimulationSettings));
 
 template <class Archive>
 void transfer(Archive& archive, SimulationSettings& settings) {
   archive(static_cast<TimeIntegration&>(settings), settings.quasi_static_start,
-          settings.checks_resolution);
+          settings.moves_by_bending, settings.checks_resolution);
 }
 
 // Declared elsewhere: the members are packed here alone.

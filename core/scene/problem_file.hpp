@@ -60,6 +60,8 @@ struct EffectSettings {
 struct SimulationSettings : TimeIntegration {
   /// Starts from elastic equilibrium under the initial accelerations, without vibration.
   bool quasi_static_start = false;
+  /// Whether bodies are meant to bend where rigid ones could not follow the drives.
+  bool moves_by_bending = false;
   /// Whether runs with other steps and elements judge what is resolved (core/trust/resolution.hpp).
   bool checks_resolution = true;
 };

@@ -38,12 +38,14 @@ TEST(PackedProblem, KeepsWhatNoFileSays) {
   problem.effects.decisions = {};
   problem.effects.decisions.measured[{"rod", "elasticity"}] = {false, 1e-3, "rod_bow"};
   problem.simulation.checks_resolution = false;
+  problem.simulation.moves_by_bending = true;
   problem.simulation.instants = {0.0, 0.1 / 3.0};
   const auto same = unpacked<ProblemFile>(packed(problem));
   const MeasuredEffect& effect = same.effects.decisions.measured.at({"rod", "elasticity"});
   EXPECT_FALSE(effect.is_needed);
   EXPECT_EQ(effect.response, "rod_bow");
   EXPECT_FALSE(same.simulation.checks_resolution);
+  EXPECT_TRUE(same.simulation.moves_by_bending);
   EXPECT_EQ(same.simulation.instants, problem.simulation.instants);
   EXPECT_EQ(same.variables[0].quantity.has_value(), problem.variables[0].quantity.has_value());
 }

@@ -75,7 +75,7 @@ Formulation read_formulation(const JsonNode& node, const NumberReader& numbers) 
 SimulationSettings read_simulation(const JsonNode& node, const NumberReader& numbers) {
   node.allow_keys({"end_time", "step", "scheme", "spectral_radius", "formulation", "baumgarte",
                    "projection", "newton_tolerance", "max_newton_iterations", "initial_state",
-                   "local_error", "smallest_step", "resolution_check"});
+                   "local_error", "smallest_step", "moves_by_bending", "resolution_check"});
   SimulationSettings settings;
   read_times(node, numbers, settings);
   if (const auto scheme = node.find("scheme")) {
@@ -96,6 +96,7 @@ SimulationSettings read_simulation(const JsonNode& node, const NumberReader& num
     settings.max_newton_iterations = most->whole_number(1, most_iterations);
   }
   if (const auto state = node.find("initial_state")) read_initial_state(*state, numbers, settings);
+  if (const auto bends = node.find("moves_by_bending")) settings.moves_by_bending = bends->truth();
   if (const auto check = node.find("resolution_check")) settings.checks_resolution = check->truth();
   return settings;
 }

@@ -1,5 +1,8 @@
 #include "core/mechanism/balanced_lu.hpp"
 
+#include <cmath>
+
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
@@ -22,6 +25,23 @@ TEST(BalancedLu, TellsSingularMatrices) {
   Eigen::MatrixXd matrix(2, 2);
   matrix << 1.0, 2.0, 2.0, 4.0;
   EXPECT_FALSE(BalancedLu().factorize(matrix.sparseView()));
+}
+
+/// Against the rule of Sarrus.
+TEST(BalancedLu, KnowsTheSignOfTheDeterminant) {
+  int positive = 0;
+  for (int seed = 1; seed <= 40; ++seed) {
+    Eigen::Matrix3d a;
+    for (int i = 0; i < 9; ++i) a(i / 3, i % 3) = std::sin(seed * (1.0 + 2.7 * i));
+    if (seed % 3 == 0) a(1, 1) = 0.0;
+    const double determinant = a.row(0).cross(a.row(1)).dot(a.row(2));
+    BalancedLu lu;
+    ASSERT_TRUE(lu.factorize(Eigen::MatrixXd(a).sparseView(0.0, 0.0)));
+    EXPECT_EQ(lu.determinant_sign(), determinant > 0.0 ? 1 : -1) << seed;
+    positive += determinant > 0.0;
+  }
+  EXPECT_GT(positive, 5);
+  EXPECT_LT(positive, 35);
 }
 
 }  // namespace

@@ -1,0 +1,77 @@
+#include "core/mobility/lock.hpp"
+
+#include <algorithm>
+#include <numbers>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/base/eager_matrices.hpp"
+#include "core/model/drive_rows.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Of the fastest body: what is slower stands still.
+constexpr double moves = 0.05;
+
+/// Where the drives are: "crank_pin" at 66.4°.
+std::string drives_text(const Model& model, double time) {
+  std::vector<std::string> places;
+  for (const JointModel& joint : model.joints) {
+    if (joint.drive_row < 0) continue;
+    const double travel = joint.data.drive.at(time).value;
+    const auto& equation = joint.topology.equations[joint.drive_row - joint.first_multiplier];
+    places.push_back(
+        traits_of(equation.kind).is_moment
+            ? fmt::format("\"{}\" at {:.4g}°", joint.name, travel * 180.0 / std::numbers::pi)
+            : fmt::format("\"{}\" at {:.4g} mm", joint.name, 1e3 * travel));
+  }
+  return fmt::format("{}", fmt::join(places, ", "));
+}
+
+std::vector<std::string> moving_bodies(const Model& model, const RigidPath& path) {
+  const RigidConstraints constraints(model);
+  const Eigen::VectorXd motion =
+      constraints.expand(path.still_moves).cwiseQuotient(model.mechanism.scale).cwiseAbs();
+  std::vector<std::string> names;
+  for (const BodyModel& body : model.bodies) {
+    if (body.frame.size() == 0) continue;
+    const double speed =
+        motion.segment(body.frame.offset, body.frame.size()).lpNorm<Eigen::Infinity>();
+    if (speed <= moves * motion.lpNorm<Eigen::Infinity>()) continue;
+    if (names.empty() || names.back() != body.name) names.push_back(body.name);
+  }
+  return names;
+}
+
+}  // namespace
+
+std::string lock_text(const Model& model, const RigidPath& path) {
+  const std::vector<std::string> names = moving_bodies(model, path);
+  const std::string members =
+      names.empty() ? "it" : fmt::format("\"{}\"", fmt::join(names, "\", \""));
+  return fmt::format(
+      "the mechanism locks at t = {:.4g} s, with {}: there {} {} in line (a dead centre) and "
+      "cannot "
+      "pass. Beyond it rigid bodies miss by about {:.2g} mm. Change lengths or joints, end the "
+      "motion before, or set /simulation/moves_by_bending to true if bodies are meant to bend by "
+      "that much",
+      path.time, drives_text(model, path.time), members, names.size() > 1 ? "stand" : "stands",
+      1e3 * path.gap);
+}
+
+RigidPath follow_drives(const Model& model, double end, double step) {
+  if (drive_rows(model).empty()) return {.time = end, .q = model.mechanism.guess.q};
+  RigidConstraints constraints(model);
+  return follow_drives(constraints, model.mechanism.guess.q, end, step);
+}
+
+void require_no_lock(const Model& model, double end, double step) {
+  const RigidPath path = follow_drives(model, end, step);
+  if (path.end == RigidPath::End::locks) throw LockedMechanism(lock_text(model, path));
+}
+
+}  // namespace pleuel

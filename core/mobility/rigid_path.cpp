@@ -1,0 +1,244 @@
+#include "core/mobility/rigid_path.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "core/base/eager_matrices.hpp"
+#include "core/mechanism/balanced_lu.hpp"
+
+namespace pleuel {
+
+namespace {
+
+// Relative to the scales of positions, or in radians:
+
+/// What drives may ask for in a step.
+constexpr double largest_demand = 0.2;
+/// Drives that ask for less stand still.
+constexpr double smallest_demand = 1e-4;
+/// How far positions may be from where the tangent points to.
+constexpr double largest_curvature = 0.05;
+/// What bodies may move in a step.
+constexpr double largest_change = 0.5;
+/// How far beyond a position that cannot be left other branches are looked for, and from where.
+constexpr double look_ahead = 0.02;
+constexpr double departures[] = {0.05, 0.2};
+/// Pivots of rows that count as dependent where a branch may begin.
+constexpr double singular = 1e-2;
+/// Rows out of line by less count as dependent.
+constexpr double clearly_independent = 1e-4;
+/// Of the time of the motion: the longest step.
+constexpr double longest_share = 1.0 / 50.0;
+/// Steps in which the gap of a lock is looked at.
+constexpr int steps_of_gap = 100;
+constexpr double first_gap = 1e-3;
+/// Of the size of the mechanism: a gap that is closed again.
+constexpr double no_gap = 1e-7;
+
+class Follower {
+ public:
+  Follower(RigidConstraints& constraints, double end, double step)
+      : constraints_(constraints), end_(end), step_(step) {}
+
+  RigidPath follow(const Eigen::VectorXd& start) {
+    RigidPath path;
+    path.q = start;
+    if (constraints_.rows() == 0 || constraints_.coordinates() == 0) return path;
+    const RigidConstraints::Closure first = constraints_.close(start, 0.0);
+    if (!first.is_closed) {
+      path.end = RigidPath::End::bends;
+      return path;
+    }
+    path.q = first.q;
+    complete_rows(path.q);
+    int sign = orientation(path.q, 0.0);
+    double step = step_;
+    std::vector<Eigen::VectorXd> before = {path.q};
+    while (path.time < end_) {
+      step = std::min({step, longest_share * end_, end_ - path.time});
+      double asked = demand(path.q, path.time, step);
+      for (; asked > largest_demand; asked = demand(path.q, path.time, step)) step *= 0.5;
+      const double next = end_ - path.time - step < 1e-9 * step_ ? end_ : path.time + step;
+      const bool is_small = asked <= smallest_demand;
+      const RigidConstraints::Closure closure = constraints_.close(path.q, next);
+      const int next_sign = closure.is_closed ? orientation(closure.q, next) : 0;
+      if (is_near(path.q, closure) && (is_small || next_sign == sign)) {
+        path.q = closure.q;
+        path.time = next;
+        sign = next_sign;
+        before.push_back(path.q);
+        step *= 2.0;
+      } else if (!is_small) {
+        step *= 0.25;
+      } else if (take_other_branch(path)) {
+        sign = orientation(path.q, path.time);
+        step = step_;
+      } else {
+        describe_end(before[before.size() / 2], path);
+        return path;
+      }
+    }
+    return path;
+  }
+
+ private:
+  /// What the drives ask for within a step from positions where they are met.
+  double demand(const Eigen::VectorXd& q, double time, double step) const {
+    double demand = 0.0;
+    for (const double share : {0.25, 0.5, 0.75, 1.0}) {
+      const Eigen::VectorXd values = constraints_.values(q, time + share * step);
+      for (int row = 0; row < constraints_.rows(); ++row) {
+        if (constraints_.is_drive()[row]) demand = std::max(demand, std::abs(values(row)));
+      }
+    }
+    return demand;
+  }
+
+  bool is_near(const Eigen::VectorXd& q, const RigidConstraints::Closure& closure) const {
+    if (!closure.is_closed) return false;
+    const Eigen::VectorXd change = constraints_.difference(closure.q, q);
+    return change.lpNorm<Eigen::Infinity>() <= largest_change &&
+           (change - closure.first).lpNorm<Eigen::Infinity>() <= largest_curvature;
+  }
+
+  /// Rows that make Φ_z square, as far as that is needed: the motions that are free at the start
+  /// stand still. Of dependent rows some are enough.
+  void complete_rows(const Eigen::VectorXd& q) {
+    const SparseRows jacobian = jacobian_at(q, 0.0);
+    const RankedRows ranked = rank_rows(jacobian, clearly_independent);
+    for (Eigen::Index i = 0; i < ranked.pivots.size(); ++i) {
+      if (ranked.pivots(i) > clearly_independent) independent_.push_back(ranked.order[i]);
+    }
+    std::sort(independent_.begin(), independent_.end());
+    free_ = null_space_of_rows(jacobian, clearly_independent);
+  }
+
+  /// The sign of det Φ_z, so completed; 0 where it is singular or cannot be completed.
+  int orientation(const Eigen::VectorXd& q, double time) const {
+    const auto rows = static_cast<Eigen::Index>(independent_.size());
+    const Eigen::Index n = constraints_.coordinates();
+    if (rows + free_.cols() != n) return 0;
+    const SparseRows jacobian = jacobian_at(q, time);
+    std::vector<Eigen::Triplet<double>> entries;
+    for (Eigen::Index i = 0; i < rows; ++i) {
+      for (SparseRows::InnerIterator entry(jacobian, independent_[i]); entry; ++entry) {
+        entries.emplace_back(i, entry.col(), entry.value());
+      }
+    }
+    for (Eigen::Index k = 0; k < free_.cols(); ++k) {
+      for (Eigen::Index i = 0; i < n; ++i) entries.emplace_back(rows + k, i, free_(i, k));
+    }
+    Eigen::SparseMatrix<double> square(n, n);
+    square.setFromTriplets(entries.begin(), entries.end());
+    BalancedLu lu;
+    return lu.factorize(square) ? lu.determinant_sign() : 0;
+  }
+
+  SparseRows jacobian_at(const Eigen::VectorXd& q, double time) const {
+    Eigen::VectorXd values;
+    SparseRows jacobian;
+    constraints_.linearize(q, time, values, jacobian);
+    return jacobian;
+  }
+
+  /// Where a position is left along a motion that drives do not ask for, as from a dead centre.
+  bool take_other_branch(RigidPath& path) const {
+    const std::optional<double> next = time_of_demand(path.q, path.time, look_ahead);
+    if (!next) {  // drives ask for nothing any more
+      path.time = end_;
+      return true;
+    }
+    const Eigen::MatrixXd motions = null_space_of_rows(jacobian_at(path.q, path.time), singular);
+    for (const double length : departures) {
+      for (Eigen::Index k = 0; k < motions.cols(); ++k) {
+        for (const double sense : {1.0, -1.0}) {
+          const Eigen::VectorXd change = sense * length * motions.col(k);
+          const RigidConstraints::Closure closure =
+              constraints_.close(constraints_.advance(path.q, change), *next);
+          if (!closure.is_closed ||
+              constraints_.difference(closure.q, path.q).lpNorm<Eigen::Infinity>() >
+                  2.0 * largest_change) {
+            continue;
+          }
+          path.q = closure.q;
+          path.time = *next;
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  /// When drives will have asked for so much.
+  std::optional<double> time_of_demand(const Eigen::VectorXd& q, double time, double much) const {
+    double step = 1e-6 * step_;
+    while (demand(q, time, step) < much) {
+      if (time + step >= end_) return std::nullopt;
+      step = std::min(1.5 * step, end_ - time);
+    }
+    return time + step;
+  }
+
+  void describe_end(const Eigen::VectorXd& before, RigidPath& path) const {
+    if (drives_move_nothing(before)) {
+      path.end = RigidPath::End::bends;
+      return;
+    }
+    path.end = RigidPath::End::locks;
+    path.still_moves = motion_at_rest(path);
+    path.gap = largest_gap(path);
+  }
+
+  /// Whether joints, or other drives, hold already what some drives would move.
+  bool drives_move_nothing(const Eigen::VectorXd& q) const {
+    SparseRows all = jacobian_at(q, 0.0);
+    SparseRows joints = all;
+    int drives = 0;
+    for (int row = 0; row < constraints_.rows(); ++row) {
+      if (!constraints_.is_drive()[row]) continue;
+      joints.row(row) *= 0.0;
+      ++drives;
+    }
+    joints.prune(0.0);
+    return rank_of_rows(std::move(all), clearly_independent) -
+               rank_of_rows(std::move(joints), clearly_independent) <
+           drives;
+  }
+
+  /// What moves most while the drives stand still: the last bit of the way.
+  Eigen::VectorXd motion_at_rest(const RigidPath& path) const {
+    const Eigen::MatrixXd motions = null_space_of_rows(jacobian_at(path.q, path.time), singular);
+    if (motions.cols() == 0) return Eigen::VectorXd::Zero(constraints_.coordinates());
+    return motions.col(motions.cols() - 1);
+  }
+
+  double largest_gap(const RigidPath& path) const {
+    double gap = 0.0, time = path.time, demand = first_gap;
+    Eigen::VectorXd q = path.q;
+    for (int i = 0; i < steps_of_gap && time < end_; ++i) {
+      time = time_of_demand(q, time, demand).value_or(end_);
+      demand = std::min(1.25 * demand, 0.5 * largest_demand);
+      q = constraints_.close(q, time, constraints_.weight_of_gaps()).q;
+      const double now = constraints_.gap(constraints_.values(q, time));
+      if (gap > 0.0 && now <= no_gap * constraints_.length()) break;
+      gap = std::max(gap, now);
+    }
+    return gap;
+  }
+
+  RigidConstraints& constraints_;
+  double end_, step_;
+  std::vector<int> independent_;
+  Eigen::MatrixXd free_;
+};
+
+}  // namespace
+
+RigidPath follow_drives(RigidConstraints& constraints, const Eigen::VectorXd& start, double end,
+                        double step) {
+  return Follower(constraints, end, step).follow(start);
+}
+
+}  // namespace pleuel
