@@ -1,5 +1,6 @@
 #include "cli/interruption.hpp"
 
+#include <array>
 #include <csignal>
 
 #include "core/base/stop.hpp"
@@ -7,6 +8,8 @@
 namespace pleuel {
 
 namespace {
+
+constexpr std::array signals = {SIGINT, SIGTERM, SIGHUP};
 
 extern "C" void record_interruption(int signal) {
   request_stop();
@@ -16,15 +19,16 @@ extern "C" void record_interruption(int signal) {
 }  // namespace
 
 Interruption::Interruption() {
-  before_interrupt_ = std::signal(SIGINT, record_interruption);
-  before_end_ = std::signal(SIGTERM, record_interruption);
-  // A program started in the background ignores interrupts, and shall go on doing so.
-  if (before_interrupt_ == SIG_IGN) std::signal(SIGINT, SIG_IGN);
+  for (std::size_t i = 0; i < signals.size(); ++i) {
+    before_[i] = std::signal(signals[i], record_interruption);
+    // A program started in the background ignores interrupts, one of nohup the end of its terminal,
+    // and shall go on doing so.
+    if (before_[i] == SIG_IGN) std::signal(signals[i], SIG_IGN);
+  }
 }
 
 Interruption::~Interruption() {
-  std::signal(SIGINT, before_interrupt_);
-  std::signal(SIGTERM, before_end_);
+  for (std::size_t i = 0; i < signals.size(); ++i) std::signal(signals[i], before_[i]);
 }
 
 }  // namespace pleuel

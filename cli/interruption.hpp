@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
+
 namespace pleuel {
 
-/// While it lives, an interrupt from the keyboard (SIGINT) or a request to end (SIGTERM) stops what
-/// is computed (check_stop()), for a command to end in good order with what it knows; a second one
+/// While it lives, an interrupt from the keyboard (SIGINT), a request to end (SIGTERM) or the end of
+/// the terminal (SIGHUP) stops what is computed (check_stop()), for a command to end in good order with what it knows; a second one
 /// ends the program at once.
 class Interruption {
  public:
@@ -14,7 +16,7 @@ class Interruption {
 
  private:
   using Handler = void (*)(int);
-  Handler before_interrupt_, before_end_;
+  std::array<Handler, 3> before_;
 };
 
 }  // namespace pleuel

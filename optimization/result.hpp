@@ -26,6 +26,7 @@ struct Result {
   std::string message;  ///< a sentence: why this status
   /// Sentences: what speaks against the numbers of the last design.
   std::vector<std::string> warnings;
+  int consequences = 0;  ///< so many of the last warnings follow from those before them
   /// Of responses and objective by steps, elements and effects; where a design problem knows them.
   std::vector<std::optional<ErrorBar>> response_errors;
   std::vector<Eigen::VectorXd> response_bands;  ///< of histories [SI]; empty where none is known

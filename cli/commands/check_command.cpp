@@ -23,6 +23,7 @@
 #include "core/model/drive_rows.hpp"
 #include "core/scene/body_rules.hpp"
 #include "core/trust/doubts.hpp"
+#include "core/trust/ranking.hpp"
 #include "sensitivity/gradients.hpp"
 #include "sensitivity/unknown_derivatives.hpp"
 #include "studies/derivative_check.hpp"
@@ -44,6 +45,7 @@ struct Examination {
   std::vector<DerivativeCheck> derivatives;  ///< empty without variables
   bool is_interrupted = false;               ///< before the derivatives were verified
   std::vector<std::string> warnings;
+  int consequences = 0;  ///< so many warnings are not told, since they follow from others
 };
 
 Examination examine(const ProblemFile& problem, const Eigen::VectorXd& x,
@@ -63,7 +65,9 @@ Examination examine(const ProblemFile& problem, const Eigen::VectorXd& x,
   findings.freedoms = rigid_degrees_of_freedom(model.mechanism, initial);
   findings.freedoms.blocked = blocked_drives(model.mechanism, initial, drive_rows(model));
   findings.ties = find_ties(*findings.analysis, problem.variables);
-  warn(texts_of(find_doubts(problem, x, *findings.analysis)));
+  const std::vector<Doubt> doubts = find_doubts(problem, x, *findings.analysis);
+  warn(texts_of(doubts));
+  if (!arguments.wants_all_warnings) findings.consequences = count_consequences(doubts);
   ProgressLine progress(arguments, "measuring effects");
   try {
     findings.influences = effect_influences(problem, x);
@@ -92,7 +96,10 @@ Examination examine(const ProblemFile& problem, const Eigen::VectorXd& x,
   } catch (const Stopped&) {
     findings.is_interrupted = true;
   }
-  warn(noise_warnings(problem, *findings.analysis, findings.derivatives));
+  const std::vector<std::string> noise =
+      noise_warnings(problem, *findings.analysis, findings.derivatives);
+  findings.warnings.insert(findings.warnings.end() - findings.consequences, noise.begin(),
+                           noise.end());
   return findings;
 }
 
@@ -158,7 +165,8 @@ std::string make_text(const ProblemFile& problem, const Examination& findings, b
                       ? responses_text(problem, analysis)
                       : derivatives_text(problem, analysis, findings.derivatives));
   text += ties_text(findings.ties, analysis);
-  if (!findings.warnings.empty()) text += "\n" + warnings_text(findings.warnings);
+  if (!findings.warnings.empty())
+    text += "\n" + warnings_text(findings.warnings, findings.consequences);
   return text + time_text(problem, findings);
 }
 

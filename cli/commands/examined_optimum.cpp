@@ -25,6 +25,7 @@
 #include "core/trust/case_doubts.hpp"
 #include "core/trust/doubts.hpp"
 #include "core/trust/nested_runs.hpp"
+#include "core/trust/ranking.hpp"
 #include "optimization/prices.hpp"
 
 namespace pleuel {
@@ -161,9 +162,11 @@ Examined examine_cases(Optimum& optimum, std::vector<CaseDesigns>& designs) {
     }
     examined.drives += drives;
   }
-  optimum.warnings = optimum.result.evaluation.has_gradients()
-                         ? optimum.result.warnings
-                         : texts_of(joined_doubts(optimum.problem, doubts));
+  if (!optimum.result.evaluation.has_gradients()) {
+    const std::vector<Doubt> joined = joined_doubts(optimum.problem, doubts);
+    optimum.warnings = texts_of(joined);
+    optimum.consequences = count_consequences(joined);
+  }
   return examined;
 }
 

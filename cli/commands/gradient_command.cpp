@@ -21,6 +21,7 @@
 #include "core/base/stopwatch.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "core/trust/doubts.hpp"
+#include "core/trust/ranking.hpp"
 #include "sensitivity/gradients.hpp"
 #include "sensitivity/kinks.hpp"
 #include "sensitivity/method_choice.hpp"
@@ -118,6 +119,7 @@ struct MethodFindings {
   std::vector<MethodResult> results;
   Ties ties;
   std::vector<std::string> warnings;
+  int consequences = 0;                  ///< so many of the last ones are not told
   ErrorBars errors;                      ///< of the values
   std::vector<ComparedMethod> compared;  ///< empty: not asked for
 };
@@ -282,7 +284,9 @@ Outcome make_outcome(const Arguments& arguments, const ProblemFile& problem,
                       arguments.design ? "the design" : "the start", problem.name,
                       gradients_text(problem, findings.results),
                       ties_text(findings.ties, *findings.analysis),
-                      findings.warnings.empty() ? "" : "\n" + warnings_text(findings.warnings),
+                      findings.warnings.empty()
+                          ? ""
+                          : "\n" + warnings_text(findings.warnings, findings.consequences),
                       choice_text(findings.choice), comparison_text(problem, findings.compared),
                       memory_text(findings.analysis->trajectory),
                       seconds_text(findings.results, findings.simulation_seconds))};
@@ -330,6 +334,7 @@ Outcome run_gradient(const Arguments& arguments) {
   findings.warnings =
       unknown_derivatives(problem, Design<double>(input.design.begin(), input.design.end()));
   add_new(findings.warnings, texts_of(trust.doubts));
+  if (!arguments.wants_all_warnings) findings.consequences = count_consequences(trust.doubts);
   findings.errors = std::move(trust.errors);
   Outcome outcome = make_outcome(arguments, problem, findings);
   if (record) write_run(*record, arguments, input, *findings.analysis, outcome);

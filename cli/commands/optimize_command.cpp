@@ -211,7 +211,8 @@ Outcome run_optimize(const Arguments& arguments) {
   const StagedSolution& solution = all.best;
   const ProblemFile& solved = solution.problem->file();
   const Result& result = solution.result;
-  Optimum optimum{solved, result, {}, {}, {}, result.warnings, solution.problem->method()};
+  Optimum optimum{
+      solved, result, {}, {}, {}, result.warnings, result.consequences, solution.problem->method()};
   if (answer.sizes) optimum.sizes = &*answer.sizes;
   // What has been found is told and written first: the rest is made from it at any time.
   Json effects = Json::array();
@@ -230,6 +231,7 @@ Outcome run_optimize(const Arguments& arguments) {
     document["setting"] = setting_of(input.effective, solved);
     return document;
   };
+  if (arguments.wants_all_warnings) optimum.consequences = 0;
   show(arguments.progress(), optimum_report(optimum) +
                                  (answer.sizes ? sizes_text(solved, *answer.sizes, result) : "") +
                                  starts_text(solved, all) + stages_text(solution.stages));

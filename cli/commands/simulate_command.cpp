@@ -26,6 +26,7 @@
 #include "core/scene/reading/override.hpp"
 #include "core/trust/doubts.hpp"
 #include "core/trust/proportions.hpp"
+#include "core/trust/ranking.hpp"
 
 namespace pleuel {
 
@@ -40,6 +41,7 @@ struct Simulated {
   ErrorBars errors{};
   std::vector<Eigen::VectorXd> bands{};       ///< of histories
   std::vector<EffectInfluence> influences{};  ///< if they are asked for
+  int consequences = 0;                       ///< so many of the last warnings are not told
   double check_seconds = 0.0;                 ///< of what the warnings are found by
   bool is_checked = true;
 };
@@ -58,6 +60,7 @@ void check_numbers(const ProblemInput& input, Simulated& run) {
     if (input.choice) judged.known = &input.choice->bars;
     Trust trust = judge_run(judged);
     run.warnings = texts_of(trust.doubts);
+    run.consequences = count_consequences(trust.doubts);
     run.errors = std::move(trust.errors);
     run.bands = std::move(trust.bands);
   } catch (const Stopped&) {
@@ -129,7 +132,7 @@ std::string simulation_text(const ProblemFile& problem, const std::string& desig
       "{}{}: {}\n\n{}\n{}", problem.name, design, size_text(analysis),
       responses_text(problem, analysis, run.errors) + limits_text(problem, x, analysis, run.errors),
       monitors_text(run.monitors, analysis.model.mechanism.system->multipliers()) +
-          assembly_text(analysis) + warnings_text(run.warnings));
+          assembly_text(analysis) + warnings_text(run.warnings, run.consequences));
   if (!run.influences.empty()) {
     text += influences_text({problem, values_of(analysis), run.influences}, true) + "\n";
   }
@@ -172,6 +175,7 @@ Outcome run_simulate(const Arguments& arguments) {
   record.begin_phase("monitor");
   Simulated run{*analysis, monitor(analysis->model, analysis->trajectory), seconds};
   check_numbers(input, run);
+  if (arguments.wants_all_warnings) run.consequences = 0;
   if (arguments.wants_effects && run.is_checked) {
     try {
       run.influences = effect_influences(input.problem, input.design);

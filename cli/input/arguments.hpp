@@ -32,13 +32,14 @@ struct Arguments {
   int jobs = available_threads();           ///< simulations at a time, of each rank
   bool gives_jobs = false;                  ///< they are not just what the processors allow
   std::vector<RankPlace>* ranks = nullptr;  ///< others of an MPI job, if it is one
-  double task_limit = 0.0;         ///< of a start, a point or some samples [s]; 0: any time
-  bool wants_optimum = false;      ///< accuracy of it, and of whole optimizations
-  bool wants_histories = false;    ///< with their derivatives
-  bool compares_methods = false;   ///< of gradients: effort and accuracy of all
-  std::vector<std::string> names;  ///< of histories that are drawn
-  std::string order = "time";      ///< of runs that are listed: "time" or "name"
-  bool wants_effects = false;      ///< what each effect brings and costs
+  double task_limit = 0.0;          ///< of a start, a point or some samples [s]; 0: any time
+  bool wants_optimum = false;       ///< accuracy of it, and of whole optimizations
+  bool wants_histories = false;     ///< with their derivatives
+  bool compares_methods = false;    ///< of gradients: effort and accuracy of all
+  std::vector<std::string> names;   ///< of histories that are drawn
+  std::string order = "time";       ///< of runs that are listed: "time" or "name"
+  bool wants_all_warnings = false;  ///< those that follow from others, too
+  bool wants_effects = false;       ///< what each effect brings and costs
   bool wants_json = false;
   bool wants_vtk = false;          ///< the motion as files for ParaView
   bool leaves_out_report = false;  ///< no report.html

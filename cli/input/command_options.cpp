@@ -56,6 +56,11 @@ void add_design(CLI::App* command, Arguments& arguments) {
       ->type_name("FILE");
 }
 
+void add_all_warnings(CLI::App* command, Arguments& arguments) {
+  command->add_flag("--all-warnings", arguments.wants_all_warnings,
+                    "show warnings that may follow from others, too");
+}
+
 void add_effects(CLI::App* command, Arguments& arguments) {
   command->add_flag("--effects", arguments.wants_effects,
                     "list all physical effects, also those that change next to nothing");

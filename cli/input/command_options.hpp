@@ -16,6 +16,7 @@ void add_resume(CLI::App* command, Arguments& arguments);
 void add_no_report(CLI::App* command, Arguments& arguments);
 CLI::Option* add_output(CLI::App* command, Arguments& arguments);
 void add_design(CLI::App* command, Arguments& arguments);
+void add_all_warnings(CLI::App* command, Arguments& arguments);
 void add_effects(CLI::App* command, Arguments& arguments);
 void add_accuracy(CLI::App* command, Arguments& arguments);
 void add_backend(CLI::App* command, Arguments& arguments);

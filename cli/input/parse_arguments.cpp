@@ -86,6 +86,7 @@ void add_gradient(CLI::App& app, Arguments& arguments) {
       ->type_name("NUMBER");
   add_jobs(gradient, arguments);
   add_accuracy(gradient, arguments);
+  add_all_warnings(gradient, arguments);
   gradient->add_flag("--histories", arguments.wants_histories,
                      "write the derivatives of all histories into a run folder");
   gradient->add_flag("--compare", arguments.compares_methods,
@@ -219,6 +220,7 @@ void add_commands(CLI::App& app, Arguments& arguments) {
       "validate, describe the mechanism, verify the derivatives, estimate the time");
   add_design(check, arguments);
   add_effects(check, arguments);
+  add_all_warnings(check, arguments);
   add_jobs(check, arguments);
   add_overwrite(check, arguments);
   add_no_report(check, arguments);
@@ -229,6 +231,7 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   CLI::App* simulate = add_file_command(app, arguments, "simulate",
                                         "simulate one design and say whether it keeps its limits");
   add_output(simulate, arguments);
+  add_all_warnings(simulate, arguments);
   add_accuracy(simulate, arguments);
   simulate->add_flag("--effects", arguments.wants_effects,
                      "show what each effect brings and costs: a simulation more for each");
@@ -238,6 +241,7 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   CLI::App* optimize = add_file_command(app, arguments, "optimize",
                                         "find the best design within the limits, and verify it");
   add_output(optimize, arguments);
+  add_all_warnings(optimize, arguments);
   add_resume(optimize, arguments);
   add_accuracy(optimize, arguments);
   add_design(optimize, arguments);

@@ -20,8 +20,10 @@ struct Optimum {
   const Result& result;
   /// Values of all responses; empty if the start cannot be simulated.
   Eigen::VectorXd start_responses, responses;
-  Monitors monitors;                     ///< of the last design; likewise
-  std::vector<std::string> warnings;     ///< likewise: what speaks against its numbers
+  Monitors monitors;                  ///< of the last design; likewise
+  std::vector<std::string> warnings;  ///< likewise: what speaks against its numbers
+  int consequences =
+      0;  ///< so many of the last warnings are not told, since they follow from others
   std::optional<GradientChoice> method;  ///< of the gradients; none if there was none
   /// Of the last design, by runs of twice the step; empty: not measured.
   std::vector<EffectInfluence> influences{};

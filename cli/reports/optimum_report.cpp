@@ -219,7 +219,8 @@ std::string optimum_report(const Optimum& optimum) {
   return status + "\n" + objective_text(optimum) +
          wrapped(objective_in_cases(optimum.problem, optimum.result), "  ") + "\n" +
          variables_text(optimum) + constraints_text(optimum) + "\n" +
-         warnings_text(optimum.warnings) + residuals_text(optimum.result) + effort_text(optimum);
+         warnings_text(optimum.warnings, optimum.consequences) + residuals_text(optimum.result) +
+         effort_text(optimum);
 }
 
 }  // namespace pleuel

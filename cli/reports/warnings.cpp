@@ -10,10 +10,14 @@
 
 namespace pleuel {
 
-std::string warnings_text(const std::vector<std::string>& warnings) {
+std::string warnings_text(const std::vector<std::string>& warnings, int consequences) {
   std::string text;
-  for (const std::string& warning : warnings) text += wrapped("Warning: " + warning, "  ") + "\n";
-  return text;
+  for (std::size_t i = 0; i + consequences < warnings.size(); ++i) {
+    text += wrapped("Warning: " + warnings[i], "  ") + "\n";
+  }
+  if (consequences == 0) return text;
+  return text + fmt::format("  and {} that may follow from this (--all-warnings)\n",
+                            consequences == 1 ? "one more" : fmt::format("{} more", consequences));
 }
 
 void show_warnings_before(const ProblemFile& problem) {

@@ -10,7 +10,8 @@
 namespace pleuel {
 
 /// "Warning: …" of each, in lines of their own.
-std::string warnings_text(const std::vector<std::string>& warnings);
+/// @param consequences  so many of the last ones are only counted
+std::string warnings_text(const std::vector<std::string>& warnings, int consequences = 0);
 
 /// Those that are known before a long run, on standard error.
 void show_warnings_before(const ProblemFile& problem);

@@ -16,6 +16,7 @@ namespace {
 
 /// Of the fastest body: what is slower stands still.
 constexpr double moves = 0.05;
+constexpr std::size_t most_names = 4;
 
 /// Where the drives are: "crank_pin" at 66.4°.
 std::string drives_text(const Model& model, double time) {
@@ -50,17 +51,25 @@ std::vector<std::string> moving_bodies(const Model& model, const RigidPath& path
 }  // namespace
 
 std::string lock_text(const Model& model, const RigidPath& path) {
-  const std::vector<std::string> names = moving_bodies(model, path);
-  const std::string members =
-      names.empty() ? "it" : fmt::format("\"{}\"", fmt::join(names, "\", \""));
+  std::vector<std::string> names = moving_bodies(model, path);
+  std::string members;
+  if (names.size() > most_names) {
+    members = fmt::format(" and {} more", names.size() - most_names);
+    names.resize(most_names);
+  }
+  if (!names.empty()) {
+    members = fmt::format(", where \"{}\"{} are in line (a dead centre)",
+                          fmt::join(names, "\", \""), members);
+  }
+  const std::string gap =
+      path.gap > 0.0 ? fmt::format(" Beyond it joints of rigid bodies are about {:.2g} mm apart.",
+                                   1e3 * path.gap)
+                     : "";
   return fmt::format(
-      "the mechanism locks at t = {:.4g} s, with {}: there {} {} in line (a dead centre) and "
-      "cannot "
-      "pass. Beyond it rigid bodies miss by about {:.2g} mm. Change lengths or joints, end the "
-      "motion before, or set /simulation/moves_by_bending to true if bodies are meant to bend by "
-      "that much",
-      path.time, drives_text(model, path.time), members, names.size() > 1 ? "stand" : "stands",
-      1e3 * path.gap);
+      "the mechanism locks at t = {:.4g} s, with {}{}.{} Change lengths or joints, end the motion "
+      "before, or set /simulation/moves_by_bending to true if bodies are meant to bend by that "
+      "much",
+      path.time, drives_text(model, path.time), members, gap);
 }
 
 RigidPath follow_drives(const Model& model, double end, double step) {
@@ -69,8 +78,7 @@ RigidPath follow_drives(const Model& model, double end, double step) {
   return follow_drives(constraints, model.mechanism.guess.q, end, step);
 }
 
-void require_no_lock(const Model& model, double end, double step) {
-  const RigidPath path = follow_drives(model, end, step);
+void require_no_lock(const Model& model, const RigidPath& path) {
   if (path.end == RigidPath::End::locks) throw LockedMechanism(lock_text(model, path));
 }
 

@@ -21,7 +21,7 @@ RigidPath follow_drives(const Model& model, double end, double step);
 /// When it locks, where, which bodies are at a dead centre there, and by how much they miss.
 std::string lock_text(const Model& model, const RigidPath& path);
 
-/// @throws LockedMechanism
-void require_no_lock(const Model& model, double end, double step);
+/// @throws LockedMechanism if it locks
+void require_no_lock(const Model& model, const RigidPath& path);
 
 }  // namespace pleuel

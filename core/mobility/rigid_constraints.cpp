@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "core/base/eager_matrices.hpp"
@@ -17,17 +18,19 @@ namespace {
 constexpr double closed = 1e-9;
 constexpr int most_iterations = 60;
 /// Of z, in one step of the iteration.
-constexpr double longest_step = 0.5;
+constexpr double longest_move = 0.5;
 /// In the least gap joints are apart in their points, as far as that can be.
 constexpr double weight_of_angles = 10.0, weight_of_drives = 100.0;
 constexpr double least_damping = 1e-14, most_damping = 1e4;
 
-/// The mean of what positions are measured by.
-double length_of(const Model& model) {
-  for (const BodyModel& body : model.bodies) {
-    if (body.frame.translations() > 0) return model.mechanism.scale(body.frame.offset);
+/// The size of the smaller body of a joint; the ground has none.
+double length_of(const JointModel& joint, const Mechanism& mechanism) {
+  double length = std::numeric_limits<double>::infinity();
+  for (const Marker& marker : joint.topology.markers) {
+    if (marker.frame.translations() == 0) continue;
+    length = std::min(length, mechanism.scale(marker.frame.offset));
   }
-  return 1.0;
+  return std::isfinite(length) ? length : 1.0;
 }
 
 /// [ I  Jᵀ ; J  −μ I ]
@@ -51,8 +54,7 @@ LinearSolver::Matrix damped_matrix(const SparseRows& jacobian, double damping) {
 
 }  // namespace
 
-RigidConstraints::RigidConstraints(const Model& model)
-    : mechanism_(model.mechanism), length_(length_of(model)) {
+RigidConstraints::RigidConstraints(const Model& model) : mechanism_(model.mechanism) {
   const System& system = *mechanism_.system;
   const int n = system.coordinates();
   column_of_.assign(n, 0);
@@ -64,8 +66,9 @@ RigidConstraints::RigidConstraints(const Model& model)
   }
   row_of_.assign(system.multipliers(), 0);
   for (const int row : system.left_out()) row_of_[row] = -1;
-  std::vector<double> scales;
+  std::vector<double> scales, lengths;
   for (int number = 0; const JointModel& joint : model.joints) {
+    const double length = length_of(joint, mechanism_);
     for (int i = 0; i < joint.equations(); ++i) {
       const int multiplier = joint.first_multiplier + i;
       if (row_of_[multiplier] < 0) continue;
@@ -74,11 +77,13 @@ RigidConstraints::RigidConstraints(const Model& model)
       is_drive_.push_back(multiplier == joint.drive_row);
       is_angle_.push_back(traits_of(joint.topology.equations[i].kind).is_moment);
       joint_.push_back(number);
-      scales.push_back(is_angle_.back() ? 1.0 : length_);
+      scales.push_back(is_angle_.back() ? 1.0 : length);
+      lengths.push_back(length);
     }
     ++number;
   }
   row_scale_ = Eigen::Map<const Eigen::VectorXd>(scales.data(), int_size(scales));
+  length_ = Eigen::Map<const Eigen::VectorXd>(lengths.data(), int_size(lengths));
   for (Term* term : model.terms.joints) {
     EntryList entries;
     term->declare_entries(entries);
@@ -159,14 +164,19 @@ Eigen::VectorXd RigidConstraints::difference(const Eigen::VectorXd& to,
   return change;
 }
 
-double RigidConstraints::gap(const Eigen::VectorXd& values) const {
-  std::map<int, double> squares;
+RigidConstraints::Gap RigidConstraints::gap(const Eigen::VectorXd& values) const {
+  std::map<int, std::pair<double, double>> squares;  // of each joint, and its length
   for (int row = 0; row < rows(); ++row) {
-    if (!is_drive_[row]) squares[joint_[row]] += values(row) * values(row);
+    auto& [square, length] = squares[joint_[row]];
+    square += values(row) * values(row);
+    length = length_(row);
   }
-  double sum = 0.0;
-  for (const auto& [joint, square] : squares) sum += length_ * std::sqrt(square);
-  return sum;
+  Gap gap;
+  for (const auto& [joint, apart] : squares) {
+    gap.share += std::sqrt(apart.first);
+    gap.distance += std::sqrt(apart.first) * apart.second;
+  }
+  return gap;
 }
 
 Eigen::VectorXd RigidConstraints::weight_of_gaps() const {
@@ -203,6 +213,7 @@ RigidConstraints::Closure RigidConstraints::close(const Eigen::VectorXd& q, doub
   SparseRows jacobian;
   double damping = least_damping;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    ++iterations_;
     linearize(closure.q, time, values, jacobian);
     closure.is_closed = values.lpNorm<Eigen::Infinity>() <= closed;
     if (closure.is_closed) return closure;
@@ -212,7 +223,7 @@ RigidConstraints::Closure RigidConstraints::close(const Eigen::VectorXd& q, doub
     for (bool is_better = false; !is_better;) {
       if (solve_damped(jacobian, values, damping, step)) {
         const double length = step.lpNorm<Eigen::Infinity>();
-        if (length > longest_step) step *= longest_step / length;
+        if (length > longest_move) step *= longest_move / length;
         const Eigen::VectorXd next = advance(closure.q, step);
         const double after = weight.cwiseProduct(this->values(next, time)).squaredNorm();
         is_better = after < before;

@@ -10,8 +10,9 @@
 namespace pleuel {
 
 /// Joints and drives Φ(z, t) = 0 of bodies that do not deform: z are the coordinates of frames and point
-/// masses, elastic ones stay as they are. All is relative to the scales: lengths to the size of the
-/// mechanism, angles to 1 rad. Rows are those that the system keeps, drives among them.
+/// masses, elastic ones stay as they are. All is relative to the scales: lengths in a joint to the
+/// size of the smaller of its bodies, angles to 1 rad. Rows are those that the system keeps, drives
+/// among them.
 class RigidConstraints {
  public:
   /// @param model  must outlive this
@@ -21,10 +22,14 @@ class RigidConstraints {
   int coordinates() const { return static_cast<int>(coordinates_.size()); }
   /// Whether a row is that of a drive.
   const std::vector<bool>& is_drive() const { return is_drive_; }
-  /// By how much joints are apart in all [m]: the sum of their distances, angles times length().
-  double gap(const Eigen::VectorXd& values) const;
-  /// The length that lengths are relative to [m].
-  double length() const { return length_; }
+  /// By how much joints are apart: the sum of their distances, angles times the length.
+  struct Gap {
+    double distance = 0.0;  ///< [m]
+    double share = 0.0;     ///< relative to the lengths
+  };
+  Gap gap(const Eigen::VectorXd& values) const;
+  /// Steps that close() has made so far.
+  int iterations() const { return iterations_; }
 
   /// Φ at positions q (all coordinates of the mechanism) and a time.
   Eigen::VectorXd values(const Eigen::VectorXd& q, double time) const;
@@ -69,7 +74,8 @@ class RigidConstraints {
   std::vector<bool> is_drive_, is_angle_;
   std::vector<int> joint_;     ///< of each row
   Eigen::VectorXd row_scale_;  ///< of each row
-  double length_ = 1.0;
+  Eigen::VectorXd length_;     ///< of each row [m]
+  int iterations_ = 0;
   std::optional<LinearSolver> solver_;  ///< of the steps of close()
 };
 

@@ -23,19 +23,24 @@ constexpr double largest_curvature = 0.05;
 /// What bodies may move in a step.
 constexpr double largest_change = 0.5;
 /// How far beyond a position that cannot be left other branches are looked for, and from where.
-constexpr double look_ahead = 0.02;
-constexpr double departures[] = {0.05, 0.2};
+constexpr double look_ahead = 3e-4;
+constexpr double departures[] = {0.03, 0.1, 0.3};
 /// Pivots of rows that count as dependent where a branch may begin.
 constexpr double singular = 1e-2;
 /// Rows out of line by less count as dependent.
 constexpr double clearly_independent = 1e-4;
-/// Of the time of the motion: the longest step.
-constexpr double longest_share = 1.0 / 50.0;
-/// Steps in which the gap of a lock is looked at.
-constexpr int steps_of_gap = 100;
-constexpr double first_gap = 1e-3;
-/// Of the size of the mechanism: a gap that is closed again.
-constexpr double no_gap = 1e-7;
+/// The longest step, in those of the simulation: laws are looked at four times in it.
+constexpr double longest_step = 16.0;
+/// Drives that ask for much within so little jump.
+constexpr double shortest_step = 1e-9;
+/// What drives ask for in the first step in which a gap is looked at.
+constexpr double first_gap = 5e-4;
+/// Of the lengths: a gap that is closed again, and one that dimensions of machines leave.
+constexpr double no_gap = 1e-8, small_gap = 5e-5;
+/// Drives that have gone less far have had no motion of their own.
+constexpr double first_motion = 2e-3;
+/// Steps of close() that are made beside twice as many as the simulation has.
+constexpr int first_iterations = 3000;
 
 class Follower {
  public:
@@ -56,27 +61,34 @@ class Follower {
     int sign = orientation(path.q, 0.0);
     double step = step_;
     std::vector<Eigen::VectorXd> before = {path.q};
-    while (path.time < end_) {
-      step = std::min({step, longest_share * end_, end_ - path.time});
-      double asked = demand(path.q, path.time, step);
-      for (; asked > largest_demand; asked = demand(path.q, path.time, step)) step *= 0.5;
+    const int most_iterations = static_cast<int>(2.0 * end_ / step_) + first_iterations;
+    while (path.time < end_ && constraints_.iterations() < most_iterations) {
+      step = std::min({step, longest_step * step_, end_ - path.time});
+      Demand asked = demand(path.q, path.time, step);
+      for (; asked.size > largest_demand && step >= shortest_step * step_;
+           asked = demand(path.q, path.time, step))
+        step *= 0.5;
+      if (step < shortest_step * step_) return path;  // the drive jumps
+      const bool is_small = asked.size <= smallest_demand;
+      if (!is_small) step *= asked.share;  // to where drives turn that return within it
       const double next = end_ - path.time - step < 1e-9 * step_ ? end_ : path.time + step;
-      const bool is_small = asked <= smallest_demand;
       const RigidConstraints::Closure closure = constraints_.close(path.q, next);
       const int next_sign = closure.is_closed ? orientation(closure.q, next) : 0;
       if (is_near(path.q, closure) && (is_small || next_sign == sign)) {
         path.q = closure.q;
         path.time = next;
+        path.travel = std::max(path.travel, drive_values(before.front(), next));
         sign = next_sign;
         before.push_back(path.q);
         step *= 2.0;
       } else if (!is_small) {
         step *= 0.25;
-      } else if (take_other_branch(path)) {
+      } else if (take_other_branch(path) || pass_small_gap(path)) {
         sign = orientation(path.q, path.time);
+        before.push_back(path.q);
         step = step_;
       } else {
-        describe_end(before[before.size() / 2], path);
+        describe_end(before, path);
         return path;
       }
     }
@@ -84,16 +96,29 @@ class Follower {
   }
 
  private:
-  /// What the drives ask for within a step from positions where they are met.
-  double demand(const Eigen::VectorXd& q, double time, double step) const {
-    double demand = 0.0;
-    for (const double share : {0.25, 0.5, 0.75, 1.0}) {
-      const Eigen::VectorXd values = constraints_.values(q, time + share * step);
-      for (int row = 0; row < constraints_.rows(); ++row) {
-        if (constraints_.is_drive()[row]) demand = std::max(demand, std::abs(values(row)));
-      }
+  /// The largest of the equations of drives.
+  double drive_values(const Eigen::VectorXd& q, double time) const {
+    const Eigen::VectorXd values = constraints_.values(q, time);
+    double largest = 0.0;
+    for (int row = 0; row < constraints_.rows(); ++row) {
+      if (constraints_.is_drive()[row]) largest = std::max(largest, std::abs(values(row)));
     }
-    return demand;
+    return largest;
+  }
+
+  struct Demand {
+    double size = 0.0;
+    double share = 1.0;  ///< of the step, when it is largest
+  };
+
+  /// What the drives ask for within a step from positions where they are met.
+  Demand demand(const Eigen::VectorXd& q, double time, double step) const {
+    Demand largest;
+    for (const double share : {1.0, 0.75, 0.5, 0.25}) {
+      const double size = drive_values(q, time + share * step);
+      if (size > largest.size) largest = {size, share};
+    }
+    return largest;
   }
 
   bool is_near(const Eigen::VectorXd& q, const RigidConstraints::Closure& closure) const {
@@ -174,21 +199,24 @@ class Follower {
   /// When drives will have asked for so much.
   std::optional<double> time_of_demand(const Eigen::VectorXd& q, double time, double much) const {
     double step = 1e-6 * step_;
-    while (demand(q, time, step) < much) {
+    while (demand(q, time, step).size < much) {
       if (time + step >= end_) return std::nullopt;
       step = std::min(1.5 * step, end_ - time);
     }
     return time + step;
   }
 
-  void describe_end(const Eigen::VectorXd& before, RigidPath& path) const {
-    if (drives_move_nothing(before)) {
+  void describe_end(const std::vector<Eigen::VectorXd>& before, RigidPath& path) {
+    if (drives_move_nothing(before[before.size() / 2]) || path.travel <= first_motion) {
       path.end = RigidPath::End::bends;
       return;
     }
     path.end = RigidPath::End::locks;
-    path.still_moves = motion_at_rest(path);
-    path.gap = largest_gap(path);
+    // Beside drives that hardly move, the last bit of the way.
+    path.still_moves = constraints_.difference(path.q, before[before.size() - 2]);
+    Eigen::VectorXd q;
+    double time;
+    path.gap = march(path, q, time).distance;
   }
 
   /// Whether joints, or other drives, hold already what some drives would move.
@@ -207,25 +235,34 @@ class Follower {
            drives;
   }
 
-  /// What moves most while the drives stand still: the last bit of the way.
-  Eigen::VectorXd motion_at_rest(const RigidPath& path) const {
-    const Eigen::MatrixXd motions = null_space_of_rows(jacobian_at(path.q, path.time), singular);
-    if (motions.cols() == 0) return Eigen::VectorXd::Zero(constraints_.coordinates());
-    return motions.col(motions.cols() - 1);
+  /// Goes on where joints are hardly apart, as of dimensions that are rounded.
+  bool pass_small_gap(RigidPath& path) {
+    Eigen::VectorXd q;
+    double time;
+    if (march(path, q, time).share > small_gap) return false;
+    path.q = q;
+    path.time = time;
+    return true;
   }
 
-  double largest_gap(const RigidPath& path) const {
-    double gap = 0.0, time = path.time, demand = first_gap;
-    Eigen::VectorXd q = path.q;
-    for (int i = 0; i < steps_of_gap && time < end_; ++i) {
-      time = time_of_demand(q, time, demand).value_or(end_);
-      demand = std::min(1.25 * demand, 0.5 * largest_demand);
+  /// Lets joints come apart as little as drives ask for, until they close again or the motion ends.
+  /// @param q, time  where that is
+  /// @returns the largest gap on the way
+  RigidConstraints::Gap march(const RigidPath& path, Eigen::VectorXd& q, double& time) {
+    constexpr int most_steps = 150;
+    RigidConstraints::Gap largest;
+    double asked = first_gap;
+    q = path.q;
+    time = path.time;
+    for (int i = 0; i < most_steps && time < end_; ++i) {
+      time = time_of_demand(q, time, asked).value_or(end_);
+      asked = std::min(1.25 * asked, 0.5 * largest_demand);
       q = constraints_.close(q, time, constraints_.weight_of_gaps()).q;
-      const double now = constraints_.gap(constraints_.values(q, time));
-      if (gap > 0.0 && now <= no_gap * constraints_.length()) break;
-      gap = std::max(gap, now);
+      const RigidConstraints::Gap gap = constraints_.gap(constraints_.values(q, time));
+      if (largest.share > 0.0 && gap.share <= no_gap) break;
+      if (gap.share > largest.share) largest = gap;
     }
-    return gap;
+    return largest;
   }
 
   RigidConstraints& constraints_;

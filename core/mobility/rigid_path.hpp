@@ -14,8 +14,9 @@ struct RigidPath {
     locks      ///< the drives could be followed up to a time, and not beyond it
   };
   End end = End::followed;
-  double time = 0.0;  ///< [s] up to which they are followed
-  Eigen::VectorXd q;  ///< positions then
+  double time = 0.0;    ///< [s] up to which they are followed
+  double travel = 0.0;  ///< of the drives, relative to lengths or in radians
+  Eigen::VectorXd q;    ///< positions then
   /// Where it locks: how bodies still move there while all drives stand still, a change of z
   /// (RigidConstraints) of length one.
   Eigen::VectorXd still_moves = {};

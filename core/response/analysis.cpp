@@ -228,9 +228,8 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
   analysis->responses =
       make_responses(problem.responses, analysis->model, model_of_modes(*analysis));
   const SimulationOptions options = options_of(problem);
-  if (!problem.simulation.moves_by_bending) {
-    require_no_lock(analysis->model, options.end_time, options.step);
-  }
+  analysis->rigid_path = follow_drives(analysis->model, options.end_time, options.step);
+  if (!problem.simulation.moves_by_bending) require_no_lock(analysis->model, analysis->rigid_path);
   require_memory(analysis->responses, options);
   Recorder recorder(analysis->responses, step_count(options) + 1);
   ConstraintGuard guard(analysis->model, options);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/integration/simulate.hpp"
+#include "core/mobility/rigid_path.hpp"
 #include "core/model/model.hpp"
 #include "core/response/full_mechanism.hpp"
 #include "core/response/response.hpp"
@@ -15,6 +16,7 @@ namespace pleuel {
 struct Analysis {
   Eigen::VectorXd x;  ///< design variables [SI]
   Model model;
+  RigidPath rigid_path;  ///< how far rigid bodies follow the drives
   Trajectory trajectory;
   BrokenInstants breaks;  ///< of the trajectory, where something that acts jumps or has a kink
   std::vector<Response> responses;

@@ -42,8 +42,28 @@ std::vector<Doubt> doubt_blocked_drives(const TrustedRun& run) {
   State start;
   run.analysis.trajectory.states->load(0, start);
   const std::string text = blocked_drives_text(run.analysis.model, start);
-  if (text.empty()) return {};
-  return {{text}};
+  if (!text.empty()) return {{text}};
+  if (run.analysis.rigid_path.end != RigidPath::End::bends) return {};
+  return {
+      {fmt::format("rigid bodies cannot follow the drive of {} from the start: what moves does "
+                   "so only because bodies bend. If that is not meant, look at the axes of the "
+                   "joints",
+                   names_of_drives(run.analysis.model))}};
+}
+
+std::vector<Doubt> doubt_rest(const TrustedRun& run) {
+  const Model& model = run.analysis.model;
+  const Mechanism& mechanism = model.mechanism;
+  const bool is_driven = drive_rows(model).empty() || run.analysis.rigid_path.travel > 0.0;
+  if (is_driven || !model.terms.loads.empty() || !model.gravity.isZero(0.0) ||
+      !mechanism.guess.v.isZero(0.0) || !mechanism.bent_starts.empty()) {
+    return {};
+  }
+  return {
+      {fmt::format("nothing moves: the drive of {} stands still, and no load, weight or initial "
+                   "velocity acts. All numbers of the motion are round-off",
+                   names_of_drives(model)),
+       true}};
 }
 
 }  // namespace pleuel

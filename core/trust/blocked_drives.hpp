@@ -13,6 +13,9 @@ namespace pleuel {
 /// joint has a freedom too few, or a drive is too many.
 std::vector<Doubt> doubt_blocked_drives(const TrustedRun& run);
 
+/// Drives that stand still where nothing else acts: numbers that are round-off.
+std::vector<Doubt> doubt_rest(const TrustedRun& run);
+
 /// The doubt at a state; empty if there is none.
 std::string blocked_drives_text(const Model& model, const State& state);
 

@@ -7,6 +7,7 @@
 
 #include "core/base/find_named.hpp"
 #include "core/scene/load_cases.hpp"
+#include "core/trust/ranking.hpp"
 
 namespace pleuel {
 
@@ -61,10 +62,9 @@ std::vector<Doubt> joined_doubts(const ProblemFile& problem,
       }
     }
   }
-  std::stable_partition(all.begin(), all.end(),
-                        [](const SharedDoubt& one) { return one.doubt.is_serious; });
   std::vector<Doubt> doubts;
   for (const SharedDoubt& one : all) doubts.push_back(named_doubt(problem, one));
+  rank_doubts(doubts);
   return doubts;
 }
 

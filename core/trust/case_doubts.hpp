@@ -7,7 +7,7 @@
 
 namespace pleuel {
 
-/// Doubts of several load cases, one list a case, as one list: the serious ones first.
+/// Doubts of several load cases, one list a case, as one list, ranked (ranking.hpp).
 std::vector<Doubt> joined_doubts(const ProblemFile& problem,
                                  const std::vector<std::vector<Doubt>>& of_cases);
 

@@ -5,6 +5,17 @@
 
 namespace pleuel {
 
+/// What is behind a doubt. What is wrong in one class makes numbers wrong that those after it look at.
+enum class Cause {
+  unit,           ///< a number that lacks its unit, or has another one than meant
+  limit,          ///< a limit that is far from what is reached
+  mobility,       ///< what moves, and from where, is not what is meant
+  not_modelled,   ///< the motion leaves what the equations are for
+  unstable,       ///< what moves so would buckle or flutter
+  not_converged,  ///< steps or elements are too large
+  left_out        ///< an effect that is not built
+};
+
 /// Something that speaks against numbers that came out of a simulation without complaint.
 struct Doubt {
   std::string text;  ///< a sentence: what, where, how far, and what to do about it
@@ -15,6 +26,7 @@ struct Doubt {
   std::vector<std::string> responses{};
   /// Names of bodies that stand in it for not being held or driven as a mechanism's are: drawn red.
   std::vector<std::string> bodies{};
+  Cause cause = Cause::left_out;
 };
 
 }  // namespace pleuel

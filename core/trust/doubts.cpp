@@ -28,6 +28,7 @@
 #include "core/trust/other_side.hpp"
 #include "core/trust/promised_buckling.hpp"
 #include "core/trust/proportions.hpp"
+#include "core/trust/ranking.hpp"
 #include "core/trust/resolution.hpp"
 #include "core/trust/section_axes.hpp"
 #include "core/trust/shear_range.hpp"
@@ -112,41 +113,65 @@ std::vector<Doubt> doubt_buckling(const TrustedRun& run,
   return doubts_of({complete->problem, run.x, *complete->analysis, monitors});
 }
 
+struct Judge {
+  Cause cause;
+  std::vector<Doubt> (*find)(const TrustedRun&);
+};
+
+constexpr Judge judges[] = {
+    {Cause::unit, doubt_proportions},
+    {Cause::limit, doubt_far_limits},
+    {Cause::mobility, doubt_blocked_drives},
+    {Cause::mobility, doubt_idle_freedoms},
+    {Cause::mobility, doubt_initial_motion},
+    {Cause::mobility, doubt_joint_turns},
+    {Cause::mobility, doubt_misaligned_joints},
+    {Cause::mobility, doubt_open_positions},
+    {Cause::mobility, doubt_rest},
+    {Cause::mobility, doubt_unconnected_bodies},
+    {Cause::mobility, doubt_undetermined_reactions},
+    {Cause::not_modelled, doubt_extrapolation},
+    {Cause::not_modelled, doubt_lost_places},
+    {Cause::not_modelled, doubt_sliding_contacts},
+    {Cause::unstable, doubt_frequencies},
+    {Cause::unstable, doubt_promised_buckling},
+    {Cause::not_converged, doubt_energy_balance},
+    {Cause::left_out, doubt_bending_range},
+    {Cause::left_out, doubt_lost_stiffening},
+    {Cause::left_out, doubt_modal_damping},
+    {Cause::left_out, doubt_other_side},
+    {Cause::left_out, doubt_section_axes},
+    {Cause::left_out, doubt_shear_range},
+    {Cause::left_out, doubt_sudden_start},
+    {Cause::left_out, doubt_taut_members},
+    {Cause::left_out, doubt_turned_sections},
+};
+
 }  // namespace
 
 Trust judge_run(const TrustedRun& run) {
   Trust trust;
   std::vector<Doubt>& doubts = trust.doubts;
-  const auto add = [&](const std::vector<Doubt>& found) {
-    doubts.insert(doubts.end(), found.begin(), found.end());
+  const auto add = [&](Cause cause, const std::vector<Doubt>& found) {
+    for (const Doubt& doubt : found) {
+      doubts.push_back(doubt);
+      doubts.back().cause = cause;
+    }
   };
-  for (const auto find : {
-           doubt_bending_range,    doubt_blocked_drives,     doubt_energy_balance,
-           doubt_extrapolation,    doubt_far_limits,         doubt_frequencies,
-           doubt_idle_freedoms,    doubt_initial_motion,     doubt_joint_turns,
-           doubt_lost_places,      doubt_lost_stiffening,    doubt_misaligned_joints,
-           doubt_open_positions,   doubt_other_side,         doubt_promised_buckling,
-           doubt_proportions,      doubt_section_axes,       doubt_shear_range,
-           doubt_sliding_contacts, doubt_sudden_start,       doubt_taut_members,
-           doubt_turned_sections,  doubt_unconnected_bodies, doubt_undetermined_reactions,
-           doubt_modal_damping,
-       }) {
-    add(find(run));
-  }
+  for (const auto& [cause, find] : judges) add(cause, find(run));
   const std::vector<Doubt> too_fast = doubt_all_too_fast(run);
-  add(too_fast);
+  add(Cause::not_converged, too_fast);
   const std::optional<CompleteRun> complete = simulate_completely(run);
-  if (complete) add(doubt_left_out_effects(run, *complete));
-  add(doubt_buckling(run, complete));
+  if (complete) add(Cause::left_out, doubt_left_out_effects(run, *complete));
+  add(Cause::unstable, doubt_buckling(run, complete));
   Resolution resolution = judge_resolution(run);
-  add(doubt_resolution(run, resolution));
+  add(Cause::not_converged, doubt_resolution(run, resolution));
   trust.errors = std::move(resolution.bars);
   trust.evidence = std::move(resolution.evidence);
   trust.bands = std::move(resolution.bands);
   leave_steps_unresolved(run, too_fast, trust.errors);
   if (complete) add_left_out_effects(run, *complete, trust.errors);
-  std::stable_partition(doubts.begin(), doubts.end(),
-                        [](const Doubt& doubt) { return doubt.is_serious; });
+  rank_doubts(doubts);
   return trust;
 }
 

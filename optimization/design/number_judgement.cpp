@@ -12,6 +12,7 @@
 #include "core/base/number_text.hpp"
 #include "core/trust/asked_responses.hpp"
 #include "core/trust/doubts.hpp"
+#include "core/trust/ranking.hpp"
 #include "optimization/design/case_trust.hpp"
 #include "optimization/design/margin_doubts.hpp"
 #include "optimization/design/optimum_error.hpp"
@@ -54,9 +55,10 @@ void judge_numbers(DesignProblem& design, Result& result) {
   result.case_objectives = objectives_in_cases(design, result.x);
   Trust trust = judge_cases(design, result.x, Scrutiny::close);
   const std::vector<Doubt> of_margins = doubt_margins(design, result.x);
-  trust.doubts.insert(has_serious(of_margins) ? trust.doubts.begin() : trust.doubts.end(),
-                      of_margins.begin(), of_margins.end());
+  trust.doubts.insert(trust.doubts.end(), of_margins.begin(), of_margins.end());
+  rank_doubts(trust.doubts);
   result.warnings = texts_of(trust.doubts);
+  result.consequences = count_consequences(trust.doubts);
   result.error = optimum_error(design, result, trust);
   if (result.status == Status::verified) {
     const std::string inaccurate = inaccuracy(design, result, trust);

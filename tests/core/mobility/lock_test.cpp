@@ -58,23 +58,25 @@ RigidPath path_of(const ProblemFile& problem) {
   return follow_drives(model, problem.simulation.end_time, problem.simulation.step);
 }
 
-/// Crank of 60 mm that turns once in 1 s, rod along x at the start, slider on the x axis.
-ProblemFile slider_crank(double rod, const std::string& more_bodies = "",
-                         const std::string& more_joints = "") {
+/// Crank of 60 mm, by default with one revolution in 1 s, rod along x at the start, slider on the x
+/// axis.
+ProblemFile slider_crank(
+    double rod, const std::string& more_bodies = "", const std::string& more_joints = "",
+    const std::string& drive = R"({"type": "constant-speed", "speed": "1 rev/s"})") {
   const Eigen::Vector3d pin(0.06, 0, 0), slider(0.06 + rod, 0, 0);
   const std::string bodies =
-      bars_text({{"crank", Eigen::Vector3d::Zero(), pin}, {"rod", pin, slider}}) +
+      more_bodies + bars_text({{"crank", Eigen::Vector3d::Zero(), pin}, {"rod", pin, slider}}) +
       fmt::format(R"(, "slider": {{"type": "point-mass", "at": {}, "mass": 1}})",
                   point_text(slider));
   const std::string joints = fmt::format(
       R"("shaft": {{"type": "revolute", "bodies": ["ground", "crank"], "at": [0, 0, 0],
-          "drive": {{"type": "constant-speed", "speed": "1 rev/s"}}}},
+          "drive": {}}},
         "pin": {{"type": "revolute", "bodies": ["crank", "rod"], "at": {}}},
         "slider_pin": {{"type": "revolute", "bodies": ["rod", "slider"], "at": {}}},
         "guide": {{"type": "point-on-line", "bodies": ["ground", "slider"], "at": {},
           "axis": [1, 0, 0]}})",
-      point_text(pin), point_text(slider), point_text(slider));
-  return problem_of(bodies + more_bodies, joints + more_joints);
+      drive, point_text(pin), point_text(slider), point_text(slider));
+  return problem_of(bodies, joints + more_joints);
 }
 
 /// The rod cannot pass where the crank pin is farther from the guide than it is long.
@@ -103,8 +105,8 @@ TEST(Lock, NamesWhatIsInLine) {
     FAIL() << "simulated";
   } catch (const LockedMechanism& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("\"shaft\" at 66.44°"));
-    EXPECT_THAT(error.what(), testing::HasSubstr("\"rod\", \"slider\" stand in line"));
-    EXPECT_THAT(error.what(), testing::HasSubstr("miss by about 5 mm"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("\"rod\", \"slider\" are in line"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("about 5 mm apart"));
   }
 }
 
@@ -117,7 +119,7 @@ TEST(Lock, IsSimulatedWhereBodiesAreMeantToBend) {
 /// A pendulum that hangs on the pin changes nothing.
 TEST(Lock, IsFoundBesideFreeMotions) {
   const ProblemFile problem =
-      slider_crank(0.055, ", " + bars_text({{"pendulum", {0.06, 0, 0}, {0.06, -0.1, 0}}}),
+      slider_crank(0.055, bars_text({{"pendulum", {0.06, 0, 0}, {0.06, -0.1, 0}}}) + ", ",
                    R"(, "hook": {"type": "revolute", "bodies": ["crank", "pendulum"],
                      "at": [0.06, 0, 0]})");
   const RigidPath path = path_of(problem);
@@ -245,6 +247,49 @@ TEST(Lock, IsNoneWhereDrivesHoldABodyTwice) {
   };
   EXPECT_EQ(path_of(shaft("1.02")).end, RigidPath::End::bends);
   EXPECT_EQ(path_of(shaft("1")).end, RigidPath::End::followed);
+}
+
+/// The crank rocks by 70 degrees, 0.4 degrees of which are beyond the lock, and returns.
+TEST(Lock, IsFoundWhereTheDriveSoonReturns) {
+  const double beyond = std::asin(0.055 / 0.06), amplitude = beyond + 0.4 * pi / 180;
+  const ProblemFile problem = slider_crank(
+      0.055, "", "",
+      fmt::format(R"({{"type": "harmonic", "amplitude": {:.17g}, "frequency": "1 Hz"}})",
+                  amplitude));
+  const RigidPath path = path_of(problem);
+  ASSERT_EQ(path.end, RigidPath::End::locks);
+  EXPECT_NEAR(path.time, std::asin(beyond / amplitude) / (2 * pi), 5e-4);
+  EXPECT_NEAR(path.gap, 0.06 * std::sin(amplitude) - 0.055, 1e-5);
+}
+
+/// What is large beside it does not hide it.
+TEST(Lock, IsFoundInASmallPartOfALargeMachine) {
+  const ProblemFile problem = slider_crank(
+      0.0598, bars_text({{"frame", {5.0, 0, 0}, {13.0, 0, 0}}}) + ", ",
+      R"(, "foundation": {"type": "fixed", "bodies": ["ground", "frame"], "at": [5, 0, 0]})");
+  const RigidPath path = path_of(problem);
+  ASSERT_EQ(path.end, RigidPath::End::locks);
+  EXPECT_NEAR(path.time, std::asin(0.0598 / 0.06) / (2 * pi), 2e-4);
+}
+
+/// Joints that do not fit by less than any machine's: a second guide, tilted by 1e-5.
+TEST(Lock, IsNoneWhereDimensionsAreRounded) {
+  const ProblemFile problem = slider_crank(0.2, "", R"(, "second guide": {"type": "point-on-line",
+        "bodies": ["ground", "slider"], "at": [0.26, 0, 0], "axis": [1, 1e-5, 0]})");
+  EXPECT_EQ(path_of(problem).end, RigidPath::End::followed);
+}
+
+/// An eccentric pushes a cantilever along its axis, and across it by the sine: from a dead centre.
+TEST(Lock, IsNoneWhereABodyBendsFromTheStart) {
+  const ProblemFile problem = problem_of(
+      bars_text({{"eccentric", Eigen::Vector3d::Zero(), {0.005, 0, 0}},
+                 {"spring", {0.005, 0, 0}, {0.2, 0, 0}}}),
+      R"("bearing": {"type": "revolute", "bodies": ["ground", "eccentric"], "at": [0, 0, 0],
+          "drive": {"type": "constant-speed", "speed": "1 rev/s"}},
+        "pin": {"type": "revolute", "bodies": ["eccentric", "spring"], "at": [0.005, 0, 0]},
+        "clamp": {"type": "prismatic", "bodies": ["ground", "spring"], "at": [0.2, 0, 0],
+          "axis": [1, 0, 0]})");
+  EXPECT_EQ(path_of(problem).end, RigidPath::End::bends);
 }
 
 TEST(Lock, IsNoneInAnyProblemThatIsShipped) {
