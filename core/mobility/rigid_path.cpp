@@ -40,7 +40,7 @@ constexpr double no_gap = 1e-8, small_gap = 5e-5;
 /// Drives that have gone less far have had no motion of their own.
 constexpr double first_motion = 2e-3;
 /// Steps of close() that are made beside twice as many as the simulation has.
-constexpr int first_iterations = 3000;
+constexpr int first_iterations = 6000;
 
 class Follower {
  public:

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -54,8 +55,10 @@ void judge_numbers(DesignProblem& design, Result& result) {
   if (!result.evaluation.has_gradients()) return;
   result.case_objectives = objectives_in_cases(design, result.x);
   Trust trust = judge_cases(design, result.x, Scrutiny::close);
-  const std::vector<Doubt> of_margins = doubt_margins(design, result.x);
-  trust.doubts.insert(trust.doubts.end(), of_margins.begin(), of_margins.end());
+  for (Doubt doubt : doubt_margins(design, result.x)) {
+    doubt.cause = Cause::limit;
+    trust.doubts.push_back(std::move(doubt));
+  }
   rank_doubts(trust.doubts);
   result.warnings = texts_of(trust.doubts);
   result.consequences = count_consequences(trust.doubts);

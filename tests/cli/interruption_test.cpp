@@ -15,14 +15,14 @@ using ::testing::HasSubstr;
 class Interrupted : public testing::Test {
  protected:
   /// Asks a command to end as soon as its first result is there; exit code and standard error.
-  ProgramRun run_until(const std::string& result, const std::string& words) const {
+  ProgramRun run_until(const std::string& result, const std::string& words,
+                       const std::string& signal = "TERM") const {
     const std::string path = folder_.path().string();
-    return run_line(
-        folder_.path(),
-        fmt::format("{0} -o {1}/run >{1}/out & p=$!; i=0; "
-                    "while [ ! -s {1}/{2} ] && [ $i -lt 3000 ]; "
-                    "do sleep 0.01; i=$((i + 1)); done; kill -TERM $p; wait $p; echo $?",
-                    words, path, result));
+    return run_line(folder_.path(),
+                    fmt::format("{0} -o {1}/run >{1}/out & p=$!; i=0; "
+                                "while [ ! -s {1}/{2} ] && [ $i -lt 3000 ]; "
+                                "do sleep 0.01; i=$((i + 1)); done; kill -{3} $p; wait $p; echo $?",
+                                words, path, result, signal));
   }
   nlohmann::json result() const {
     return nlohmann::json::parse(read_file(folder_.path() / "run/result.json"));
@@ -58,7 +58,7 @@ TEST_F(Interrupted, AccuracyKeepsItsRunsAndRecommendsNone) {
 
 TEST_F(Interrupted, StabilityKeepsItsRuns) {
   const ProgramRun run =
-      run_until("run/stability.csv", "stability " + problem("slider_crank_round"));
+      run_until("run/stability.csv", "stability " + problem("slider_crank_round"), "HUP");
   EXPECT_EQ(run.out, "4\n");
   EXPECT_EQ(result().at("status"), "interrupted");
   EXPECT_EQ(result().at("runs").size() + 1, read_csv(folder_.path() / "run/stability.csv").size());

@@ -72,7 +72,7 @@ ProblemFile bar_of(double height) {
 }
 
 /// Of half its length shear would change the deflection by some 16 %: an optimum by its numbers
-/// only. That gravity is a hundredth of the usual is worth a word, but after what is serious.
+/// only. That gravity is a hundredth of the usual is told first: a wrong unit would be the cause.
 TEST(SolveDesign, OfNumbersThatAreNotToBeTrustedIsNotVerified) {
   DesignProblem slender(bar_of(0.02)), stubby(bar_of(0.2));
   const Result sound = solve_design(slender, {});
@@ -83,8 +83,8 @@ TEST(SolveDesign, OfNumbersThatAreNotToBeTrustedIsNotVerified) {
   EXPECT_EQ(doubtful.status, Status::unresolved) << doubtful.message;
   EXPECT_THAT(doubtful.message, testing::HasSubstr("not to be trusted: \"bar\" is stubby"));
   ASSERT_EQ(doubtful.warnings.size(), 2u);
-  EXPECT_THAT(doubtful.warnings[0], testing::HasSubstr("stubby"));
-  EXPECT_THAT(doubtful.warnings[1], testing::HasSubstr("/scene/gravity"));
+  EXPECT_THAT(doubtful.warnings[0], testing::HasSubstr("/scene/gravity"));
+  EXPECT_THAT(doubtful.warnings[1], testing::HasSubstr("stubby"));
 }
 
 /// 90 mm are too few for a swing of 100 mm: the least that is missed is a ninth, at a = −20 mm. A
