@@ -228,8 +228,10 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
   analysis->responses =
       make_responses(problem.responses, analysis->model, model_of_modes(*analysis));
   const SimulationOptions options = options_of(problem);
-  analysis->rigid_path = follow_drives(analysis->model, options.end_time, options.step);
-  if (!problem.simulation.moves_by_bending) require_no_lock(analysis->model, analysis->rigid_path);
+  if (!problem.simulation.moves_by_bending) {
+    analysis->rigid_path = follow_drives(analysis->model, options.end_time, options.step);
+    require_no_lock(analysis->model, analysis->rigid_path);
+  }
   require_memory(analysis->responses, options);
   Recorder recorder(analysis->responses, step_count(options) + 1);
   ConstraintGuard guard(analysis->model, options);

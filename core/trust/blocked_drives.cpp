@@ -54,7 +54,8 @@ std::vector<Doubt> doubt_blocked_drives(const TrustedRun& run) {
 std::vector<Doubt> doubt_rest(const TrustedRun& run) {
   const Model& model = run.analysis.model;
   const Mechanism& mechanism = model.mechanism;
-  const bool is_driven = drive_rows(model).empty() || run.analysis.rigid_path.travel > 0.0;
+  const RigidPath& path = run.analysis.rigid_path;
+  const bool is_driven = drive_rows(model).empty() || path.time == 0.0 || path.travel > 0.0;
   if (is_driven || !model.terms.loads.empty() || !model.gravity.isZero(0.0) ||
       !mechanism.guess.v.isZero(0.0) || !mechanism.bent_starts.empty()) {
     return {};

@@ -101,7 +101,9 @@ NestedRun make_nested_run(const ProblemFile& problem, const Eigen::VectorXd& x,
                           const Refinement& refinement) {
   NestedRun run;
   try {
-    run = nested_run_of(*analyze(refined(problem, refinement), x));
+    ProblemFile finer = refined(problem, refinement);
+    finer.simulation.moves_by_bending = true;  // whether it moves at all was asked before
+    run = nested_run_of(*analyze(finer, x));
   } catch (const SimulationError& error) {
     run.failure = error.what();
   } catch (const InputError& error) {  // a window without steps, more modes than coordinates …
