@@ -17,8 +17,8 @@ struct RigidPath {
   double time = 0.0;    ///< [s] up to which they are followed
   double travel = 0.0;  ///< of the drives, relative to lengths or in radians
   Eigen::VectorXd q;    ///< positions then
-  /// Where it locks: how bodies still move there while all drives stand still, a change of z
-  /// (RigidConstraints) of length one.
+  /// Where it locks: how bodies still move there while the drives nearly stand still, the last
+  /// change of z (RigidConstraints).
   Eigen::VectorXd still_moves = {};
   /// Where it locks: by how much joints are apart at least when the drives go on, where that is
   /// worst [m] (RigidConstraints::gap())
@@ -26,9 +26,10 @@ struct RigidPath {
 };
 
 /// Follows the drives of a mechanism over time by continuation (Allgower & Georg, Introduction to
-/// Numerical Continuation Methods, 2003). Steps are halved where positions are not where the
+/// Numerical Continuation Methods, 2003). Steps are quartered where positions are not where the
 /// tangent points to, or where det Φ_z changes its sign: so the branch is kept that goes straight
-/// on, and gaps in it are seen, however small. Where a step fails, however short, other branches
+/// on, and gaps in it are seen that a step would jump over; those that rounded dimensions leave are
+/// passed. Where a step fails, however short, other branches
 /// that begin there are tried; where there is none it locks, unless drives had no motion of their
 /// own before: then it bends.
 /// @param end   [s]
