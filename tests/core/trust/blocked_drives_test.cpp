@@ -59,6 +59,23 @@ TEST(BlockedDrive, IsNoneOfALoopThatMovesInSpace) {
   EXPECT_THAT(doubts_with(closed, {R"(/effects={"spatial_motion": "on"})"}), IsEmpty());
 }
 
+/// The drive stands still: what is simulated is round-off, unless something else acts.
+TEST(BlockedDrive, ThatStandsStillMovesNothing) {
+  const auto doubts_at = [](const std::string& speed, const std::vector<std::string>& more) {
+    std::vector<std::string> overrides = {
+        R"(/scene/joints/A/drive={"type": "constant-speed", "speed": ")" + speed + R"("})",
+        "/simulation/end_time=2e-3", "/simulation/step=1e-4"};
+    overrides.insert(overrides.end(), more.begin(), more.end());
+    return doubts_of(read_scene(crank_rocker("", closed), overrides), doubt_rest);
+  };
+  const auto doubts = doubts_at("0 rpm", {});
+  ASSERT_THAT(doubts, SizeIs(1));
+  EXPECT_THAT(doubts[0].text, HasSubstr("the drive of \"A\" stands still"));
+  EXPECT_TRUE(doubts[0].is_serious);
+  EXPECT_THAT(doubts_at("1 rpm", {}), IsEmpty());
+  EXPECT_THAT(doubts_at("0 rpm", {"/scene/gravity=[0, -9.81, 0]"}), IsEmpty());
+}
+
 class ShippedMechanism : public testing::TestWithParam<const char*> {};
 
 TEST_P(ShippedMechanism, HasNoBlockedDrive) {
