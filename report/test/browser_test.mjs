@@ -541,9 +541,10 @@ describe("pages", { concurrency: 3 }, () => {
   });
 
   test("a unit that is probably wrong is the first warning", async () => {
-    assert.doesNotMatch(result("units").warnings[0], /Is a unit missing/);
+    const first = result("units").warnings[0];
+    assert.match(first, /density.*Is a unit missing/);
     const { tab } = await open("units");
-    assert.match(await tab.locator(".warnings p").first().innerText(), /density.*Is a unit missing/);
+    assert.ok((await tab.locator(".warnings p").first().innerText()).endsWith(first.slice(1)));
     await tab.close();
   });
 

@@ -2,17 +2,9 @@
 import { h } from "../dom";
 import { sentence } from "../format";
 
-/** With a wrong unit all numbers are those of another machine. */
-const asksForUnit = /Is a unit missing, or another one meant\?/;
-
-/** The program puts the serious ones first; before these comes what explains them. */
-function inOrder(list: string[]): string[] {
-  return [...list.filter((text) => asksForUnit.test(text)), ...list.filter((text) => !asksForUnit.test(text))];
-}
-
 export function warningsBox(list: string[] = []): HTMLElement | null {
   if (!list.length) return null;
-  const all = inOrder(list).map(sentence);
+  const all = list.map(sentence);
   const open = all.length > 2 ? all.slice(0, 1) : all;
   const rest = all.slice(open.length);
   return h(
