@@ -26,13 +26,14 @@ struct Direction {
 class FrequencySensitivity {
  public:
   FrequencySensitivity(const Model& model, const State& state, const ModeChoice& choice)
-      : FrequencySensitivity(FrozenModes(model, state), state, choice) {}
+      : FrequencySensitivity(FrozenModes(model, state, choice.counts_damping()), state, choice) {}
 
   FrequencySensitivity(const FrozenModes& modes, const State& state, const ModeChoice& choice)
       : mechanism_(modes.model.mechanism),
         state_(state),
         n_(state.q.size()),
         m_(state.lambda.size()),
+        of_(choice.of),
         frozen_(modes.frozen),
         vectors_(modal_vectors(frozen_, modes.modes, find_mode(modes, choice))) {
     const Eigen::Index count = vectors_.right.cols();
@@ -57,7 +58,7 @@ class FrequencySensitivity {
                                   sensitivity.lambda.col(j)});
       const Complex sum = (components_ * solver.solve(changes[j]) * counted_).trace();
       const Complex change = -sum / static_cast<double>(counted_.cols());
-      result(j) = frequency_of(s) > 0.0 ? change.imag() : -change.real();
+      result(j) = change_of_number(of_, s, change);
     }
     return result;
   }
@@ -101,7 +102,7 @@ class FrequencySensitivity {
   Eigen::MatrixXcd change_along(const Direction& direction) const {
     const Complex s = vectors_.s;
     return derivative_along(direction, [&](const State& state) {
-      const FrozenMechanism at = freeze(mechanism_, state);
+      const FrozenMechanism at = freeze(mechanism_, state, frozen_.is_damped);
       const Eigen::MatrixXcd pencil = s * s * at.M + s * at.G + at.K;
       return (vectors_.left.adjoint() * pencil * vectors_.right +
               vectors_.left.adjoint() * at.phi.transpose() * vectors_.right_multipliers +
@@ -129,7 +130,7 @@ class FrequencySensitivity {
       const Eigen::MatrixXcd inertia = along_accelerations(right);
       const Eigen::MatrixXcd whole =
           along_positions(right, vectors_.right_multipliers.col(j)) + s * s * inertia;
-      // G = ½ (R_v − R_vᵀ − M W − W M)
+      // G = R_v − M W, or its skew part ½ (R_v − R_vᵀ − M W − W M)
       const Eigen::MatrixXcd damping =
           along_rates(right) - along_accelerations(turned_right.col(j));
       for (Eigen::Index i = 0; i < count; ++i) {
@@ -137,16 +138,22 @@ class FrequencySensitivity {
         const Eigen::RowVectorXcd row =
             left.adjoint() * whole.topRows(n_) +
             vectors_.left_multipliers.col(i).adjoint() * whole.bottomRows(m_) +
-            0.5 * s *
-                (left.adjoint() * damping.topRows(n_) +
-                 turned_left.col(i).adjoint() * inertia.topRows(n_) -
-                 right.transpose() * damping_of_left[i].topRows(n_));
+            s * forces_of_rates(left.adjoint() * damping.topRows(n_),
+                                turned_left.col(i).adjoint() * inertia.topRows(n_) -
+                                    right.transpose() * damping_of_left[i].topRows(n_));
         for (std::size_t k = 0; k < changes.size(); ++k) {
           changes[k](i, j) += row(k);
         }
       }
     }
     return changes;
+  }
+
+  /// Of G and, without damping, of its transposed.
+  Eigen::RowVectorXcd forces_of_rates(const Eigen::RowVectorXcd& own,
+                                      const Eigen::RowVectorXcd& transposed) const {
+    if (frozen_.is_damped) return own;
+    return 0.5 * (own + transposed);
   }
 
   Direction nowhere() const {
@@ -189,6 +196,7 @@ class FrequencySensitivity {
   const Mechanism& mechanism_;
   const State& state_;
   Eigen::Index n_, m_;
+  ModeNumber of_;
   FrozenMechanism frozen_;
   ModalVectors vectors_;
   /// Combinations of the vectors that count, k × p, and what of each is in a combination, p × k.

@@ -153,8 +153,8 @@ class SampledGradients {
     const Response& response = analysis_.responses[part.response];
     if (const auto* constant = std::get_if<DesignConstant>(&response.source)) {
       gradients_.row(row) += part.weight * constant->derivatives.transpose();
-    } else if (response.frequency()) {
-      gradients_.row(row) += part.weight * frequency_gradient(response.frequency()->choice);
+    } else if (response.mode()) {
+      gradients_.row(row) += part.weight * frequency_gradient(response.mode()->choice);
     } else {
       Signal* signal = response.history()->signal.get();
       for (const Sample& sample : part.samples) {

@@ -177,6 +177,8 @@ bool needs_elasticity(const ProblemFile& problem) {
                          case ResponseType::shear_stress:
                          case ResponseType::deflection:
                          case ResponseType::frequency:
+                         case ResponseType::damping_ratio:
+                         case ResponseType::growth_rate:
                          case ResponseType::buckling:
                          case ResponseType::lateral_buckling:
                          case ResponseType::elastic_energy:

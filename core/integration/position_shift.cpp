@@ -5,7 +5,7 @@
 
 namespace pleuel {
 
-PositionShift::PositionShift(Mechanism& mechanism)
+PositionShift::PositionShift(const Mechanism& mechanism)
     : mechanism_(mechanism),
       system_(*mechanism.system),
       old_constraints_(system_.make_matrix()),

@@ -16,7 +16,7 @@ namespace pleuel {
 /// They are the second of two block rows of a step, with the unknowns (δ, η).
 class PositionShift {
  public:
-  explicit PositionShift(Mechanism& mechanism);
+  explicit PositionShift(const Mechanism& mechanism);
 
   /// Zeros with the pattern of both block rows, 2 (n + m) square.
   const System::Matrix& pattern() const { return pattern_; }
@@ -61,7 +61,7 @@ class PositionShift {
   /// To the old state with η as multipliers.
   void set_forces(const Eigen::VectorXd& eta);
 
-  Mechanism& mechanism_;
+  const Mechanism& mechanism_;
   System& system_;
   System::Matrix pattern_;
   std::vector<Slots> slots_;  ///< one an entry of the system's pattern

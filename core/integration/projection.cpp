@@ -37,7 +37,7 @@ void Projection::Change::set_zero(const System& system) {
   multipliers.setZero(system.multipliers());
 }
 
-Projection::Projection(Mechanism& mechanism)
+Projection::Projection(const Mechanism& mechanism)
     : mechanism_(mechanism),
       system_(*mechanism.system),
       matrix_(system_.make_matrix()),

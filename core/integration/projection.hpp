@@ -19,7 +19,7 @@ namespace pleuel {
 /// the step erred, so that the scheme keeps its order. a and λ stay as they are.
 class Projection {
  public:
-  explicit Projection(Mechanism& mechanism);
+  explicit Projection(const Mechanism& mechanism);
 
   /// Projects q and v of a state. Allocates nothing. @returns whether it has converged
   bool apply(State& state);
@@ -50,7 +50,7 @@ class Projection {
   /// size relative to the scale of the coordinates
   double correct(LinearSolver& solver, Change& change);
 
-  Mechanism& mechanism_;
+  const Mechanism& mechanism_;
   System& system_;
   System::Matrix matrix_;
   LinearSolver position_solver_, velocity_solver_;

@@ -8,7 +8,7 @@
 
 namespace pleuel {
 
-StepDifferentiation::StepDifferentiation(Mechanism& mechanism, const Trajectory& trajectory,
+StepDifferentiation::StepDifferentiation(const Mechanism& mechanism, const Trajectory& trajectory,
                                          DerivativesOf of)
     : system_(*mechanism.system),
       rotations_(mechanism.rotations),
@@ -22,9 +22,9 @@ StepDifferentiation::StepDifferentiation(Mechanism& mechanism, const Trajectory&
   if (trajectory.is_projected()) projection_.emplace(mechanism);
 }
 
-void StepDifferentiation::begin(StateSensitivity start) {
-  step_ = 0;
-  trajectory_.states->load(0, state_);
+void StepDifferentiation::begin(StateSensitivity start, int instant) {
+  step_ = instant;
+  trajectory_.states->load(instant, state_);
   sensitivity_ = std::move(start);
   old_ = sensitivity_;
 }

@@ -18,11 +18,11 @@ namespace pleuel {
 class StepDifferentiation {
  public:
   /// @param trajectory  of simulate() for the same mechanism; it has to stay
-  StepDifferentiation(Mechanism& mechanism, const Trajectory& trajectory, DerivativesOf of);
+  StepDifferentiation(const Mechanism& mechanism, const Trajectory& trajectory, DerivativesOf of);
 
-  /// Sets out from instant 0.
+  /// Sets out from an instant.
   /// @param start  derivatives there, one column a design variable or, of the old state, any number
-  void begin(StateSensitivity start);
+  void begin(StateSensitivity start, int instant = 0);
 
   /// One step further, unless the trajectory ends.
   /// @throws SimulationError if the step matrix is singular

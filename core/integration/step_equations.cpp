@@ -43,7 +43,7 @@ std::vector<std::pair<int, int>> transposed_entries(const System& system) {
 
 }  // namespace
 
-StepEquations::StepEquations(Mechanism& mechanism, const Scheme& scheme,
+StepEquations::StepEquations(const Mechanism& mechanism, const Scheme& scheme,
                              const Formulation& formulation)
     : mechanism_(mechanism),
       system_(*mechanism.system),

@@ -30,7 +30,7 @@ struct StepState : RecordedState {
 /// it (position_shift.hpp).
 class StepEquations {
  public:
-  StepEquations(Mechanism& mechanism, const Scheme& scheme, const Formulation& formulation);
+  StepEquations(const Mechanism& mechanism, const Scheme& scheme, const Formulation& formulation);
 
   /// Changes the step size.
   void set_scheme(const Scheme& scheme);
@@ -76,7 +76,7 @@ class StepEquations {
   void write_matrix(const StepState& state, std::size_t q, System::Matrix& matrix);
   void set_constraint_rows(const StepState& state);
 
-  Mechanism& mechanism_;
+  const Mechanism& mechanism_;
   System& system_;
   Scheme scheme_;
   bool is_projected_;

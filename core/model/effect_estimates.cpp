@@ -245,7 +245,9 @@ class Estimation {
     const bool asks_for_buckling =
         asks_for(problem_, body.name, {ResponseType::buckling, ResponseType::lateral_buckling});
     const bool asks_for_bending =
-        asks_for(problem_, body.name, {ResponseType::deflection, ResponseType::frequency});
+        asks_for(problem_, body.name,
+                 {ResponseType::deflection, ResponseType::frequency, ResponseType::damping_ratio,
+                  ResponseType::growth_rate});
     if (asks_for_forces || asks_for_buckling || asks_for_bending) estimates.elasticity = always;
     estimates.axial_elasticity = change(d.axial, d.axial_acceleration);
     if (asks_for_forces || asks_for_buckling) estimates.axial_elasticity = always;

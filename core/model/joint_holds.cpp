@@ -2,7 +2,10 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "core/base/eager_matrices.hpp"
+#include "core/base/error.hpp"
 
 namespace pleuel {
 
@@ -12,6 +15,19 @@ namespace {
 /// counts as held in it.
 constexpr double held_share = 0.1;
 
+std::optional<HeldPlaces> held_places(const std::string& name, const BeamBody& beam,
+                                      const Eigen::Matrix3d& axes) {
+  if (!beam.held) return std::nullopt;
+  const Eigen::Map<const Eigen::Vector3d> direction(beam.held->direction.data());
+  const Eigen::Vector3d across = axes.transpose() * direction;
+  HeldPlaces held{{}, beam.held->at};
+  for (int i = 0; i < 3; ++i)
+    held.displacements[i] = std::abs(across(i)) > 1.0 - held_share * held_share;
+  if (held.displacements[1] || held.displacements[2]) return held;
+  throw InputError(fmt::format(
+      "/scene/bodies/{}/held/direction must be across the beam, along its local y or z", name));
+}
+
 }  // namespace
 
 JointHolds::JointHolds(const Scene& scene, const Design<double>& start) : motions_(scene, start) {
@@ -19,12 +35,18 @@ JointHolds::JointHolds(const Scene& scene, const Design<double>& start) : motion
     const auto* beam = std::get_if<BeamBody>(&body.shape);
     if (beam == nullptr) continue;
     const Pose<double> pose = beam_pose(*beam, start);
-    beams_[body.name] = {pose, (resolve_point(beam->to, start) - pose.origin).norm()};
+    beams_[body.name] = {pose, (resolve_point(beam->to, start) - pose.origin).norm(),
+                         held_places(body.name, *beam, pose.rotation)};
   }
 }
 
+const HeldPlaces* JointHolds::outside(const std::string& beam) const {
+  const std::optional<HeldPlaces>& held = beams_.at(beam).held;
+  return held ? &*held : nullptr;
+}
+
 std::vector<JointHold> JointHolds::of(const std::string& beam) const {
-  const auto& [pose, length] = beams_.at(beam);
+  const auto& [pose, length, held] = beams_.at(beam);
   const Eigen::Vector3d direction = pose.rotation.col(0);
   const std::vector<MotionSpace> motions =
       motions_.end_motions(beam, {pose.origin + 0.5 * length * direction, direction, length});

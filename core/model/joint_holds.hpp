@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -16,6 +17,12 @@ struct JointHold {
   std::array<bool, 3> rotations = {};      ///< about local x, y, z
 };
 
+/// Places that something outside of the mechanism holds (OutsideHold).
+struct HeldPlaces {
+  std::array<bool, 3> displacements = {};  ///< along local x, y, z
+  std::vector<double> at;                  ///< shares of the length; empty: all along
+};
+
 /// What the joints of a scene hold of its beams where these bend: the directions in which the
 /// mechanism does not let the place of a joint move, apart from motions in which the beam stays
 /// straight (RigidMotions::end_motions). Motions within 6° of a right angle to a direction do not
@@ -29,11 +36,14 @@ class JointHolds {
 
   /// @param beam  name of a beam of the scene
   std::vector<JointHold> of(const std::string& beam) const;
+  /// Null if the file says of no such place.
+  const HeldPlaces* outside(const std::string& beam) const;
 
  private:
   struct Axis {
     Pose<double> pose;
     double length;
+    std::optional<HeldPlaces> held;
   };
 
   RigidMotions motions_;

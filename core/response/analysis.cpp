@@ -20,6 +20,7 @@
 #include "core/response/recorder.hpp"
 #include "core/response/validity.hpp"
 #include "core/response/whole_turns.hpp"
+#include "core/scene/response_kind.hpp"
 #include "core/scene/time_breaks.hpp"
 #include "core/start/equilibrium.hpp"
 #include "core/start/initial_state.hpp"
@@ -30,7 +31,7 @@ namespace {
 
 bool asks_for_modes(const ProblemFile& problem) {
   return std::any_of(problem.responses.begin(), problem.responses.end(),
-                     [](const auto& response) { return response.type == ResponseType::frequency; });
+                     [](const auto& response) { return is_of_modes(response.type); });
 }
 
 /// What the model leaves out of the motion is part of its frequencies.
@@ -44,25 +45,38 @@ void set_full_mechanism(const ProblemFile& problem, const Design<double>& start,
   }
 }
 
-void set_mechanism_frequencies(Analysis& analysis) {
-  analysis.mechanism_modes.assign(analysis.responses.size(), 0);
-  if (!std::any_of(analysis.responses.begin(), analysis.responses.end(),
-                   [](const Response& response) { return response.frequency(); })) {
-    return;
-  }
-  analysis.vibrating =
-      analysis.full ? analysis.full->vibrating : vibration_state(analysis.model.mechanism);
-  const FrozenModes mechanism(model_of_modes(analysis), analysis.vibrating->initial.state);
-  analysis.mechanism_frequencies = mechanism.modes.unaryExpr(&frequency_of).real();
+/// Of the modes without damping, or of those with it.
+void choose_modes(bool is_damped, Analysis& analysis) {
+  std::optional<FrozenModes> mechanism;
   for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
     const Response& response = analysis.responses[i];
-    if (!response.frequency()) continue;
+    if (!response.mode() || response.mode()->choice.counts_damping() != is_damped) continue;
+    if (!mechanism) {
+      mechanism.emplace(model_of_modes(analysis), analysis.vibrating->initial.state, is_damped);
+    }
     try {
-      analysis.mechanism_modes[i] = find_mode(mechanism, response.frequency()->choice);
+      analysis.mechanism_modes[i] = find_mode(*mechanism, response.mode()->choice);
     } catch (const InputError& error) {
       refuse_response(response.name, error.what());
     }
   }
+  if (!mechanism) return;
+  if (is_damped) {
+    analysis.damped_modes = mechanism->modes;
+  } else {
+    analysis.mechanism_frequencies = mechanism->modes.unaryExpr(&frequency_of).real();
+  }
+}
+
+void set_modes(Analysis& analysis) {
+  analysis.mechanism_modes.assign(analysis.responses.size(), 0);
+  if (!std::any_of(analysis.responses.begin(), analysis.responses.end(),
+                   [](const Response& response) { return response.mode(); })) {
+    return;
+  }
+  analysis.vibrating =
+      analysis.full ? analysis.full->vibrating : vibration_state(analysis.model.mechanism);
+  for (const bool is_damped : {false, true}) choose_modes(is_damped, analysis);
 }
 
 /// The problem without elasticity, for the positions that deflections are measured against.
@@ -169,9 +183,15 @@ Reduction reduce_response(std::size_t i, Analysis& analysis) {
     constant.value = expression_value(analysis.responses, analysis.reductions, analysis.x, i);
     return constant;
   }
-  constant.value = response.frequency()
-                       ? analysis.mechanism_frequencies(analysis.mechanism_modes[i])
-                       : std::get<DesignConstant>(response.source).value;
+  const InitialMode* mode = response.mode();
+  const int number = analysis.mechanism_modes[i];
+  if (!mode) {
+    constant.value = std::get<DesignConstant>(response.source).value;
+  } else if (mode->choice.counts_damping()) {
+    constant.value = number_of(mode->choice.of, analysis.damped_modes(number));
+  } else {
+    constant.value = analysis.mechanism_frequencies(number);
+  }
   return constant;
 }
 
@@ -251,7 +271,7 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
   for (std::size_t i = 0; i < problem.responses.size(); ++i) {
     if (is_counted_angle(problem.responses[i])) count_turns(analysis->histories[i]);
   }
-  set_mechanism_frequencies(*analysis);
+  set_modes(*analysis);
   set_rigid_mechanism(problem, x, *analysis);
   reduce_responses(*analysis);
   require_finite(analysis->responses, analysis->reductions, analysis->histories,

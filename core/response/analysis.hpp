@@ -32,8 +32,11 @@ struct Analysis {
   /// Natural frequencies of the whole mechanism, where a response asks for one
   /// (mechanism_modes.hpp).
   Eigen::VectorXd mechanism_frequencies;
-  /// Which of them a response asks for, one a response; of those that ask for none, 0.
+  /// Which of them a response asks for, or of the damped modes, one a response; of those that ask for none,
+  /// 0.
   std::vector<int> mechanism_modes;
+  /// Eigenvalues of its modes with damping, where a response asks for one [1/s].
+  Eigen::VectorXcd damped_modes;
   /// The same without elasticity, where a response is measured against it; else null.
   std::unique_ptr<Analysis> rigid;
 };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/scene/response_kind.hpp"
+
 namespace pleuel {
 
 namespace {
@@ -26,6 +28,15 @@ void complete_inertia(RigidBody& body) {
   body.inertia[without[1]] = half;
 }
 
+bool asks_for_damping(const ProblemFile& problem) {
+  return std::any_of(problem.responses.begin(), problem.responses.end(),
+                     [](const auto& response) { return response.mode.counts_damping(); });
+}
+
+bool has_modal_damping(const BeamBody& beam) {
+  return beam.damping.modal.is_bound() || beam.damping.modal.constant != 0.0;
+}
+
 bool is_reduced(const Body& body) {
   const auto* beam = std::get_if<BeamBody>(&body.shape);
   return beam != nullptr && beam->reduction.has_value();
@@ -35,7 +46,7 @@ bool is_reduced(const Body& body) {
 
 bool asks_for_mechanism_modes(const ProblemFile& problem) {
   return std::any_of(problem.responses.begin(), problem.responses.end(), [](const auto& response) {
-    return response.type == ResponseType::frequency && response.bodies.empty();
+    return is_of_modes(response.type) && response.bodies.empty();
   });
 }
 
@@ -58,6 +69,7 @@ ProblemFile with_all_modes(const ProblemFile& problem) {
   full.effects.decisions = {};
   for (Body& body : full.scene.bodies) {
     if (auto* beam = std::get_if<BeamBody>(&body.shape)) {
+      if (asks_for_damping(problem) && has_modal_damping(*beam)) continue;
       beam->reduction.reset();
       beam->damping.modal = {};
     } else if (auto* rigid = std::get_if<RigidBody>(&body.shape)) {

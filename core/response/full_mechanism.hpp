@@ -21,7 +21,8 @@ struct FullMechanism {
 bool has_all_modes(const ProblemFile& problem, const Model& model);
 
 /// The problem that the full mechanism is built from. A body with a moment of inertia about one
-/// axis only, as motion in a plane allows, becomes a flat plate: half of it about the other two.
+/// axis only, as motion in a plane allows, becomes a flat plate: half of it about the other two. Where damping
+/// is asked for, beams with modal damping, which is that of their modes, stay reduced.
 ProblemFile with_all_modes(const ProblemFile& problem);
 
 /// Whether a response of a problem needs the initial state of the whole mechanism in space.

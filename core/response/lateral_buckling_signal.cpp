@@ -178,10 +178,12 @@ class LateralBucklingSignal final : public Signal {
 
 }  // namespace
 
-LateralMember::LateralMember(const std::string& name, const Model& model, BendingPlane plane)
+LateralMember::LateralMember(const std::string& name, const Model& model, BendingPlane plane,
+                             bool counts_outside)
     : name_(name),
       model_(model),
       plane_(plane),
+      counts_outside_(counts_outside),
       parts_(model.parts(name)),
       beam_(whole_beam(parts_)),
       length_(beam_.node_position(beam_.node_count() - 1)),
@@ -198,12 +200,25 @@ std::vector<JointHold> LateralMember::holds() const {
   return holds;
 }
 
+void LateralMember::hold_from_outside(std::vector<LateralSupport>& supports) const {
+  const HeldPlaces* held = counts_outside_ ? model_.holds.outside(name_) : nullptr;
+  if (held == nullptr || !held->displacements[across(plane_).along]) return;
+  const auto hold = [](LateralSupport& at) { at.deflection = at.twist = true; };
+  for (const double at : held->at) {
+    const ElementPlace place = find_place(beam_, at);
+    hold(supports[static_cast<std::size_t>(place.element + (place.xi < 0.5 ? 0 : 1))]);
+  }
+  if (held->at.empty()) std::for_each(supports.begin(), supports.end(), hold);
+}
+
 LateralBuckling& LateralMember::buckling() {
   if (buckling_) return *buckling_;
   const std::vector<JointHold> alone = holds();
   const auto found = model_.fittings.find(name_);
   if (found == model_.fittings.end()) {
-    return buckling_.emplace(beam_, plane_, lateral_supports(beam_, plane_, alone));
+    std::vector<LateralSupport> held = lateral_supports(beam_, plane_, alone);
+    hold_from_outside(held);
+    return buckling_.emplace(beam_, plane_, std::move(held));
   }
   const EndFittings& fittings = found->second;
   std::vector<LateralSupport> supports = fitted_supports(beam_, plane_, fittings, alone);
@@ -214,6 +229,7 @@ LateralBuckling& LateralMember::buckling() {
     ends_[end] = fitted_end(fittings, end, plane_, length_, support);
     ends[end] = {ends_[end].reach.value, ends_[end].pivot.value};
   }
+  hold_from_outside(supports);
   return buckling_.emplace(beam_, plane_, std::move(supports), ends);
 }
 

@@ -21,7 +21,9 @@ class LateralMember {
  public:
   /// @param name   of an elastic beam with section forces; of a divided one all parts count
   /// @param model  must outlive the member
-  LateralMember(const std::string& name, const Model& model, BendingPlane plane);
+  /// @param counts_outside  whether what the file says to hold the beam does
+  LateralMember(const std::string& name, const Model& model, BendingPlane plane,
+                bool counts_outside = true);
 
   const Beam<double>& beam() const { return beam_; }
   /// Of the beam with what its fittings add at its ends [m].
@@ -41,10 +43,12 @@ class LateralMember {
  private:
   /// Of the joints, where they are at the design of the model.
   std::vector<JointHold> holds() const;
+  void hold_from_outside(std::vector<LateralSupport>& supports) const;
 
   std::string name_;
   const Model& model_;
   BendingPlane plane_;
+  bool counts_outside_;
   std::vector<const BodyModel*> parts_;
   Beam<double> beam_;
   double length_;

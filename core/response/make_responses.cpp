@@ -53,10 +53,10 @@ class ResponseMaker {
       response.source = mass_of(settings_, model_);
     } else if (settings_.type == ResponseType::expression) {
       response.source = ResponseExpression{settings_.expression};
-    } else if (settings_.type != ResponseType::frequency) {
+    } else if (!is_of_modes(settings_.type)) {
       response.source = history();
     } else if (settings_.bodies.empty()) {
-      response.source = InitialFrequency{settings_.mode};
+      response.source = InitialMode{settings_.mode};
     } else {
       response.source = frequency_of_body();
     }

@@ -67,7 +67,7 @@ class FreeMotions {
 
 }  // namespace
 
-FrozenMechanism freeze(const Mechanism& mechanism, const State& state) {
+FrozenMechanism freeze(const Mechanism& mechanism, const State& state, bool is_damped) {
   System& system = *mechanism.system;
   const int n = system.coordinates(), m = system.multipliers();
   constexpr std::array<Weights, 3> weights{{{.q = 1.0}, {.v = 1.0}, {.a = 1.0}}};
@@ -82,7 +82,8 @@ FrozenMechanism freeze(const Mechanism& mechanism, const State& state) {
     of_rates.middleCols<3>(first) -=
         frozen.M.middleCols<3>(first) * skew<double>(state.v.segment<3>(first));
   }
-  frozen.G = 0.5 * (of_rates - of_rates.transpose());
+  frozen.is_damped = is_damped;
+  frozen.G = is_damped ? of_rates : 0.5 * (of_rates - of_rates.transpose());
   frozen.K = stiffness.topLeftCorner(n, n);
   frozen.phi = stiffness.bottomLeftCorner(m, n);
   frozen.left_out = system.left_out();
@@ -162,17 +163,56 @@ Eigen::VectorXcd modes_of(const FrozenMechanism& frozen) {
   }
   std::vector<std::complex<double>> modes;
   for (const std::complex<double>& s : values) {
-    const bool vibrates = s.imag() > free_motion * sigma;
-    const bool grows = s.real() > free_motion * sigma && std::abs(s.imag()) <= free_motion * sigma;
-    if (vibrates || grows) modes.push_back(s);
+    const bool is_vibration = s.imag() > free_motion * sigma;
+    const bool is_real = std::abs(s.imag()) <= free_motion * sigma;
+    const bool counts = frozen.is_damped ? std::abs(s.real()) > free_motion * sigma
+                                         : s.real() > free_motion * sigma;
+    if (is_vibration || (is_real && counts)) modes.push_back(s);
   }
   std::sort(modes.begin(), modes.end(),
             [](const auto& a, const auto& b) { return frequency_of(a) < frequency_of(b); });
   return Eigen::Map<Eigen::VectorXcd>(modes.data(), modes.size());
 }
 
+bool vibrates(std::complex<double> s) {
+  return s.imag() > 1e-8 * std::abs(s);
+}
+
 double frequency_of(std::complex<double> s) {
-  return s.imag() > 1e-8 * std::abs(s) ? s.imag() : -s.real();
+  return vibrates(s) ? s.imag() : -s.real();
+}
+
+double number_of(ModeNumber of, std::complex<double> s) {
+  switch (of) {
+    case ModeNumber::damping_ratio:
+      return -s.real() / std::abs(s);
+    case ModeNumber::growth_rate:
+      return s.real();
+    default:
+      return frequency_of(s);
+  }
+}
+
+double change_of_number(ModeNumber of, std::complex<double> s, std::complex<double> change) {
+  switch (of) {
+    case ModeNumber::damping_ratio:  // of −Re e^{iφ}, which turns by Im(s'/s)
+      return s.imag() / std::abs(s) * (change / s).imag();
+    case ModeNumber::growth_rate:
+      return change.real();
+    default:
+      return vibrates(s) ? change.imag() : -change.real();
+  }
+}
+
+std::optional<std::complex<double>> growing_mode(const Mechanism& mechanism, const State& state) {
+  constexpr double noise = 1e-4;
+  const Eigen::VectorXcd modes = modes_of(freeze(mechanism, state, true));
+  std::optional<std::complex<double>> fastest;
+  for (const std::complex<double>& mode : modes) {
+    const bool grows = mode.real() > noise * std::abs(mode);
+    if (grows && (!fastest || mode.real() > fastest->real())) fastest = mode;
+  }
+  return fastest;
 }
 
 Eigen::VectorXd mechanism_frequencies(const Mechanism& mechanism, const State& state) {

@@ -80,27 +80,59 @@ ModalVectors modal_vectors(const FrozenMechanism& frozen, const Eigen::VectorXcd
   return vectors;
 }
 
-FrozenModes::FrozenModes(const Model& frozen_model, const State& at)
+FrozenModes::FrozenModes(const Model& frozen_model, const State& at, bool is_damped)
     : model(frozen_model),
       state(at),
-      frozen(freeze(model.mechanism, state)),
+      frozen(freeze(model.mechanism, state, is_damped)),
       modes(modes_of(frozen)) {}
 
-int find_mode(const FrozenModes& mechanism, const ModeChoice& choice) {
-  const auto& [model, state, frozen, modes] = mechanism;
-  if (!choice.axis) {
-    if (choice.number >= modes.size()) refuse_mode("the mechanism", modes.size(), choice);
-    return choice.number;
+namespace {
+
+/// How many of the modes that coincide with one count, which is the first of them.
+class ModeCount {
+ public:
+  ModeCount(const FrozenModes& mechanism, const ModeChoice& choice)
+      : mechanism_(mechanism), choice_(choice) {
+    if (!choice.axis) return;
+    const Eigen::Map<const Eigen::Vector3d> axis(choice.axis->data());
+    along_ = mass_along(mechanism.model, mechanism.state, axis);
   }
-  const Eigen::MatrixXd along =
-      mass_along(model, state, Eigen::Map<const Eigen::Vector3d>(choice.axis->data()));
-  Eigen::Index counted = 0;
-  for (int mode = 0; mode < int_size(modes); ++mode) {
-    if (coinciding(modes, mode).front() != mode) continue;
+
+  Eigen::Index operator()(int mode) const {
+    const auto& [model, state, frozen, modes] = mechanism_;
+    if (choice_.of == ModeNumber::damping_ratio && !vibrates(modes(mode))) return 0;
+    if (!choice_.axis) return 1;
+    if (coinciding(modes, mode).front() != mode) return 0;
     const Eigen::MatrixXcd vectors = modal_vectors(frozen, modes, mode).right;
-    counted += combinations_along(vectors, frozen.M, along).cols();
-    if (choice.number < counted) return mode;
+    return combinations_along(vectors, frozen.M, along_).cols();
   }
+
+ private:
+  const FrozenModes& mechanism_;
+  const ModeChoice& choice_;
+  Eigen::MatrixXd along_;
+};
+
+}  // namespace
+
+int find_mode(const FrozenModes& mechanism, const ModeChoice& choice) {
+  const ModeCount count(mechanism, choice);
+  const Eigen::VectorXcd& modes = mechanism.modes;
+  const auto badness = [&](int mode) {
+    const double number = number_of(choice.of, modes(mode));
+    return choice.of == ModeNumber::damping_ratio ? -number : number;
+  };
+  Eigen::Index counted = 0;
+  int worst = -1;
+  for (int mode = 0; mode < int_size(modes); ++mode) {
+    const bool may_be_worst = worst < 0 || badness(mode) > badness(worst);
+    if (choice.number == ModeChoice::worst && !may_be_worst) continue;
+    const Eigen::Index more = count(mode);
+    counted += more;
+    if (more > 0) worst = mode;
+    if (choice.number != ModeChoice::worst && choice.number < counted) return mode;
+  }
+  if (choice.number == ModeChoice::worst && worst >= 0) return worst;
   refuse_mode("the mechanism", counted, choice);
 }
 

@@ -25,10 +25,11 @@ struct FrozenModes {
   FrozenMechanism frozen;
   Eigen::VectorXcd modes;  ///< modes_of(frozen)
 
-  FrozenModes(const Model& frozen_model, const State& at);
+  FrozenModes(const Model& frozen_model, const State& at, bool is_damped = false);
 };
 
-/// Which of the modes of a mechanism is meant; of those that coincide the first.
+/// Which of the modes of a mechanism is meant; of those that coincide the first. Only those that
+/// vibrate have a damping ratio.
 /// @param choice  its axis is a global one
 /// @throws InputError `the mechanism has … natural frequencies …, not …`
 int find_mode(const FrozenModes& mechanism, const ModeChoice& choice);

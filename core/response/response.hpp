@@ -18,8 +18,8 @@ struct DesignConstant {
   Eigen::VectorXd derivatives;  ///< one a design variable
 };
 
-/// A natural frequency of the whole mechanism at its initial state, whose derivatives it takes.
-struct InitialFrequency {
+/// A number of a mode of the whole mechanism at its initial state, whose derivatives it takes.
+struct InitialMode {
   ModeChoice choice;  ///< its axis is a global one
 };
 
@@ -53,11 +53,11 @@ struct ResponseHistory {
 struct Response {
   std::string name;
   std::string unit;  ///< SI
-  std::variant<DesignConstant, InitialFrequency, ResponseHistory, ResponseExpression> source;
+  std::variant<DesignConstant, InitialMode, ResponseHistory, ResponseExpression> source;
 
   /// What is observed; null for a number that is none of a motion.
   const ResponseHistory* history() const { return std::get_if<ResponseHistory>(&source); }
-  const InitialFrequency* frequency() const { return std::get_if<InitialFrequency>(&source); }
+  const InitialMode* mode() const { return std::get_if<InitialMode>(&source); }
   const Expression* expression() const {
     const auto* formula = std::get_if<ResponseExpression>(&source);
     return formula ? formula->expression.get() : nullptr;

@@ -74,6 +74,8 @@ inline constexpr JointKind joint_kinds[] = {
      "slides in a plane and turns in it"},
     {JointType::distance, "distance", JointTurns::all, JointSlides::at_distance,
      "keeps its distance"},
+    {JointType::point_on_plane, "point-on-plane", JointTurns::all, JointSlides::across_axis,
+     "its point stays in the plane"},
 };
 
 static_assert(are_in_order(joint_kinds));

@@ -11,12 +11,25 @@
 
 namespace pleuel {
 
-/// Which natural frequency is meant.
+/// What of a mode is asked for. Its motion is Re(e^{st} φ).
+enum class ModeNumber {
+  frequency,      ///< |Im s| without damping [rad/s]
+  damping_ratio,  ///< −Re s/|s|
+  growth_rate     ///< Re s [1/s]
+};
+
+/// Which mode is meant, and what of it.
 struct ModeChoice {
+  /// In place of a number: the mode that is damped least, or that grows fastest.
+  static constexpr int worst = -1;
+
   int number = 0;  ///< from 0 for the lowest of those that count
   /// A unit vector: only modes along it count, with more than half of their kinetic energy. Its axes
   /// are those of the body whose frequency it is, and global ones of a mechanism.
   std::optional<std::array<double, 3>> axis = {};
+  ModeNumber of = ModeNumber::frequency;
+
+  bool counts_damping() const { return of != ModeNumber::frequency; }
 };
 
 /// `along y`, or `along (0.6, 0.8, 0)`.
@@ -38,6 +51,9 @@ inline std::string missing_mode(const std::string& owner, std::ptrdiff_t count,
       choice.axis ? fmt::format(" {} (modes with more than half of their kinetic energy in it)",
                                 describe_axis(*choice.axis))
                   : std::string();
+  if (choice.number == ModeChoice::worst) {
+    return fmt::format("{} has no mode that vibrates{}", owner, which);
+  }
   return fmt::format("{} has {} natural frequenc{}{}, not {}", owner, count,
                      count == 1 ? "y" : "ies", which, choice.number + 1);
 }

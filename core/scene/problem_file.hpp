@@ -119,7 +119,9 @@ enum class ResponseType {
   lateral_buckling,  ///< out of the plane in which a beam bends
   jerk,
   angular_jerk,
-  joint_acceleration
+  joint_acceleration,
+  damping_ratio,  ///< of a mode of the mechanism
+  growth_rate     ///< of the mode that grows fastest, or decays most slowly
 };
 enum class OverTime { max, min, max_abs, rms, mean, integral, final };
 
@@ -192,7 +194,7 @@ struct ResponseSettings {
   std::string joint;  ///< drive torque and power, reactions, position and velocity of a joint
   DrivenCoordinate coordinate = DrivenCoordinate::angle;  ///< position and velocity of a joint
   std::string load;                                       ///< spring length and force, motor power
-  ModeChoice mode;                                        ///< frequency
+  ModeChoice mode;                                        ///< frequency, damping ratio, growth rate
   DriftLevel level = DriftLevel::position;                ///< constraint drift
   OverTime over_time = OverTime::max;
   std::optional<double> from, to;                     ///< window of time [s]

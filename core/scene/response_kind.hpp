@@ -65,11 +65,19 @@ inline constexpr ResponseKind response_kinds[] = {
      ResponseType::angular_acceleration},
     {ResponseType::joint_acceleration, "joint-acceleration", quantities::acceleration, false,
      ResponseType::joint_velocity},
+    {ResponseType::damping_ratio, "damping-ratio", quantities::pure_number},
+    {ResponseType::growth_rate, "growth-rate", quantities::rate},
 };
 static_assert(are_in_order(response_kinds));
 
 constexpr const ResponseKind& kind_of(ResponseType type) {
   return response_kinds[static_cast<std::size_t>(type)];
+}
+
+/// Whether a response is a number of a mode of small vibrations.
+constexpr bool is_of_modes(ResponseType type) {
+  return type == ResponseType::frequency || type == ResponseType::damping_ratio ||
+         type == ResponseType::growth_rate;
 }
 
 /// The type whose signal a response observes: of a rate, what changes; else its own.

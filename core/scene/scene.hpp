@@ -126,6 +126,13 @@ struct BeamPart {
   int first_element = 0;          ///< elements of the whole beam that come before
 };
 
+/// What holds a beam and is no part of the mechanism, as cladding or a guide. It is known to checks of
+/// stability only: places of the beam do not move along a direction there, nor turn about its axis.
+struct OutsideHold {
+  std::array<double, 3> direction;  ///< unit vector, global axes
+  std::vector<double> at = {};      ///< shares of the length; empty: all along
+};
+
 struct BeamBody {
   Point from, to;  ///< end points at t = 0, global axes [m]
   std::string material;
@@ -139,6 +146,7 @@ struct BeamBody {
   /// Bends by shear, too: Timoshenko's beam in place of Euler and Bernoulli's.
   bool has_shear = false;
   std::optional<CraigBampton> reduction;
+  std::optional<OutsideHold> held = {};
   int frames = 1;  ///< floating frames that share the beam, welded to each other
   /// Not of a file: into how many each element of the mesh is divided, whatever made it.
   int pieces = 1;
@@ -220,7 +228,8 @@ enum class JointType {
   universal,      ///< points coincide; an axis of the first stays normal to one of the second
   spherical,      ///< points coincide
   planar,         ///< slides in the plane normal to the axis and turns about it
-  distance        ///< two points keep their distance: a massless rod
+  distance,       ///< two points keep their distance: a massless rod
+  point_on_plane  ///< the point of the second body stays in a plane fixed in the first
 };
 
 struct Joint {

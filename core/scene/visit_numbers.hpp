@@ -79,7 +79,7 @@ struct ShapeNumbers {
 
   void operator()(const BeamBody& beam) const {
     const auto& [from, to, material, segments, frame, damping, reference, is_rigid, has_shear,
-                 reduction, frames, pieces, part] = beam;
+                 reduction, held, frames, pieces, part] = beam;
     all(from, quantities::length, visit);
     all(to, quantities::length, visit);
     for (const Segment& segment : segments) visit_numbers(segment.section, visit);

@@ -378,6 +378,36 @@ ElasticStability elastic_stability(const Mechanism& mechanism, const State& stat
   return stability_of_turning(mechanism, state, turn, parts.standing);
 }
 
+bool may_grow(const Mechanism& mechanism, const State& state) {
+  constexpr double kept = 0.5;
+  const Eigen::MatrixXd z = free_deformations(mechanism, state);
+  if (z.cols() == 0) return false;
+  const Eigen::MatrixXd least = kept * (z.transpose() * elastic_stiffness(mechanism, state) * z);
+  const auto is_firm = [&](const Eigen::MatrixXd& stiffness) {
+    return Cholesky(symmetric_part(stiffness) - least).is_positive_definite();
+  };
+  if (!is_firm(deformation_stiffness(mechanism, state, z))) return true;
+  if (fastest_turn(mechanism, state).omega.isZero(0.0)) return false;
+  const Eigen::MatrixXd shapes = in_turning_axes(mechanism, state, z);
+  return !is_firm(turning_deformations(mechanism, state, &shapes).stiffness);
+}
+
+Eigen::MatrixXd elastic_stiffness(const Mechanism& mechanism, const State& state) {
+  const State unloaded = without_forces(mechanism, state);
+  const int n = mechanism.system->coordinates();
+  return symmetric_part(scaled_tangent(mechanism, unloaded, {.q = 1.0}).topRows(n)) -
+         symmetric_part(stiffness_of_loads(mechanism, unloaded));
+}
+
+State without_forces(const Mechanism& mechanism, const State& loaded) {
+  State state = loaded;
+  state.q(mechanism.elastic).setZero();
+  state.v.setZero();
+  state.a = mechanism.free_fall;
+  state.lambda.setZero();
+  return state;
+}
+
 namespace {
 
 /// The axes in which the deformations of a mechanism are counted: those that turn with it, if all
@@ -433,14 +463,7 @@ double buckling_load_factor(const MechanismState& unloaded, const MechanismState
       z.cols() > deformations_beside(phi, rigid_motions(unloaded.mechanism, phi)).cols();
   if (are_held) return std::nan("");  // dead loads turn with them, which is not of first order
   const State &begin = unloaded.state, &end = loaded.state;
-  // Without loads, weight, motion and what bears them.
-  State at_rest = begin;
-  at_rest.v.setZero();
-  at_rest.a = unloaded.mechanism.free_fall;
-  at_rest.lambda.setZero();
-  const Eigen::MatrixXd elastic =
-      symmetric_part(deformation_stiffness(unloaded.mechanism, at_rest, z)) -
-      symmetric_part(z.transpose() * stiffness_of_loads(unloaded.mechanism, begin) * z);
+  const Eigen::MatrixXd elastic = z.transpose() * elastic_stiffness(unloaded.mechanism, begin) * z;
   if (!Cholesky(elastic).is_positive_definite()) return none;
   const MotionAxes axes(loaded.mechanism, end);
   const auto stiffness = [&](const Eigen::VectorXd& q, const Eigen::VectorXd& a,

@@ -23,6 +23,18 @@ struct ElasticStability {
 /// stable: Floquet's theory would have to tell.
 ElasticStability elastic_stability(const Mechanism& mechanism, const State& state);
 
+/// Whether small disturbances of the members may grow: unless the stiffness, in axes that stand still and
+/// in those that turn with the bodies, would stay positive under twice what loads and motion take
+/// from it. Half of it leaves room for what frozen coefficients do not show: forces that follow,
+/// damping that turns, coefficients that change.
+bool may_grow(const Mechanism& mechanism, const State& state);
+
+/// The stiffness S R_q S of members and springs alone: undeformed, without loads, weight and motion.
+Eigen::MatrixXd elastic_stiffness(const Mechanism& mechanism, const State& state);
+
+/// The same position without deformation, motion and forces; weight is none, as all falls freely.
+State without_forces(const Mechanism& mechanism, const State& loaded);
+
 /// Whether all that turns does so alike and at a constant speed, but for small vibrations.
 bool is_rotor(const Mechanism& mechanism, const State& state);
 

@@ -34,12 +34,12 @@
 #include "core/trust/shear_range.hpp"
 #include "core/trust/sideways_buckling.hpp"
 #include "core/trust/sliding_contact.hpp"
+#include "core/trust/stability.hpp"
 #include "core/trust/sudden_start.hpp"
 #include "core/trust/taut_members.hpp"
 #include "core/trust/turned_sections.hpp"
 #include "core/trust/undetermined_reactions.hpp"
 #include "core/trust/unseen_overshoot.hpp"
-#include "core/trust/unstable_members.hpp"
 
 namespace pleuel {
 
@@ -104,7 +104,7 @@ std::vector<Doubt> doubt_buckling(const TrustedRun& run,
                                   const std::optional<CompleteRun>& complete) {
   const auto doubts_of = [](const TrustedRun& pressed) {
     std::vector<Doubt> doubts = doubt_sideways_buckling(pressed);
-    const std::vector<Doubt> others = doubt_unstable_members(pressed);
+    const std::vector<Doubt> others = doubt_stability(pressed);
     doubts.insert(doubts.end(), others.begin(), others.end());
     return doubts;
   };

@@ -26,7 +26,7 @@ constexpr double small_shift = 1e-2;
 std::vector<const Response*> frequencies_of_mechanism(const TrustedRun& run) {
   std::vector<const Response*> found;
   for (const Response& response : run.analysis.responses) {
-    if (response.frequency()) found.push_back(&response);
+    if (response.mode() && !response.mode()->choice.counts_damping()) found.push_back(&response);
   }
   return found;
 }
@@ -62,19 +62,6 @@ std::vector<Shift> shifts(const TrustedRun& run, const std::vector<const Respons
                      frequency_text(run, *response, others(mode))});
   }
   return found;
-}
-
-void add_unstable(const TrustedRun& run, const std::vector<const Response*>& responses,
-                  std::vector<Doubt>& doubts) {
-  const Eigen::VectorXd& all = run.analysis.mechanism_frequencies;
-  const auto count = (all.array() < 0.0).count();
-  if (count == 0) return;
-  doubts.push_back({fmt::format("the mechanism is unstable where it starts: its first {} grow{} as "
-                                "exp({:.4g} t) without vibrating; the frequency of such a mode is "
-                                "given as a negative number.",
-                                count == 1 ? "mode" : fmt::format("{} modes", count),
-                                count == 1 ? "s" : "", -all(0)),
-                    false, names_of(responses)});
 }
 
 void add_missing_stress(const TrustedRun& run, const std::vector<const Response*>& responses,
@@ -139,26 +126,6 @@ void add_frames(const TrustedRun& run, const std::vector<const Response*>& respo
   }
 }
 
-/// Vibrations that grow, as follower forces make them, where the mechanism is at rest: about a
-/// motion, frozen coefficients do not tell.
-void add_flutter(const TrustedRun& run, const std::vector<const Response*>& responses,
-                 std::vector<Doubt>& doubts) {
-  constexpr double noise = 1e-4;
-  const State& state = run.analysis.vibrating->initial.state;
-  if (!run.analysis.modes_left_out.empty() || !state.v.isZero(0.0)) return;
-  const Eigen::VectorXcd modes = modes_of(freeze(model_of_modes(run.analysis).mechanism, state));
-  for (const std::complex<double>& mode : modes) {
-    if (!(mode.imag() > 0.0 && mode.real() > noise * mode.imag())) continue;
-    doubts.push_back(
-        {fmt::format("the mechanism flutters where it starts: its vibration of {} "
-                     "grows as exp({:.4g} t), damping left out. A force that "
-                     "follows a body feeds it.",
-                     frequency_text(run, *responses.front(), mode.imag()), mode.real()),
-         true, names_of(responses)});
-    return;
-  }
-}
-
 /// Small motions have constant coefficients only in axes that turn with the mechanism.
 void add_turning(const TrustedRun& run, const std::vector<const Response*>& responses,
                  std::vector<Doubt>& doubts) {
@@ -201,8 +168,6 @@ std::vector<Doubt> doubt_frequencies(const TrustedRun& run) {
   }
   const std::vector<const Response*> responses = frequencies_of_mechanism(run);
   if (responses.empty()) return doubts;
-  add_unstable(run, responses, doubts);
-  add_flutter(run, responses, doubts);
   add_turning(run, responses, doubts);
   add_missing_stress(run, responses, doubts);
   add_frames(run, responses, doubts);

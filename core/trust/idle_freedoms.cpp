@@ -13,6 +13,7 @@
 #include "core/model/body_energy.hpp"
 #include "core/model/drive_rows.hpp"
 #include "core/scene/joint_kind.hpp"
+#include "core/scene/response_kind.hpp"
 #include "core/scene/response_parts.hpp"
 #include "core/start/degrees_of_freedom.hpp"
 #include "core/trust/connections.hpp"
@@ -102,13 +103,11 @@ class IdleFreedoms {
     return !responses.empty() &&
            std::all_of(responses.begin(), responses.end(),
                        [](const ResponseSettings& response) {
-                         return response.type == ResponseType::frequency ||
-                                response.type == ResponseType::mass ||
+                         return is_of_modes(response.type) || response.type == ResponseType::mass ||
                                 response.type == ResponseType::expression;
                        }) &&
-           std::any_of(responses.begin(), responses.end(), [](const ResponseSettings& response) {
-             return response.type == ResponseType::frequency;
-           });
+           std::any_of(responses.begin(), responses.end(),
+                       [](const ResponseSettings& response) { return is_of_modes(response.type); });
   }
 
   const Body& scene_body(const BodyModel& body) const {

@@ -2,7 +2,7 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/start/elastic_stability.hpp"
-#include "core/trust/unstable_members.hpp"
+#include "core/trust/stability.hpp"
 
 namespace pleuel {
 
@@ -18,16 +18,6 @@ Model unloaded_model(const ProblemFile& problem, const Eigen::VectorXd& x,
   effects.spatial_motion = spatial_motion;
   const Eigen::VectorXd start = start_design(problem);
   return build_model(scene, effects, {start.begin(), start.end()}, {x.begin(), x.end()});
-}
-
-/// The same position without deformation, motion and forces.
-State without_forces(const Mechanism& mechanism, const State& loaded) {
-  State state = loaded;
-  for (const int i : mechanism.elastic) state.q(i) = 0.0;
-  state.v.setZero();
-  state.a.setZero();
-  state.lambda.setZero();
-  return state;
 }
 
 }  // namespace

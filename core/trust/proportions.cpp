@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <set>
@@ -12,8 +13,10 @@
 
 #include "core/base/diameter.hpp"
 #include "core/base/eager_matrices.hpp"
+#include "core/base/find_named.hpp"
 #include "core/model/scene_geometry.hpp"
 #include "core/scene/held_points.hpp"
+#include "core/scene/joint_kind.hpp"
 
 namespace pleuel {
 
@@ -27,6 +30,8 @@ constexpr double largest_body = 10.0;    // radius of gyration, of the mechanism
 constexpr double least_density = 10.0, most_density = 25e3;  // [kg/m³]
 constexpr double least_young = 1e6,
                  most_young = 1e18;  // [Pa]; stiff beyond reason may be meant as rigid
+// Faster than spindles turn, with rims faster than trains.
+constexpr double most_turn = 1000.0, most_rim_speed = 50.0;  // [rad/s], [m/s]
 constexpr double least_gravity = 0.5, most_gravity = 250.0;  // [m/s²]
 
 struct Place {
@@ -53,6 +58,7 @@ class Proportions {
       if (const auto* rigid = std::get_if<RigidBody>(&body.shape)) check_rigid(body.name, *rigid);
     }
     for (const Material& material : scene_.materials) check_material(material);
+    for (const Joint& joint : scene_.joints) check_speed(joint);
     check_gravity();
     return std::move(doubts_);
   }
@@ -247,6 +253,29 @@ class Proportions {
     if (young < least_young || young > most_young) {
       add(fmt::format("{}/young is {:.4g} Pa, which no solid has (steel: 2.1e11)", at, young));
     }
+  }
+
+  /// A speed of a drive that is meant to be in rpm.
+  void check_speed(const Joint& joint) {
+    if (!is_driven(joint, DrivenCoordinate::angle)) return;
+    const auto* steady = std::get_if<ConstantSpeedDrive>(&joint.drive->motion);
+    const auto* ramp = std::get_if<RampToSpeedDrive>(&joint.drive->motion);
+    if (steady == nullptr && ramp == nullptr) return;
+    const double speed = std::abs(resolve(steady ? steady->speed : ramp->speed, design_));
+    const double rim = speed * reach_of(joint.bodies[1]);
+    if (speed <= most_turn || rim <= most_rim_speed) return;
+    add(fmt::format(
+        "/scene/joints/{}/drive/speed is {:.4g} rad/s ({:.5g} rpm), at which \"{}\" moves "
+        "at {:.3g} m/s",
+        joint.name, speed, speed * 30.0 / std::numbers::pi, joint.bodies[1], rim));
+  }
+
+  /// Of a beam its length, else the size of the mechanism.
+  double reach_of(const std::string& name) {
+    const Body* body = find_named(scene_.bodies, name);
+    const auto* beam = body ? std::get_if<BeamBody>(&body->shape) : nullptr;
+    if (beam == nullptr) return mechanism_size();
+    return (resolve_point(beam->to, design_) - resolve_point(beam->from, design_)).norm();
   }
 
   void check_gravity() {

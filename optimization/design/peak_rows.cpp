@@ -8,6 +8,7 @@
 #include "core/model/motion_plane.hpp"
 #include "core/response/history_reduction.hpp"
 #include "core/response/signal_of_body.hpp"
+#include "core/scene/response_kind.hpp"
 
 namespace pleuel {
 
@@ -145,7 +146,7 @@ bool is_fatigue(const ResponseSettings& response) {
 
 bool has_peaks(const ResponseSettings& response) {
   const bool is_constant = response.type == ResponseType::mass ||
-                           response.type == ResponseType::frequency ||
+                           is_of_modes(response.type) ||
                            response.type == ResponseType::expression;
   return !is_constant && is_peak(response.over_time);
 }

@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadEdit{"/accuracy/elements", "[]", "/accuracy/elements must have at least one number"},
         BadEdit{
             "/scene/joints/bearing/type", R"("revolut")",
-            R"(/scene/joints/bearing/type must be "revolute", "prismatic", "fixed", "point-on-line", "cylindrical", "universal", "spherical", "planar" or "distance", got "revolut"; did you mean "revolute"?)"},
+            R"(/scene/joints/bearing/type must be "revolute", "prismatic", "fixed", "point-on-line", "cylindrical", "universal", "spherical", "planar", "distance" or "point-on-plane", got "revolut"; did you mean "revolute"?)"},
         BadEdit{
             "/scene/bodies/rod/frame", R"("cord")",
             R"(/scene/bodies/rod/frame must be "tangent", "tangent-end", "chord" or "mean-axis", got "cord"; did you mean "chord"?)"}),

@@ -135,11 +135,25 @@ void read_frames(const JsonNode& node, const JsonNode& body, BeamBody& beam) {
   }
 }
 
+OutsideHold read_outside_hold(const JsonNode& node, NumberReader& numbers) {
+  node.allow_keys({"direction", "at"});
+  OutsideHold held{numbers.unit_vector(node.at("direction"))};
+  const auto at = node.find("at");
+  if (!at) return held;
+  const std::vector<JsonNode> places =
+      at->value().is_array() ? at->items() : std::vector<JsonNode>{*at};
+  if (places.empty()) at->fail("must have at least one place");
+  for (const JsonNode& place : places) {
+    held.at.push_back(numbers.fixed(place, quantities::pure_number, Range::fraction));
+  }
+  return held;
+}
+
 BeamBody read_beam(const JsonNode& node, const std::vector<std::string>& materials,
                    NumberReader& numbers) {
   node.allow_keys({"type", "from", "to", "material", "section", "elements", "segments", "frame",
                    "frames", "damping", "reference", "rigid", "shear", "reduction", "velocity",
-                   "angular_velocity", "initial_deflections"});
+                   "angular_velocity", "initial_deflections", "held"});
   BeamBody beam;
   beam.from = numbers.triple(node.at("from"), quantities::length);
   beam.to = numbers.triple(node.at("to"), quantities::length);
@@ -153,6 +167,7 @@ BeamBody read_beam(const JsonNode& node, const std::vector<std::string>& materia
   if (const auto reference = node.find("reference")) {
     beam.reference = numbers.direction(*reference);
   }
+  if (const auto held = node.find("held")) beam.held = read_outside_hold(*held, numbers);
   return beam;
 }
 

@@ -199,6 +199,23 @@ void read_frequency(const JsonNode& node, const ResponseContext& context,
   if (const auto axis = node.find("direction")) response.mode.axis = read_axis(*axis, context);
 }
 
+void read_damped_mode(const JsonNode& node, const ResponseContext& context,
+                      ResponseSettings& response) {
+  const bool is_ratio = response.type == ResponseType::damping_ratio;
+  if (const auto over_time = node.find("over_time")) {
+    over_time->fail("is not for a number of a mode, which does not change in time");
+  }
+  if (is_ratio) {
+    node.allow_keys({"type", "mode", "direction"});
+  } else {
+    node.allow_keys({"type", "direction"});
+  }
+  response.mode.of = is_ratio ? ModeNumber::damping_ratio : ModeNumber::growth_rate;
+  const auto mode = node.find("mode");
+  response.mode.number = mode ? mode->whole_number(1, most_modes) - 1 : ModeChoice::worst;
+  if (const auto axis = node.find("direction")) response.mode.axis = read_axis(*axis, context);
+}
+
 /// Names of columns in files of histories (docs/reference/responses.md).
 void check_column(const std::string& name, const JsonNode& node) {
   if (name == "time" || name.ends_with(":error")) {
@@ -229,6 +246,10 @@ ResponseSettings read_response(const std::string& name, const JsonNode& node,
       break;
     case ResponseType::frequency:
       read_frequency(node, context, response);
+      break;
+    case ResponseType::damping_ratio:
+    case ResponseType::growth_rate:
+      read_damped_mode(node, context, response);
       break;
     case ResponseType::stress:
       read_stress(node, context, response);

@@ -163,6 +163,8 @@ double violation(const Pair& pair, const Carried& first, const Carried& second, 
       return apart;
     case JointType::planar:
       return std::abs(first.axis.dot(distance)) + tilt;
+    case JointType::point_on_plane:
+      return std::abs(first.axis.dot(distance));
     default:
       return std::abs(apart - length - change);
   }
@@ -237,6 +239,7 @@ TEST(Joints, BetweenFreeBodiesInSpaceTakeTheirFreedomAndLeaveTheRest) {
         Pair{"spherical", JointType::spherical, axis, second, 3, {}},
         Pair{"planar", JointType::planar, axis, second, 3, {}},
         Pair{"planar", JointType::planar, axis, second, 3, angle},
+        Pair{"point on plane", JointType::point_on_plane, axis, second, 1, {}},
         Pair{"distance", JointType::distance, axis, second, 1, {}},
         Pair{"distance", JointType::distance, axis, second, 0, displacement}}) {
     check(pair, EffectChoice::on);
@@ -269,6 +272,8 @@ TEST(Joints, BetweenFreeBodiesInAPlaneTakeTheirFreedomAndLeaveTheRest) {
         Pair{"planar normal", JointType::planar, normal, along, 0, {}},
         Pair{"planar against", JointType::planar, against, along, 0, angle},
         Pair{"planar in plane", JointType::planar, along, across, 2, {}},
+        Pair{"point on plane normal", JointType::point_on_plane, normal, along, 0, {}},
+        Pair{"point on plane in plane", JointType::point_on_plane, along, across, 1, {}},
         Pair{"distance", JointType::distance, normal, along, 1, {}},
         Pair{"distance", JointType::distance, normal, along, 0, displacement}}) {
     if (std::string(pair.name) == "universal in plane") {

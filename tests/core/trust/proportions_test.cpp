@@ -40,7 +40,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Slip{"/scene/materials/steel/density=7.85e6", "/scene/materials/steel/density"},
                     Slip{"/scene/materials/steel/young=2.1e5", "/scene/materials/steel/young"},
                     Slip{"/scene/materials/steel/young=2.1e20", "/scene/materials/steel/young"},
-                    Slip{"/scene/gravity=[0, -9810, 0]", "/scene/gravity"}),
+                    Slip{"/scene/gravity=[0, -9810, 0]", "/scene/gravity"},
+                    Slip{"/scene/joints/bearing/drive/speed=3000",
+                         "/scene/joints/bearing/drive/speed"}),
     named_by(&Slip::pointer));
 
 /// Just within and just beyond what is said of each: from foams to osmium, from rubber to what is

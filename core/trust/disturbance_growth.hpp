@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string>
+
+#include "core/integration/trajectory.hpp"
+#include "core/mechanism/mechanism.hpp"
+
+namespace pleuel {
+
+/// How a small disturbance of the members of a mechanism grows along its motion.
+struct DisturbanceGrowth {
+  double factor = 0.0;                ///< by which it is larger than where it began
+  double begin = 0.0, largest = 0.0;  ///< when it began, and when it is largest [s]
+  std::string where;                  ///< what it moves most then: "the body \"rod\""
+};
+
+/// The largest growth of several disturbances, those of the lowest modes of deformation at an instant.
+/// They begin there without velocity and are propagated by the exact tangents of the steps
+/// (StepDifferentiation), so that whatever feeds them is seen: loads beyond buckling as long as they
+/// last, forces that follow, damping that turns, coefficients that change with the time or the angle.
+/// The size of a disturbance is the root of the elastic energy that the undeformed and unloaded members
+/// would have in it: a vibration keeps it. What it grows beyond 1e6 is not followed.
+/// @param from  the instant, with at least a step behind it
+DisturbanceGrowth disturbance_growth(const Mechanism& mechanism, const Trajectory& trajectory,
+                                     int from);
+
+}  // namespace pleuel

@@ -1,0 +1,352 @@
+#include "core/trust/stability.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
+#include "core/base/int_size.hpp"
+#include "core/response/full_mechanism.hpp"
+#include "core/response/lateral_buckling_signal.hpp"
+#include "core/response/mechanism_modes.hpp"
+#include "core/start/elastic_stability.hpp"
+#include "core/start/equilibrium.hpp"
+#include "core/start/turning.hpp"
+#include "core/trust/disturbance_growth.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Of the Euler load of two pins at the ends of a column as long as all elastic beams together.
+constexpr double harmless_press = 0.05;
+/// A disturbance that grows more makes another motion than the one that is shown.
+constexpr double harmful_growth = 10.0;
+
+/// Of two pins at the ends of the beam with its fittings, about the weakest axis of the weakest
+/// element.
+double euler_load(const LateralMember& member) {
+  const Beam<double>& beam = member.beam();
+  const double wave = std::numbers::pi / member.full_length();
+  double weakest = std::numeric_limits<double>::infinity();
+  for (const BeamElement<double>& element : beam.elements) {
+    const auto& [y, z] = std::pair(element.section.inertia_y, element.section.inertia_z);
+    weakest = std::min(weakest, element.young * std::min(y, z));
+  }
+  return wave * wave * weakest;
+}
+
+/// A beam, and how it is pressed.
+struct PressedBeam {
+  LateralMember member;
+  double euler;
+  std::vector<double> shares = {};  ///< of its Euler load, one an instant
+
+  PressedBeam(const std::string& name, const Model& model)
+      : member(name, model, BendingPlane::xy), euler(euler_load(member)) {}
+
+  void see(const State& state) {
+    const double press = std::max(0.0, -member.observe(state).topRows<2>().minCoeff());
+    shares.push_back(press / euler);
+  }
+};
+
+/// All elastic beams of a mechanism, and when they were pressed most, alone and together.
+class PressedBeams {
+ public:
+  PressedBeams(const Scene& scene, const Model& model)
+      : harmless_(model.mechanism.springs.empty() ? harmless_press : 0.0) {
+    for (const Body& body : scene.bodies) {
+      if (!std::holds_alternative<BeamBody>(body.shape)) continue;
+      if (!model.parts(body.name).front()->is_elastic) continue;
+      beams_.emplace_back(body.name, model);
+      length_ += beams_.back().member.full_length();
+    }
+  }
+
+  bool is_empty() const { return beams_.empty(); }
+
+  void see(const State& state) {
+    double sum = 0.0;
+    for (PressedBeam& beam : beams_) {
+      beam.see(state);
+      sum += beam.shares.back();
+    }
+    sums_.push_back(sum);
+  }
+
+  /// Instants at which beams are pressed most, each of them or all together, enough to buckle, and
+  /// the first at which they are pressed nearly as much.
+  std::set<int> instants() const {
+    std::set<int> instants;
+    for (const PressedBeam& beam : beams_) {
+      const double share = beam.member.full_length() / length_;
+      if (*std::ranges::max_element(beam.shares) > harmless_ * share * share) {
+        add_peak(beam.shares, instants);
+      }
+    }
+    if (!instants.empty()) add_peak(sums_, instants);
+    return instants;
+  }
+
+ private:
+  static void add_peak(const std::vector<double>& shares, std::set<int>& instants) {
+    constexpr double nearly = 0.9;
+    const auto most = std::ranges::max_element(shares);
+    const auto first =
+        std::ranges::find_if(shares, [&](double share) { return share >= nearly * *most; });
+    for (const auto& instant : {first, most}) {
+      instants.insert(static_cast<int>(instant - shares.begin()));
+    }
+  }
+
+  double harmless_;  ///< with springs, which may be as soft as they like: nothing
+  std::vector<PressedBeam> beams_;
+  double length_ = 0.0;       ///< of all [m]
+  std::vector<double> sums_;  ///< of shares of Euler loads, one an instant
+};
+
+/// When what turns as one, as a shaft with its disks, turned fastest.
+struct FastestRotor {
+  double speed = 0.0;
+  int instant = -1;
+
+  void see(const Mechanism& mechanism, const State& state, int now) {
+    constexpr double same = 1e-6;
+    const double turn = fastest_turn(mechanism, state).omega.norm();
+    if (!(turn > (1.0 + same) * speed) || !is_rotor(mechanism, state)) return;
+    speed = turn;
+    instant = now;
+  }
+};
+
+/// Instants at which it is worth while to look.
+std::set<int> critical_instants(const Scene& scene, const Analysis& analysis) {
+  PressedBeams beams(scene, analysis.model);
+  if (beams.is_empty()) return {};
+  FastestRotor rotor;
+  State state;
+  for (int i = 0; i < int_size(analysis.trajectory.time); ++i) {
+    analysis.trajectory.states->load(i, state);
+    beams.see(state);
+    rotor.see(analysis.model.mechanism, state, i);
+  }
+  std::set<int> instants = beams.instants();
+  if (rotor.instant >= 0) instants.insert(rotor.instant);
+  return instants;
+}
+
+/// Whether bodies move in space, beams have their geometric stiffening, and nothing is held from outside.
+bool shows_buckling(const Scene& scene, const Model& model) {
+  const auto is_held = [](const Body& body) {
+    const auto* beam = std::get_if<BeamBody>(&body.shape);
+    return beam != nullptr && beam->held;
+  };
+  const auto shows_it = [](const BodyModel& body) {
+    const bool is_elastic_beam = body.is_beam() && body.is_elastic;
+    return body.frame.rotation != RotationCoordinates::angle &&
+           (!is_elastic_beam || body.has_stiffening);
+  };
+  return std::ranges::none_of(scene.bodies, is_held) && std::ranges::all_of(model.bodies, shows_it);
+}
+
+/// A point between the ends of a beam; of ends that follow different variables, as they are at a design.
+Point between(const BeamBody& beam, double share, const Design<double>& design) {
+  Point point;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Number &from = beam.from[i], &to = beam.to[i];
+    const auto mix = [share](double a, double b) { return (1.0 - share) * a + share * b; };
+    point[i] = mix(resolve(from, design), resolve(to, design));
+    const bool follow_one = !from.expression && !to.expression && from.variable == to.variable;
+    if (!follow_one) continue;
+    point[i] = from;
+    point[i].constant = mix(from.constant, to.constant);
+    point[i].factor = mix(from.factor, to.factor);
+  }
+  return point;
+}
+
+/// Joints with the ground in place of what holds beams from outside.
+void add_outside_holds(const Eigen::VectorXd& x, Scene& scene) {
+  const Design<double> design(x.begin(), x.end());
+  for (const Body& body : scene.bodies) {
+    const auto* beam = std::get_if<BeamBody>(&body.shape);
+    if (beam == nullptr || !beam->held) continue;
+    std::vector<double> places = beam->held->at;
+    constexpr int many = 8;
+    for (int i = 0; i <= many && beam->held->at.empty(); ++i) places.push_back(double(i) / many);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      Joint joint;
+      joint.name = fmt::format("{} held {}", body.name, i);
+      joint.type = JointType::point_on_plane;
+      joint.bodies = {ground_name, body.name};
+      joint.at = between(*beam, places[i], design);
+      joint.axis = beam->held->direction;
+      scene.joints.push_back(joint);
+    }
+  }
+}
+
+constexpr const char* remedy = " Make it stiffer, or hold it.";
+
+Doubt not_judged(const std::string& reason) {
+  return {"Whether the pressed beams of the mechanism buckle was not looked at: " + reason, false};
+}
+
+std::string times_text(double factor) {
+  return factor < 1e6 ? fmt::format("{:.2g} times", factor) : "a million times and more";
+}
+
+Doubt grown(const DisturbanceGrowth& growth, const ElasticStability& frozen) {
+  return {fmt::format("From t = {:.4g} s to {:.4g} s a small disturbance of {} grows {}: it {}. "
+                      "The motion itself may not show it.{}",
+                      growth.begin, growth.largest, growth.where, times_text(growth.factor),
+                      frozen.is_stable ? "flutters" : frozen.how, remedy),
+          true};
+}
+
+Doubt passing(const ElasticStability& frozen, double time, const DisturbanceGrowth& growth) {
+  const std::string what = growth.factor > 1.0
+                               ? fmt::format("grows {} only", times_text(growth.factor))
+                               : "does not grow";
+  return {fmt::format("At t = {:.4g} s the mechanism is not in stable equilibrium with its loads: "
+                      "{} {}. In this motion a small disturbance {}.",
+                      time, frozen.where, frozen.how, what),
+          false};
+}
+
+/// None where small motions have no modes, as without inertia.
+std::optional<std::complex<double>> growing_mode_or_none(const Mechanism& mechanism,
+                                                         const State& state) {
+  try {
+    return growing_mode(mechanism, state);
+  } catch (const SimulationError&) {
+    return std::nullopt;
+  }
+}
+
+/// Whether a vibration about a state in which nothing turns would double in the rest of a motion, and
+/// does grow.
+ElasticStability flutter_of(const Mechanism& mechanism, const State& state, double rest,
+                            const DisturbanceGrowth& growth) {
+  constexpr double standing = 1e-3;
+  if (growth.factor <= 1.0 || fastest_turn(mechanism, state).omega.norm() > standing) return {};
+  const auto mode = growing_mode_or_none(mechanism, state);
+  ElasticStability frozen;
+  frozen.is_stable = !mode || mode->real() * rest < std::numbers::ln2;
+  frozen.where = growth.where;
+  frozen.how = "flutters";
+  return frozen;
+}
+
+/// Of a mechanism whose model shows buckling.
+std::vector<Doubt> judge_motion(const Scene& scene, const Analysis& analysis) {
+  const Mechanism& mechanism = analysis.model.mechanism;
+  const Trajectory& trajectory = analysis.trajectory;
+  std::optional<int> first;
+  ElasticStability frozen;
+  State state;
+  double time = 0.0;
+  for (const int i : critical_instants(scene, analysis)) {
+    trajectory.states->load(i, state);
+    if (!may_grow(mechanism, state)) continue;
+    if (!first) first = i;
+    if (!frozen.is_stable) continue;
+    frozen = elastic_stability(mechanism, state);
+    time = state.time;
+  }
+  if (!first) return {};
+  const DisturbanceGrowth growth = disturbance_growth(mechanism, trajectory, *first);
+  if (growth.factor > harmful_growth) return {grown(growth, frozen)};
+  if (frozen.is_stable) {
+    const double rest = trajectory.time(trajectory.steps()) - trajectory.time(*first);
+    frozen = flutter_of(mechanism, state, rest, growth);
+    time = state.time;
+  }
+  if (frozen.is_stable) return {};
+  return {passing(frozen, time, growth)};
+}
+
+std::vector<Doubt> judge_in_space(const TrustedRun& run) {
+  ProblemFile space = with_all_modes(run.problem);
+  space.effects.geometric_stiffening = EffectChoice::on;
+  space.simulation.moves_by_bending = true;  // it was asked already
+  space.responses.clear();
+  add_outside_holds(run.x, space.scene);
+  const std::string where = "in space and with geometric stiffening";
+  try {
+    const std::unique_ptr<Analysis> analysis = analyze(space, run.x);
+    return judge_motion(space.scene, *analysis);
+  } catch (const UnstableEquilibrium& error) {
+    return {{fmt::format("Judged {}, {}.{}", where, error.what(), remedy), true}};
+  } catch (const SimulationError& error) {
+    return {not_judged(fmt::format("{} it cannot be simulated: {}", where, error.what()))};
+  } catch (const InputError& error) {
+    return {not_judged(fmt::format("{} it cannot be simulated: {}", where, error.what()))};
+  }
+}
+
+/// Of the mechanism in space.
+int coordinates_in_space(const Model& model) {
+  return model.mechanism.system->coordinates() + model.effects.front().coordinates_saved;
+}
+
+std::vector<std::string> numbers_of_modes(const Analysis& analysis) {
+  std::vector<std::string> names;
+  for (const Response& response : analysis.responses) {
+    if (response.mode()) names.push_back(response.name);
+  }
+  return names;
+}
+
+/// Of the start at rest, where the file asks for an equilibrium or for small vibrations about one: the
+/// mode that grows fastest, rigid motions included.
+std::vector<Doubt> judge_start(const TrustedRun& run) {
+  const Analysis& analysis = run.analysis;
+  const std::vector<std::string> names = numbers_of_modes(analysis);
+  const bool is_equilibrium = run.problem.simulation.quasi_static_start;
+  const Model& model = names.empty() ? analysis.model : model_of_modes(analysis);
+  const bool is_large = model.mechanism.system->coordinates() > most_judged_coordinates;
+  if (is_large || (names.empty() && !is_equilibrium) || !analysis.modes_left_out.empty()) return {};
+  State state;
+  analysis.trajectory.states->load(0, state);
+  if (!names.empty()) state = analysis.vibrating->initial.state;
+  if (!state.v.isZero(0.0)) return {};
+  const auto mode = growing_mode_or_none(model.mechanism, state);
+  if (!mode) return {};
+  const bool is_flutter = vibrates(*mode);
+  const std::string rate = fmt::format("grows as exp({:.4g} t)", mode->real());
+  const std::string what = is_flutter ? fmt::format("a vibration of {:.4g} Hz {} (flutter)",
+                                                    mode->imag() / (2.0 * std::numbers::pi), rate)
+                                      : fmt::format("a small disturbance {}", rate);
+  const bool is_shown = !names.empty() && !is_flutter;
+  return {
+      {fmt::format("The mechanism is unstable where it starts: {}.{}", what,
+                   is_shown ? " The frequency of such a mode is given as a negative number." : ""),
+       is_equilibrium || is_flutter, names}};
+}
+
+}  // namespace
+
+std::vector<Doubt> doubt_stability(const TrustedRun& run) {
+  const Model& model = run.analysis.model;
+  std::vector<Doubt> doubts = judge_start(run);
+  if (!doubts.empty() && doubts.front().is_serious) return doubts;
+  if (critical_instants(run.problem.scene, run.analysis).empty()) return doubts;
+  if (coordinates_in_space(model) > most_judged_coordinates) {
+    doubts.push_back(
+        not_judged(fmt::format("it has more than {} coordinates.", most_judged_coordinates)));
+    return doubts;
+  }
+  const std::vector<Doubt> of_motion = shows_buckling(run.problem.scene, model)
+                                           ? judge_motion(run.problem.scene, run.analysis)
+                                           : judge_in_space(run);
+  doubts.insert(doubts.end(), of_motion.begin(), of_motion.end());
+  return doubts;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <vector>
+
+#include "core/trust/doubt.hpp"
+#include "core/trust/trusted_run.hpp"
+
+namespace pleuel {
+
+/// A mechanism of more coordinates is not judged: its stiffness would have to be a dense matrix.
+constexpr int most_judged_coordinates = 600;
+
+/// Whether members of a mechanism buckle or flutter, alone or together, where the motion does not
+/// show it, as it is straight, in a plane, or too short. It is judged in space and with geometric
+/// stiffening, for which a mechanism without them is simulated once more.
+///
+/// At an equilibrium that the motion starts from the eigenvalues decide (elastic_stability.hpp). Along a motion
+/// frozen eigenvalues say where to look: where the loads are more than half of those that make the
+/// stiffness singular, at the instants at which beams are pressed most, each of them and all
+/// together, and where all that turns does so alike and fastest. From there on small disturbances are propagated
+/// (disturbance_growth.hpp). Serious where one grows more than tenfold; mentioned where an instant is
+/// not stable, but does not last. Forces that follow, springs, rigid parts and turning damping count
+/// as they are. Not seen is what moments do to a beam that they bend (sideways_buckling.hpp).
+///
+/// Nothing is looked for below a twentieth of the Euler load of a column as long as all beams together,
+/// unless springs take part; mechanisms of more than most_judged_coordinates are told of.
+std::vector<Doubt> doubt_stability(const TrustedRun& run);
+
+}  // namespace pleuel
