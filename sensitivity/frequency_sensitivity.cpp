@@ -26,30 +26,31 @@ struct Direction {
 class FrequencySensitivity {
  public:
   FrequencySensitivity(const Model& model, const State& state, const ModeChoice& choice)
-      : FrequencySensitivity(FrozenModes(model, state, choice.counts_damping()), state, choice) {}
+      : FrequencySensitivity(LinearizedModes(model, state, choice.counts_damping()), state,
+                             choice) {}
 
-  FrequencySensitivity(const FrozenModes& modes, const State& state, const ModeChoice& choice)
+  FrequencySensitivity(const LinearizedModes& modes, const State& state, const ModeChoice& choice)
       : mechanism_(modes.model.mechanism),
         state_(state),
         n_(state.q.size()),
         m_(state.lambda.size()),
         of_(choice.of),
-        frozen_(modes.frozen),
-        vectors_(modal_vectors(frozen_, modes.modes, find_mode(modes, choice))) {
+        linearized_(modes.linearized),
+        vectors_(modal_vectors(linearized_, modes.modes, find_mode(modes, choice))) {
     const Eigen::Index count = vectors_.right.cols();
     counted_ = choice.axis ? combinations_along(
-                                 vectors_.right, frozen_.M,
+                                 vectors_.right, linearized_.M,
                                  mass_along(modes.model, state,
                                             Eigen::Map<const Eigen::Vector3d>(choice.axis->data())))
                            : Eigen::MatrixXcd::Identity(count, count).eval();
-    const Eigen::MatrixXcd inertia = vectors_.right.adjoint() * frozen_.M * vectors_.right;
+    const Eigen::MatrixXcd inertia = vectors_.right.adjoint() * linearized_.M * vectors_.right;
     components_ = choice.axis ? (counted_.adjoint() * inertia).eval() : counted_;
   }
 
   Eigen::VectorXd run(const StateSensitivity& sensitivity) const {
     const Complex s = vectors_.s;
     const Eigen::MatrixXcd slope =
-        vectors_.left.adjoint() * (2.0 * s * frozen_.M + frozen_.G) * vectors_.right;
+        vectors_.left.adjoint() * (2.0 * s * linearized_.M + linearized_.G) * vectors_.right;
     const ComplexLu solver(slope);
     std::vector<Eigen::MatrixXcd> changes = changes_by_design();
     Eigen::VectorXd result(changes.size());
@@ -102,7 +103,7 @@ class FrequencySensitivity {
   Eigen::MatrixXcd change_along(const Direction& direction) const {
     const Complex s = vectors_.s;
     return derivative_along(direction, [&](const State& state) {
-      const FrozenMechanism at = freeze(mechanism_, state, frozen_.is_damped);
+      const Linearization at = linearize(mechanism_, state, linearized_.is_damped);
       const Eigen::MatrixXcd pencil = s * s * at.M + s * at.G + at.K;
       return (vectors_.left.adjoint() * pencil * vectors_.right +
               vectors_.left.adjoint() * at.phi.transpose() * vectors_.right_multipliers +
@@ -152,7 +153,7 @@ class FrequencySensitivity {
   /// Of G and, without damping, of its transposed.
   Eigen::RowVectorXcd forces_of_rates(const Eigen::RowVectorXcd& own,
                                       const Eigen::RowVectorXcd& transposed) const {
-    if (frozen_.is_damped) return own;
+    if (linearized_.is_damped) return own;
     return 0.5 * (own + transposed);
   }
 
@@ -197,7 +198,7 @@ class FrequencySensitivity {
   const State& state_;
   Eigen::Index n_, m_;
   ModeNumber of_;
-  FrozenMechanism frozen_;
+  Linearization linearized_;
   ModalVectors vectors_;
   /// Combinations of the vectors that count, k × p, and what of each is in a combination, p × k.
   Eigen::MatrixXcd counted_, components_;

@@ -10,11 +10,11 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/base/machine_memory.hpp"
+#include "core/linear/modes.hpp"
 #include "core/mobility/lock.hpp"
 #include "core/response/expression_value.hpp"
 #include "core/response/history_reduction.hpp"
 #include "core/response/make_responses.hpp"
-#include "core/response/mechanism_modes.hpp"
 #include "core/response/misalignment.hpp"
 #include "core/response/modal_vectors.hpp"
 #include "core/response/recorder.hpp"
@@ -47,7 +47,7 @@ void set_full_mechanism(const ProblemFile& problem, const Design<double>& start,
 
 /// Of the modes without damping, or of those with it.
 void choose_modes(bool is_damped, Analysis& analysis) {
-  std::optional<FrozenModes> mechanism;
+  std::optional<LinearizedModes> mechanism;
   for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
     const Response& response = analysis.responses[i];
     if (!response.mode() || response.mode()->choice.counts_damping() != is_damped) continue;

@@ -11,6 +11,28 @@
 
 namespace pleuel {
 
+double number_of(ModeNumber of, std::complex<double> s) {
+  switch (of) {
+    case ModeNumber::damping_ratio:
+      return -s.real() / std::abs(s);
+    case ModeNumber::growth_rate:
+      return s.real();
+    default:
+      return frequency_of(s);
+  }
+}
+
+double change_of_number(ModeNumber of, std::complex<double> s, std::complex<double> change) {
+  switch (of) {
+    case ModeNumber::damping_ratio:  // of −Re e^{iφ}, which turns by Im(s'/s)
+      return s.imag() / std::abs(s) * (change / s).imag();
+    case ModeNumber::growth_rate:
+      return change.real();
+    default:
+      return vibrates(s) ? change.imag() : -change.real();
+  }
+}
+
 namespace {
 
 /// Eigenvalues that differ by less, relatively, are one, several times.
@@ -61,16 +83,17 @@ std::vector<int> coinciding(const Eigen::VectorXcd& modes, int mode) {
 
 }  // namespace
 
-ModalVectors modal_vectors(const FrozenMechanism& frozen, const Eigen::VectorXcd& modes, int mode) {
-  const Eigen::Index n = frozen.M.rows(), m = frozen.phi.rows();
+ModalVectors modal_vectors(const Linearization& linearized, const Eigen::VectorXcd& modes,
+                           int mode) {
+  const Eigen::Index n = linearized.M.rows(), m = linearized.phi.rows();
   ModalVectors vectors;
   vectors.s = modes(mode);
   const auto count = std::ssize(coinciding(modes, mode));
   // Not exactly at the eigenvalue, where the pencil is singular.
   const std::complex<double> s = vectors.s * (1.0 + detuning);
-  const Pencil pencil = pencil_at(frozen, s);
+  const Pencil pencil = pencil_at(linearized, s);
   Eigen::MatrixXcd slope = Eigen::MatrixXcd::Zero(n + m, n + m);
-  slope.topLeftCorner(n, n) = 2.0 * s * frozen.M + frozen.G;
+  slope.topLeftCorner(n, n) = 2.0 * s * linearized.M + linearized.G;
   const Eigen::MatrixXcd right = null_vectors(pencil.matrix, slope, n, count);
   const Eigen::MatrixXcd left = null_vectors(pencil.matrix.adjoint(), slope.adjoint(), n, count);
   vectors.right = right.topRows(n);
@@ -80,18 +103,18 @@ ModalVectors modal_vectors(const FrozenMechanism& frozen, const Eigen::VectorXcd
   return vectors;
 }
 
-FrozenModes::FrozenModes(const Model& frozen_model, const State& at, bool is_damped)
-    : model(frozen_model),
+LinearizedModes::LinearizedModes(const Model& of_model, const State& at, bool is_damped)
+    : model(of_model),
       state(at),
-      frozen(freeze(model.mechanism, state, is_damped)),
-      modes(modes_of(frozen)) {}
+      linearized(linearize(model.mechanism, state, is_damped)),
+      modes(modes_of(linearized)) {}
 
 namespace {
 
 /// How many of the modes that coincide with one count, which is the first of them.
 class ModeCount {
  public:
-  ModeCount(const FrozenModes& mechanism, const ModeChoice& choice)
+  ModeCount(const LinearizedModes& mechanism, const ModeChoice& choice)
       : mechanism_(mechanism), choice_(choice) {
     if (!choice.axis) return;
     const Eigen::Map<const Eigen::Vector3d> axis(choice.axis->data());
@@ -99,23 +122,23 @@ class ModeCount {
   }
 
   Eigen::Index operator()(int mode) const {
-    const auto& [model, state, frozen, modes] = mechanism_;
+    const auto& [model, state, linearized, modes] = mechanism_;
     if (choice_.of == ModeNumber::damping_ratio && !vibrates(modes(mode))) return 0;
     if (!choice_.axis) return 1;
     if (coinciding(modes, mode).front() != mode) return 0;
-    const Eigen::MatrixXcd vectors = modal_vectors(frozen, modes, mode).right;
-    return combinations_along(vectors, frozen.M, along_).cols();
+    const Eigen::MatrixXcd vectors = modal_vectors(linearized, modes, mode).right;
+    return combinations_along(vectors, linearized.M, along_).cols();
   }
 
  private:
-  const FrozenModes& mechanism_;
+  const LinearizedModes& mechanism_;
   const ModeChoice& choice_;
   Eigen::MatrixXd along_;
 };
 
 }  // namespace
 
-int find_mode(const FrozenModes& mechanism, const ModeChoice& choice) {
+int find_mode(const LinearizedModes& mechanism, const ModeChoice& choice) {
   const ModeCount count(mechanism, choice);
   const Eigen::VectorXcd& modes = mechanism.modes;
   const auto badness = [&](int mode) {

@@ -10,10 +10,10 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/base/rotation_vector.hpp"
+#include "core/linear/elastic_stability.hpp"
+#include "core/linear/free_deformations.hpp"
 #include "core/mechanism/balanced_lu.hpp"
 #include "core/mechanism/configuration.hpp"
-#include "core/start/elastic_stability.hpp"
-#include "core/start/free_deformations.hpp"
 #include "core/system/linear_forces.hpp"
 
 namespace pleuel {

@@ -5,8 +5,8 @@
 #include <Eigen/SparseCore>
 
 #include "core/base/error.hpp"
+#include "core/linear/axial_strains.hpp"
 #include "core/start/assembly.hpp"
-#include "core/start/axial_strains.hpp"
 
 namespace pleuel {
 

@@ -16,7 +16,7 @@ struct QuadraticStrain {
 };
 
 /// What a term implements that is made of such strains: who solves for an equilibrium treats their
-/// forces as unknowns of their own (core/start/axial_strains.hpp).
+/// forces as unknowns of their own (core/linear/axial_strains.hpp).
 class StrainSource {
  public:
   virtual ~StrainSource() = default;

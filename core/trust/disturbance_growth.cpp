@@ -6,8 +6,8 @@
 #include "core/base/dense_solvers.hpp"
 #include "core/base/eager_matrices.hpp"
 #include "core/integration/step_differentiation.hpp"
-#include "core/start/elastic_stability.hpp"
-#include "core/start/free_deformations.hpp"
+#include "core/linear/elastic_stability.hpp"
+#include "core/linear/free_deformations.hpp"
 
 namespace pleuel {
 

@@ -10,11 +10,10 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
+#include "core/linear/modes.hpp"
+#include "core/linear/turning.hpp"
 #include "core/response/full_mechanism.hpp"
-#include "core/response/mechanism_modes.hpp"
 #include "core/scene/shown_unit.hpp"
-#include "core/start/turning.hpp"
-#include "core/trust/turning_axes.hpp"
 
 namespace pleuel {
 
@@ -132,14 +131,16 @@ void add_turning(const TrustedRun& run, const std::vector<const Response*>& resp
   const Analysis& analysis = run.analysis;
   const State& state = analysis.vibrating->initial.state;
   if (!analysis.modes_left_out.empty() || state.v.isZero(0.0)) return;
-  const Eigen::VectorXd turning = frequencies_in_turning_axes(model_of_modes(analysis), state);
+  const Mechanism& mechanism = model_of_modes(analysis).mechanism;
+  const Eigen::VectorXd turning =
+      frequencies_of(linearize(mechanism, state, turning_of(mechanism, state), false));
   std::vector<std::string> told, names;
   for (const auto& [response, shown, other] : shifts(run, responses, turning)) {
     told.push_back(fmt::format("\"{}\" is {} and {}", response->name, shown, other));
     names.push_back(response->name);
   }
   if (names.empty()) return;
-  const double speed = fastest_turn(model_of_modes(analysis).mechanism, state).omega.norm();
+  const double speed = fastest_turn(mechanism, state).omega.norm();
   const std::string beside =
       speed > 0.0
           ? fmt::format(

@@ -1,7 +1,7 @@
 #include "core/trust/load_factor.hpp"
 
 #include "core/base/eager_matrices.hpp"
-#include "core/start/elastic_stability.hpp"
+#include "core/linear/elastic_stability.hpp"
 #include "core/trust/stability.hpp"
 
 namespace pleuel {

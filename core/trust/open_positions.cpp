@@ -9,10 +9,10 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
+#include "core/linear/free_deformations.hpp"
 #include "core/mechanism/configuration.hpp"
 #include "core/model/model.hpp"
 #include "core/start/assembly.hpp"
-#include "core/start/free_deformations.hpp"
 
 namespace pleuel {
 

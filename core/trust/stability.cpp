@@ -1,6 +1,7 @@
 #include "core/trust/stability.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -10,12 +11,12 @@
 
 #include "core/base/error.hpp"
 #include "core/base/int_size.hpp"
+#include "core/linear/elastic_stability.hpp"
+#include "core/linear/modes.hpp"
+#include "core/linear/turning.hpp"
 #include "core/response/full_mechanism.hpp"
 #include "core/response/lateral_buckling_signal.hpp"
-#include "core/response/mechanism_modes.hpp"
-#include "core/start/elastic_stability.hpp"
 #include "core/start/equilibrium.hpp"
-#include "core/start/turning.hpp"
 #include "core/trust/disturbance_growth.hpp"
 
 namespace pleuel {
@@ -230,14 +231,15 @@ std::optional<std::complex<double>> growing_mode_or_none(const Mechanism& mechan
 }
 
 /// Whether a vibration about a state in which nothing turns would double in the rest of a motion, and
-/// does grow.
+/// grows by much of what that says.
 ElasticStability flutter_of(const Mechanism& mechanism, const State& state, double rest,
                             const DisturbanceGrowth& growth) {
   constexpr double standing = 1e-3;
   if (growth.factor <= 1.0 || fastest_turn(mechanism, state).omega.norm() > standing) return {};
   const auto mode = growing_mode_or_none(mechanism, state);
+  const double exponent = mode ? mode->real() * rest : 0.0;
   ElasticStability frozen;
-  frozen.is_stable = !mode || mode->real() * rest < std::numbers::ln2;
+  frozen.is_stable = exponent < std::numbers::ln2 || std::log(growth.factor) < 0.5 * exponent;
   frozen.where = growth.where;
   frozen.how = "flutters";
   return frozen;

@@ -15,7 +15,7 @@ constexpr int most_judged_coordinates = 600;
 /// stiffening, for which a mechanism without them is simulated once more.
 ///
 /// At an equilibrium that the motion starts from the eigenvalues decide (elastic_stability.hpp). Along a motion
-/// frozen eigenvalues say where to look: where the loads are more than half of those that make the
+/// frozen eigenvalues say where to look: where the loads are more than a fifth of those that make the
 /// stiffness singular, at the instants at which beams are pressed most, each of them and all
 /// together, and where all that turns does so alike and fastest. From there on small disturbances are propagated
 /// (disturbance_growth.hpp). Serious where one grows more than tenfold; mentioned where an instant is

@@ -6,7 +6,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/rotation_vector.hpp"
 #include "core/beam/elastic_basis.hpp"
-#include "core/response/mechanism_modes.hpp"
+#include "core/linear/modes.hpp"
 #include "tests/support/random_state.hpp"
 #include "tests/support/sample_name.hpp"
 #include "tests/support/sample_scenes.hpp"
@@ -34,7 +34,7 @@ TEST_P(MotionAlong, OfAllAxesIsTheMassMatrixOfABody) {
 /// In any state, of turned and deformed bodies: the mass matrix of the equations of motion, R_a.
 TEST_P(MotionAlong, OfAllAxesIsTheMassMatrixOfAMechanism) {
   const State state = random_state(model_, 7);
-  const Eigen::MatrixXd mass = freeze(model_.mechanism, state).M;
+  const Eigen::MatrixXd mass = linearize(model_.mechanism, state).M;
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(mass.rows(), mass.cols());
   for (int axis = 0; axis < 3; ++axis) {
     const Eigen::MatrixXd along = mass_along(model_, state, Eigen::Vector3d::Unit(axis));
@@ -50,7 +50,7 @@ INSTANTIATE_TEST_SUITE_P(Samples, MotionAlong, testing::Range(0, sample_count), 
 /// Along an oblique axis of all axes that are normal to each other, too.
 TEST_P(MotionAlong, OfObliqueAxesIsTheMassMatrix) {
   const State state = random_state(model_, 8);
-  const Eigen::MatrixXd mass = freeze(model_.mechanism, state).M;
+  const Eigen::MatrixXd mass = linearize(model_.mechanism, state).M;
   const Eigen::Matrix3d axes = rotation_of(Eigen::Vector3d(0.3, -0.7, 1.1));
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(mass.rows(), mass.cols());
   for (int i = 0; i < 3; ++i) sum += mass_along(model_, state, axes.col(i));

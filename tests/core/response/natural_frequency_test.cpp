@@ -4,9 +4,9 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
+#include "core/linear/modes.hpp"
 #include "core/response/analysis.hpp"
 #include "core/response/body_frequency.hpp"
-#include "core/response/mechanism_modes.hpp"
 #include "core/start/initial_state.hpp"
 #include "tests/core/response/response_samples.hpp"
 #include "tests/support/differences.hpp"

@@ -1,4 +1,4 @@
-#include "core/start/elastic_stability.hpp"
+#include "core/linear/elastic_stability.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,20 +12,14 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
 #include "core/base/rotation_vector.hpp"
-#include "core/start/axial_strains.hpp"
-#include "core/start/free_deformations.hpp"
-#include "core/start/turning.hpp"
+#include "core/linear/axial_strains.hpp"
+#include "core/linear/free_deformations.hpp"
+#include "core/linear/linearization.hpp"
+#include "core/linear/turning.hpp"
 
 namespace pleuel {
 
 namespace {
-
-/// What of a matrix counts as not symmetric.
-constexpr double asymmetry = 1e-7;
-
-bool is_symmetric(const Eigen::MatrixXd& matrix) {
-  return (matrix - matrix.transpose()).norm() <= asymmetry * matrix.norm();
-}
 
 /// Whether small motions grow:  det(s² M + s C + K) = 0 with an s of positive real part. Round-off is
 /// relative to the fastest vibration: what damping holds back may be faster by far.
@@ -120,14 +114,10 @@ struct TurningDeformations {
   Eigen::MatrixXd shapes, mass, rates, stiffness;  ///< rates: gyroscopic forces and damping
 };
 
-/// A matrix that maps coordinates to coordinates, for those relative to the scale.
-Eigen::MatrixXd scaled(const Mechanism& mechanism, const Eigen::MatrixXd& matrix) {
-  return mechanism.scale.cwiseInverse().asDiagonal() * matrix * mechanism.scale.asDiagonal();
-}
-
-Turning scaled(const Mechanism& mechanism, const Turning& turning) {
-  return {scaled(mechanism, turning.T), scaled(mechanism, turning.V), scaled(mechanism, turning.P),
-          scaled(mechanism, turning.Q)};
+/// T of some axes, for coordinates relative to the scale.
+Eigen::MatrixXd scaled_axes(const Mechanism& mechanism, const Turning& axes) {
+  return mechanism.scale.cwiseInverse().asDiagonal() * Eigen::MatrixXd(axes.T) *
+         mechanism.scale.asDiagonal();
 }
 
 /// @param shapes  the deformations, if they are known
@@ -135,24 +125,20 @@ Turning scaled(const Mechanism& mechanism, const Turning& turning) {
 TurningDeformations turning_deformations(const Mechanism& mechanism, const State& state,
                                          const Eigen::MatrixXd* shapes,
                                          const std::vector<int>& fixed = {}) {
-  const int n = mechanism.system->coordinates(), m = mechanism.system->multipliers();
-  const auto [T, V, P, Q] =
-      scaled(mechanism, is_rotor(mechanism, state) ? rotor_turning(mechanism, state)
-                                                   : turning_of(mechanism, state));
-  const Eigen::MatrixXd of_q = scaled_tangent(mechanism, state, {.q = 1.0});
-  const Eigen::MatrixXd of_v = scaled_tangent(mechanism, state, {.v = 1.0}).topRows(n);
-  const Eigen::MatrixXd of_a = scaled_tangent(mechanism, state, {.a = 1.0}).topRows(n);
+  const Turning axes =
+      is_rotor(mechanism, state) ? rotor_turning(mechanism, state) : turning_of(mechanism, state);
+  const Linearization all = linearize(mechanism, state, axes, true);
+  const auto scale = mechanism.scale.asDiagonal();
   TurningDeformations result;
   result.shapes =
       shapes != nullptr
           ? *shapes
-          : turning_shapes(mechanism, state, of_q.bottomRows(m) * T, T,
+          : turning_shapes(mechanism, state, all.phi * scale, scaled_axes(mechanism, axes),
                            is_steady(mechanism, state, fastest_turn(mechanism, state)), fixed);
-  const Eigen::MatrixXd& z = result.shapes;
-  const Eigen::MatrixXd left = (T * z).transpose();
-  result.mass = symmetric_part(left * (of_a * (T * z)));
-  result.rates = left * (of_a * (P * z) + of_v * (T * z));
-  result.stiffness = left * (of_a * (Q * z) + of_v * (V * z) + of_q.topRows(n) * (T * z));
+  const Eigen::MatrixXd z = scale * result.shapes;
+  result.mass = symmetric_part(z.transpose() * all.M * z);
+  result.rates = z.transpose() * all.G * z;
+  result.stiffness = z.transpose() * all.K * z;
   return result;
 }
 
@@ -265,7 +251,7 @@ ElasticStability standing_stability(const Mechanism& mechanism, const State& sta
   if (Cholesky(symmetric).is_positive_definite()) return {};
   const SymmetricModes modes = symmetric_modes(symmetric);
   ElasticStability result;
-  const bool is_conservative = is_symmetric(stiffness);
+  const bool is_conservative = is_symmetric(stiffness, 1e-7);
   result.negative = is_conservative ? count_negative(modes.values.cast<std::complex<double>>())
                                     : count_negative(eigenvalues_of(stiffness));
   const double round_off = eigenvalue_round_off * modes.values.cwiseAbs().maxCoeff();
@@ -310,7 +296,7 @@ Parts parts_of(const Mechanism& mechanism, const State& state, const BodyTurn& t
 /// Deformations counted in axes that turn with each body.
 Eigen::MatrixXd in_turning_axes(const Mechanism& mechanism, const State& state,
                                 const Eigen::MatrixXd& deformations) {
-  return DenseLu(scaled(mechanism, turning_of(mechanism, state).T)).solve(deformations);
+  return DenseLu(scaled_axes(mechanism, turning_of(mechanism, state))).solve(deformations);
 }
 
 /// The elastic coordinates of bodies that stand still, and of those that turn, beside those that
@@ -379,7 +365,7 @@ ElasticStability elastic_stability(const Mechanism& mechanism, const State& stat
 }
 
 bool may_grow(const Mechanism& mechanism, const State& state) {
-  constexpr double kept = 0.5;
+  constexpr double kept = 0.8;
   const Eigen::MatrixXd z = free_deformations(mechanism, state);
   if (z.cols() == 0) return false;
   const Eigen::MatrixXd least = kept * (z.transpose() * elastic_stiffness(mechanism, state) * z);
@@ -418,21 +404,16 @@ class MotionAxes {
     const BodyTurn turn = fastest_turn(mechanism, state);
     if (turn.omega.isZero(0.0) || !turns_alike(mechanism, state, turn)) return;
     if (!deforming_parts(mechanism, state, turn, {}).standing.empty()) return;
-    turning_ = scaled(mechanism, rotor_turning(mechanism, state));
+    turning_ = rotor_turning(mechanism, state);
   }
 
   /// The symmetric part of the stiffness, with the inertia forces of axes that turn.
   /// @param z  deformations in axes that stand still
   Eigen::MatrixXd stiffness(const State& state, const Eigen::MatrixXd& z) const {
-    Eigen::MatrixXd all = deformation_stiffness(mechanism_, state, z);
-    if (turning_) {
-      const int n = mechanism_.system->coordinates();
-      const Eigen::MatrixXd y = DenseLu(turning_->T).solve(z);
-      all += z.transpose() *
-             (scaled_tangent(mechanism_, state, {.a = 1.0}).topRows(n) * (turning_->Q * y) +
-              scaled_tangent(mechanism_, state, {.v = 1.0}).topRows(n) * (turning_->V * y));
-    }
-    return symmetric_part(all);
+    if (!turning_) return symmetric_part(deformation_stiffness(mechanism_, state, z));
+    const Eigen::MatrixXd y =
+        mechanism_.scale.asDiagonal() * DenseLu(scaled_axes(mechanism_, *turning_)).solve(z);
+    return symmetric_part(y.transpose() * linearize(mechanism_, state, *turning_, true).K * y);
   }
 
  private:

@@ -1,4 +1,4 @@
-#include "core/start/free_deformations.hpp"
+#include "core/linear/free_deformations.hpp"
 
 #include <cmath>
 #include <utility>
@@ -105,6 +105,10 @@ Eigen::MatrixXd scaled_tangent(const Mechanism& mechanism, const State& state,
 
 Eigen::MatrixXd symmetric_part(const Eigen::MatrixXd& matrix) {
   return 0.5 * (matrix + matrix.transpose());
+}
+
+bool is_symmetric(const Eigen::MatrixXd& matrix, double asymmetry) {
+  return (matrix - matrix.transpose()).norm() <= asymmetry * matrix.norm();
 }
 
 void normalize_rows(const Mechanism& mechanism, Eigen::MatrixXd& phi) {

@@ -1,4 +1,4 @@
-#include "core/start/turning.hpp"
+#include "core/linear/turning.hpp"
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/rotation_vector.hpp"
@@ -10,13 +10,18 @@ namespace {
 
 constexpr int in_space = 3, in_plane = 2;  // translations of a frame
 
-/// Coefficients that change nothing.
-Turning standing(Eigen::Index n) {
-  return {Eigen::MatrixXd::Identity(n, n), Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, n),
-          Eigen::MatrixXd::Zero(n, n)};
-}
+/// The coefficients while they are set, block by block.
+struct Blocks {
+  Eigen::MatrixXd T, V, P, Q;
 
-void set_translation(int first, int size, const BodyTurn& turn, Turning& turning) {
+  /// Those that change nothing.
+  explicit Blocks(Eigen::Index n)
+      : T(Eigen::MatrixXd::Identity(n, n)), V(Eigen::MatrixXd::Zero(n, n)), P(V), Q(V) {}
+
+  Turning take() const { return {T.sparseView(), V.sparseView(), P.sparseView(), Q.sparseView()}; }
+};
+
+void set_translation(int first, int size, const BodyTurn& turn, Blocks& turning) {
   const Eigen::Matrix3d omega = skew(turn.omega), alpha = skew(turn.alpha);
   const auto set = [&](Eigen::MatrixXd& all, const Eigen::Matrix3d& block) {
     all.block(first, first, size, size) = block.topLeftCorner(size, size);
@@ -27,12 +32,12 @@ void set_translation(int first, int size, const BodyTurn& turn, Turning& turning
   set(turning.Q, turn.axes * (omega * omega + alpha));
 }
 
-void set_points(const Mechanism& mechanism, const BodyTurn& fastest, Turning& turning) {
+void set_points(const Mechanism& mechanism, const BodyTurn& fastest, Blocks& turning) {
   const int size = translations_of_points(mechanism);
   for (const int point : mechanism.points) set_translation(point, size, fastest, turning);
 }
 
-void set_rotation(int first, const BodyTurn& turn, Turning& turning) {
+void set_rotation(int first, const BodyTurn& turn, Blocks& turning) {
   const Eigen::Matrix3d omega = skew(turn.omega);
   turning.V.block<3, 3>(first, first) = omega;
   turning.P.block<3, 3>(first, first) = omega;
@@ -42,7 +47,7 @@ void set_rotation(int first, const BodyTurn& turn, Turning& turning) {
 /// The same in the axes R of the rotor, which turn with W and Ẇ (global): with δψ = B y, B = Aᵀ R,
 /// w = Aᵀ W and dB/dt = (w − ω)~ B
 ///     δω = B ẏ + w̃ B y,   δα = B ÿ + (2w − ω)~ B ẏ + ((Aᵀ Ẇ − ω × w)~ + w̃ (w − ω)~) B y
-void set_rotation(int first, const BodyTurn& own, const BodyTurn& rotor, Turning& turning) {
+void set_rotation(int first, const BodyTurn& own, const BodyTurn& rotor, Blocks& turning) {
   const Eigen::Matrix3d B = own.axes.transpose() * rotor.axes;
   const Eigen::Vector3d w = B * rotor.omega;
   const Eigen::Vector3d change = B * rotor.alpha - own.omega.cross(w);
@@ -82,19 +87,27 @@ BodyTurn fastest_turn(const Mechanism& mechanism, const State& state) {
   return fastest;
 }
 
+Turning standing_axes(const Mechanism& mechanism, const State& state) {
+  Blocks standing(state.q.size());
+  for (const int first : mechanism.rotations) {
+    standing.P.block<3, 3>(first, first) = -skew<double>(state.v.segment<3>(first));
+  }
+  return standing.take();
+}
+
 Turning turning_of(const Mechanism& mechanism, const State& state) {
-  Turning turning = standing(state.q.size());
+  Blocks turning(state.q.size());
   for (const TurningBody& body : turning_bodies(mechanism, state)) {
     const int translations = body.rotation - body.first;
     set_translation(body.first, translations, body.turn, turning);
     if (translations == in_space) set_rotation(body.rotation, body.turn, turning);
   }
   set_points(mechanism, fastest_turn(mechanism, state), turning);
-  return turning;
+  return turning.take();
 }
 
 Turning rotor_turning(const Mechanism& mechanism, const State& state) {
-  Turning turning = standing(state.q.size());
+  Blocks turning(state.q.size());
   const BodyTurn rotor = fastest_turn(mechanism, state);
   for (const TurningBody& body : turning_bodies(mechanism, state)) {
     const int translations = body.rotation - body.first;
@@ -102,7 +115,7 @@ Turning rotor_turning(const Mechanism& mechanism, const State& state) {
     if (translations == in_space) set_rotation(body.rotation, body.turn, rotor, turning);
   }
   set_points(mechanism, rotor, turning);
-  return turning;
+  return turning.take();
 }
 
 }  // namespace pleuel

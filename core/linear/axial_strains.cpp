@@ -1,4 +1,4 @@
-#include "core/start/axial_strains.hpp"
+#include "core/linear/axial_strains.hpp"
 
 #include "core/base/eager_matrices.hpp"
 

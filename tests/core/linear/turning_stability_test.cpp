@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/start/turning.hpp"
+#include "core/linear/turning.hpp"
 #include "tests/core/start/quasi_static_beam.hpp"
 
 /// Shafts, rotors and columns that turn: where their elastic equilibrium is stable.

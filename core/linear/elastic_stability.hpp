@@ -24,9 +24,9 @@ struct ElasticStability {
 ElasticStability elastic_stability(const Mechanism& mechanism, const State& state);
 
 /// Whether small disturbances of the members may grow: unless the stiffness, in axes that stand still and
-/// in those that turn with the bodies, would stay positive under twice what loads and motion take
-/// from it. Half of it leaves room for what frozen coefficients do not show: forces that follow,
-/// damping that turns, coefficients that change.
+/// in those that turn with the bodies, would stay positive under five times what loads and motion
+/// take from it. That leaves room for what frozen coefficients do not show: forces that follow, damping
+/// that turns, coefficients that change.
 bool may_grow(const Mechanism& mechanism, const State& state);
 
 /// The stiffness S R_q S of members and springs alone: undeformed, without loads, weight and motion.

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/start/elastic_stability.hpp"
+#include "core/linear/elastic_stability.hpp"
 #include "tests/core/start/quasi_static_beam.hpp"
 
 /// At what share of their loads members buckle, as it is told.

@@ -18,6 +18,9 @@ Eigen::MatrixXd scaled_tangent(const Mechanism& mechanism, const State& state,
 
 Eigen::MatrixXd symmetric_part(const Eigen::MatrixXd& matrix);
 
+/// @param asymmetry  what of the matrix counts as not symmetric
+bool is_symmetric(const Eigen::MatrixXd& matrix, double asymmetry);
+
 /// The rows of constraints, normalised: of lengths, directions and angles none counts more.
 void normalize_rows(const Mechanism& mechanism, Eigen::MatrixXd& phi);
 

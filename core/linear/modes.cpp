@@ -1,12 +1,12 @@
-#include "core/response/mechanism_modes.hpp"
+#include "core/linear/modes.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "core/base/dense_solvers.hpp"
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/base/skew.hpp"
+#include "core/linear/free_deformations.hpp"
 
 namespace pleuel {
 
@@ -17,25 +17,24 @@ constexpr double shift_share = 1e-4;
 /// Below this share of σ a motion counts as free: its double eigenvalue 0 comes out of the solver
 /// as σ √(machine precision), some 1e-8 σ.
 constexpr double free_motion = 1e-4;
-/// What of a matrix counts as not symmetric.
-constexpr double asymmetry = 1e-10;
 
 /// Matrices on the free motions, with unit inertia.
 class FreeMotions {
  public:
-  explicit FreeMotions(const FrozenMechanism& frozen) : frozen_(frozen), n_(frozen.M.rows()) {
+  explicit FreeMotions(const Linearization& linearized)
+      : linearized_(linearized), n_(linearized.M.rows()) {
     std::vector<Eigen::Index> rows;
-    for (int i = 0; i < static_cast<int>(frozen.phi.rows()); ++i) {
-      const auto& without = frozen.left_out;
+    for (int i = 0; i < static_cast<int>(linearized.phi.rows()); ++i) {
+      const auto& without = linearized.left_out;
       if (std::find(without.begin(), without.end(), i) == without.end()) rows.push_back(i);
     }
     const Eigen::Index m = rows.size();
     null_space_ = Eigen::MatrixXd::Identity(n_, n_).rightCols(n_ - m);
     if (m > 0) {
-      const Eigen::MatrixXd phi = frozen.phi(rows, Eigen::all);
+      const Eigen::MatrixXd phi = linearized.phi(rows, Eigen::all);
       null_space_ = PivotedQr(phi.transpose()).q().rightCols(n_ - m);
     }
-    mass_ = Cholesky(null_space_.transpose() * frozen.M * null_space_);
+    mass_ = Cholesky(null_space_.transpose() * linearized.M * null_space_);
     if (!mass_.is_positive_definite()) {
       throw SimulationError("the natural frequencies do not exist: a free motion has no inertia");
     }
@@ -51,7 +50,7 @@ class FreeMotions {
 
   /// (σ² + σG + K)⁻¹ = Lᵀ Zᵀ P⁻¹ Z L, with P⁻¹ from the pencil.
   Eigen::MatrixXd flexibility(double sigma) const {
-    const Eigen::MatrixXd pencil = pencil_at(frozen_, sigma).matrix.real();
+    const Eigen::MatrixXd pencil = pencil_at(linearized_, sigma).matrix.real();
     Eigen::MatrixXd rhs = Eigen::MatrixXd::Zero(pencil.rows(), count());
     rhs.topRows(n_) = null_space_ * mass_.lower();
     const Eigen::MatrixXd solution = DenseLu(pencil).solve(rhs);
@@ -59,36 +58,13 @@ class FreeMotions {
   }
 
  private:
-  const FrozenMechanism& frozen_;
+  const Linearization& linearized_;
   Eigen::Index n_;
   Eigen::MatrixXd null_space_;
   Cholesky mass_;
 };
 
 }  // namespace
-
-FrozenMechanism freeze(const Mechanism& mechanism, const State& state, bool is_damped) {
-  System& system = *mechanism.system;
-  const int n = system.coordinates(), m = system.multipliers();
-  constexpr std::array<Weights, 3> weights{{{.q = 1.0}, {.v = 1.0}, {.a = 1.0}}};
-  std::vector<System::Matrix> matrices(weights.size(), system.make_matrix());
-  Eigen::VectorXd residual;
-  system.linearize(state, weights, ConstraintLevel::position, residual, matrices);
-  const Eigen::MatrixXd stiffness(matrices[0]), damping(matrices[1]), mass(matrices[2]);
-  FrozenMechanism frozen;
-  frozen.M = mass.topLeftCorner(n, n);
-  Eigen::MatrixXd of_rates = damping.topLeftCorner(n, n);
-  for (const int first : mechanism.rotations) {
-    of_rates.middleCols<3>(first) -=
-        frozen.M.middleCols<3>(first) * skew<double>(state.v.segment<3>(first));
-  }
-  frozen.is_damped = is_damped;
-  frozen.G = is_damped ? of_rates : 0.5 * (of_rates - of_rates.transpose());
-  frozen.K = stiffness.topLeftCorner(n, n);
-  frozen.phi = stiffness.bottomLeftCorner(m, n);
-  frozen.left_out = system.left_out();
-  return frozen;
-}
 
 Eigen::MatrixXcd turned_by_motion(const Mechanism& mechanism, const State& state,
                                   const Eigen::MatrixXcd& y) {
@@ -99,16 +75,17 @@ Eigen::MatrixXcd turned_by_motion(const Mechanism& mechanism, const State& state
   return turned;
 }
 
-Pencil pencil_at(const FrozenMechanism& frozen, std::complex<double> s) {
-  const Eigen::Index n = frozen.M.rows(), m = frozen.phi.rows();
+Pencil pencil_at(const Linearization& linearized, std::complex<double> s) {
+  const Eigen::Index n = linearized.M.rows(), m = linearized.phi.rows();
   Pencil pencil;
-  const double constraints = frozen.phi.norm(), stiffness = frozen.K.norm() + frozen.M.norm();
+  const double constraints = linearized.phi.norm(),
+               stiffness = linearized.K.norm() + linearized.M.norm();
   if (constraints > 0.0 && stiffness > 0.0) pencil.kappa = stiffness / constraints;
   pencil.matrix = Eigen::MatrixXcd::Zero(n + m, n + m);
-  pencil.matrix.topLeftCorner(n, n) = s * s * frozen.M + s * frozen.G + frozen.K;
-  pencil.matrix.topRightCorner(n, m) = pencil.kappa * frozen.phi.transpose();
-  pencil.matrix.bottomLeftCorner(m, n) = pencil.kappa * frozen.phi;
-  for (int i : frozen.left_out) pencil.matrix(n + i, n + i) = pencil.kappa;
+  pencil.matrix.topLeftCorner(n, n) = s * s * linearized.M + s * linearized.G + linearized.K;
+  pencil.matrix.topRightCorner(n, m) = pencil.kappa * linearized.phi.transpose();
+  pencil.matrix.bottomLeftCorner(m, n) = pencil.kappa * linearized.phi;
+  for (int i : linearized.left_out) pencil.matrix(n + i, n + i) = pencil.kappa;
   return pencil;
 }
 
@@ -139,22 +116,18 @@ Eigen::VectorXcd gyroscopic_eigenvalues(const Eigen::MatrixXd& flexibility,
   return sigma + theta.array().inverse();
 }
 
-bool is_symmetric(const Eigen::MatrixXd& matrix) {
-  return (matrix - matrix.transpose()).norm() <= asymmetry * matrix.norm();
-}
-
 }  // namespace
 
-Eigen::VectorXcd modes_of(const FrozenMechanism& frozen) {
-  const FreeMotions motions(frozen);
+Eigen::VectorXcd modes_of(const Linearization& linearized) {
+  const FreeMotions motions(linearized);
   if (motions.count() == 0) return {};
-  const Eigen::MatrixXd gyroscopic = motions.project(frozen.G),
-                        stiffness = motions.project(frozen.K);
+  const Eigen::MatrixXd gyroscopic = motions.project(linearized.G),
+                        stiffness = motions.project(linearized.K);
   const double largest = std::max(std::sqrt(stiffness.norm()), gyroscopic.norm());
   if (largest == 0.0) return {};
   const double sigma = shift_share * largest;
   const Eigen::MatrixXd flexibility = motions.flexibility(sigma);
-  const bool is_conservative = gyroscopic.isZero(0.0) && is_symmetric(stiffness);
+  const bool is_conservative = gyroscopic.isZero(0.0) && is_symmetric(stiffness, 1e-10);
   const Eigen::VectorXcd values = is_conservative
                                       ? conservative_eigenvalues(flexibility, sigma)
                                       : gyroscopic_eigenvalues(flexibility, gyroscopic, sigma);
@@ -165,8 +138,8 @@ Eigen::VectorXcd modes_of(const FrozenMechanism& frozen) {
   for (const std::complex<double>& s : values) {
     const bool is_vibration = s.imag() > free_motion * sigma;
     const bool is_real = std::abs(s.imag()) <= free_motion * sigma;
-    const bool counts = frozen.is_damped ? std::abs(s.real()) > free_motion * sigma
-                                         : s.real() > free_motion * sigma;
+    const bool counts = linearized.is_damped ? std::abs(s.real()) > free_motion * sigma
+                                             : s.real() > free_motion * sigma;
     if (is_vibration || (is_real && counts)) modes.push_back(s);
   }
   std::sort(modes.begin(), modes.end(),
@@ -182,31 +155,9 @@ double frequency_of(std::complex<double> s) {
   return vibrates(s) ? s.imag() : -s.real();
 }
 
-double number_of(ModeNumber of, std::complex<double> s) {
-  switch (of) {
-    case ModeNumber::damping_ratio:
-      return -s.real() / std::abs(s);
-    case ModeNumber::growth_rate:
-      return s.real();
-    default:
-      return frequency_of(s);
-  }
-}
-
-double change_of_number(ModeNumber of, std::complex<double> s, std::complex<double> change) {
-  switch (of) {
-    case ModeNumber::damping_ratio:  // of −Re e^{iφ}, which turns by Im(s'/s)
-      return s.imag() / std::abs(s) * (change / s).imag();
-    case ModeNumber::growth_rate:
-      return change.real();
-    default:
-      return vibrates(s) ? change.imag() : -change.real();
-  }
-}
-
 std::optional<std::complex<double>> growing_mode(const Mechanism& mechanism, const State& state) {
   constexpr double noise = 1e-4;
-  const Eigen::VectorXcd modes = modes_of(freeze(mechanism, state, true));
+  const Eigen::VectorXcd modes = modes_of(linearize(mechanism, state, true));
   std::optional<std::complex<double>> fastest;
   for (const std::complex<double>& mode : modes) {
     const bool grows = mode.real() > noise * std::abs(mode);
@@ -215,11 +166,12 @@ std::optional<std::complex<double>> growing_mode(const Mechanism& mechanism, con
   return fastest;
 }
 
+Eigen::VectorXd frequencies_of(const Linearization& linearized) {
+  return modes_of(linearized).unaryExpr(&frequency_of).real();
+}
+
 Eigen::VectorXd mechanism_frequencies(const Mechanism& mechanism, const State& state) {
-  const Eigen::VectorXcd modes = modes_of(freeze(mechanism, state));
-  Eigen::VectorXd frequencies(modes.size());
-  for (Eigen::Index i = 0; i < modes.size(); ++i) frequencies(i) = frequency_of(modes(i));
-  return frequencies;
+  return frequencies_of(linearize(mechanism, state));
 }
 
 }  // namespace pleuel

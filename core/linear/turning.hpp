@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include <Eigen/SparseCore>
+
 #include "core/mechanism/mechanism.hpp"
 
 namespace pleuel {
@@ -29,7 +31,7 @@ int translations_of_points(const Mechanism& mechanism);
 /// Of the body that turns fastest.
 BodyTurn fastest_turn(const Mechanism& mechanism, const State& state);
 
-/// Small motions y of a mechanism, counted in axes A that turn with its bodies: how changes of
+/// Small motions y of a mechanism, as counted in axes A that turn with its bodies: how changes of
 /// coordinates, rates and accelerations follow from them,
 ///     δq = T y,   δv = T ẏ + V y,   δa = T ÿ + P ẏ + Q y
 /// With ω and α of a body in its axes δr = A y_r, δω = ẏ_θ + ω × y_θ,
@@ -38,8 +40,12 @@ BodyTurn fastest_turn(const Mechanism& mechanism, const State& state);
 /// point mass takes the axes of the body that turns fastest. Where the whole mechanism turns alike
 /// the coefficients of y are constant.
 struct Turning {
-  Eigen::MatrixXd T, V, P, Q;  ///< n × n
+  Eigen::SparseMatrix<double> T, V, P, Q;  ///< n × n
 };
+
+/// Axes that stand still and are those of the bodies at the state: of rotation vectors y is a right
+/// perturbation ψ, and as the body turns on δω = ψ̇ and δα = ψ̈ − ω × ψ̇, so that P = −ω̃ in rotations.
+Turning standing_axes(const Mechanism& mechanism, const State& state);
 
 Turning turning_of(const Mechanism& mechanism, const State& state);
 

@@ -1,11 +1,10 @@
-#include "core/trust/turning_axes.hpp"
-
 #include <cmath>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
+#include "core/linear/modes.hpp"
 #include "core/response/analysis.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/trust/frequency_meaning.hpp"
@@ -32,7 +31,9 @@ ProblemFile blade(const std::string& frame, double speed = 50.0) {
 }
 
 Eigen::VectorXd frequencies(const Analysis& analysis) {
-  return frequencies_in_turning_axes(model_of_modes(analysis), analysis.vibrating->initial.state);
+  const Mechanism& mechanism = model_of_modes(analysis).mechanism;
+  const State& state = analysis.vibrating->initial.state;
+  return frequencies_of(linearize(mechanism, state, turning_of(mechanism, state), false));
 }
 
 /// Southwell: flapping ω₀² + 1.193 Ω² (Wright et al. 1982 to Ω = ω₀: 1.193 within 0.2 %), lagging

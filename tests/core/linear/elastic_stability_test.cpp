@@ -1,4 +1,4 @@
-#include "core/start/elastic_stability.hpp"
+#include "core/linear/elastic_stability.hpp"
 
 #include <cmath>
 #include <numbers>
