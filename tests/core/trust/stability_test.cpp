@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "core/trust/sideways_buckling.hpp"
 #include "tests/core/trust/doubts_of.hpp"
 
 /// A square column of 1 m × 10 mm, pressed slowly: EI = 175 N m².
