@@ -26,8 +26,9 @@ constexpr int most_simulations = 60;
 constexpr double slow_search = 0.1;
 /// A correction is halved so often at most.
 constexpr int most_halvings_of_corrections = 6;
-/// Gaps below this that no longer shrink are round-off.
-constexpr double gap_of_round_off = 1e-9, no_progress = 0.5;
+/// Gaps below the first that no longer shrink are round-off; below the second where a new map does not
+/// make them shrink, either.
+constexpr double gap_of_round_off = 1e-9, gap_of_stagnation = 1e-7, no_progress = 0.5;
 /// Below it, 1 − M is singular.
 constexpr double least_condition = 1e-13;
 /// Growth of disturbances in a period that is more than round-off: motions without damping neither
@@ -153,7 +154,8 @@ class PeriodicSearch {
       Attempt next = corrected(attempt, is_fresh && !is_small ? most_halvings_of_corrections : 0);
       rate = next.gap / attempt.gap;
       if (rate < 1.0) attempt = std::move(next);
-      if (rate > no_progress && is_small) break;
+      const bool is_stagnant = is_fresh && attempt.gap <= gap_of_stagnation;
+      if (rate > no_progress && (is_small || is_stagnant)) break;
       if ((rate >= 1.0 && is_fresh) || simulations_ > most_simulations) fail(attempt);
     }
     if (!map_) make_map(attempt.trajectory);

@@ -13,6 +13,7 @@
 #include "core/response/energy_signals.hpp"
 #include "core/response/gauge_signal.hpp"
 #include "core/response/least_norm_signal.hpp"
+#include "core/response/motion_signals.hpp"
 #include "core/response/projected_signal.hpp"
 #include "core/response/rate_map.hpp"
 #include "core/response/reaction_signal.hpp"
@@ -106,6 +107,8 @@ class ResponseMaker {
       case ResponseType::constraint_drift:
         if (model_.mechanism.system->multipliers() == 0) fail("the mechanism has no constraints");
         return make_drift_signal(model_, settings_.level);
+      case ResponseType::transmission_angle:
+        return make_transmission();
       case ResponseType::joint_position:
       case ResponseType::joint_velocity:
       case ResponseType::spring_length:
@@ -116,6 +119,15 @@ class ResponseMaker {
       default:
         return make_signal_of_body(settings_, model_);
     }
+  }
+
+  std::unique_ptr<Signal> make_transmission() const {
+    const BodyModel& body = *model_.parts(settings_.bodies.front()).front();
+    if (settings_.along) {
+      return make_transmission_angle(
+          body, Eigen::Map<const Eigen::Vector3d>(settings_.along->data()).eval());
+    }
+    return make_transmission_angle(body, *model_.parts(settings_.bodies.back()).front());
   }
 
   std::unique_ptr<Signal> make_reading() const { return make_gauge_signal(settings_, model_); }

@@ -1,6 +1,7 @@
 #include "core/response/motion_signals.hpp"
 
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
@@ -118,6 +119,45 @@ class AxisSignal final : public Signal {
   int axis_;
 };
 
+/// Of the acute angle α between two axes: α, or π/2 − α.
+class AcuteAngleSignal final : public Signal {
+ public:
+  /// @param second  null: `fixed`
+  AcuteAngleSignal(std::unique_ptr<Signal> first, std::unique_ptr<Signal> second,
+                   const Eigen::Vector3d& fixed)
+      : first_(std::move(first)), second_(std::move(second)), fixed_(fixed) {}
+
+  int channels() const override { return 1; }
+  std::string describe(int) const override { return "between body frames"; }
+  void observe(const State& state, Eigen::Ref<Eigen::VectorXd> values) override {
+    const auto [a, b] = axes(state);
+    const double acute = std::atan2(a.cross(b).norm(), std::abs(a.dot(b)));
+    values(0) = second_ ? acute : 0.5 * std::numbers::pi - acute;
+  }
+  /// ±d(a·b)/sin α; at α = 0 the mean of both sides, which is none.
+  void add_gradient(const State& state, int, double weight, SignalGradient& gradient) override {
+    const auto [a, b] = axes(state);
+    const double sine = a.cross(b).norm();
+    if (sine == 0.0) return;
+    const double slope = (second_ ? -weight : weight) * std::copysign(1.0, a.dot(b)) / sine;
+    for (int i = 0; i < 3; ++i) {
+      first_->add_gradient(state, i, slope * b(i), gradient);
+      if (second_) second_->add_gradient(state, i, slope * a(i), gradient);
+    }
+  }
+
+ private:
+  std::pair<Eigen::Vector3d, Eigen::Vector3d> axes(const State& state) {
+    Eigen::VectorXd a(3), b = fixed_;
+    first_->observe(state, a);
+    if (second_) second_->observe(state, b);
+    return {a, b};
+  }
+
+  std::unique_ptr<Signal> first_, second_;
+  Eigen::Vector3d fixed_;
+};
+
 class SpinSignal final : public Signal {
  public:
   SpinSignal(const BodyModel& body, int direction, TimeDerivative derivative)
@@ -226,6 +266,16 @@ std::unique_ptr<Signal> make_deflection_signal(const BodyModel& body, NamedPoint
 
 std::unique_ptr<Signal> make_axis_signal(const BodyModel& body, int axis) {
   return std::make_unique<AxisSignal>(body, axis);
+}
+
+std::unique_ptr<Signal> make_transmission_angle(const BodyModel& first, const BodyModel& second) {
+  return std::make_unique<AcuteAngleSignal>(make_axis_signal(first, 0), make_axis_signal(second, 0),
+                                            Eigen::Vector3d::Zero());
+}
+
+std::unique_ptr<Signal> make_transmission_angle(const BodyModel& body,
+                                                const Eigen::Vector3d& guide) {
+  return std::make_unique<AcuteAngleSignal>(make_axis_signal(body, 0), nullptr, guide);
 }
 
 std::unique_ptr<Signal> make_motion_signal(const BodyModel& body, NamedPoint point, int direction,

@@ -25,6 +25,13 @@ std::unique_ptr<Signal> make_deflection_signal(const BodyModel& body, NamedPoint
 /// @param axis  0 … 2
 std::unique_ptr<Signal> make_axis_signal(const BodyModel& body, int axis);
 
+/// The transmission angle [rad], 0 … π/2, at which one member pushes another: between the local x axes of
+/// both body frames, or between that of one and the normal plane of a guide. At 0 it cannot push on: a dead centre,
+/// where the number has a kink.
+std::unique_ptr<Signal> make_transmission_angle(const BodyModel& first, const BodyModel& second);
+std::unique_ptr<Signal> make_transmission_angle(const BodyModel& body,
+                                                const Eigen::Vector3d& guide);
+
 /// Angular velocity A ω [rad/s] or acceleration A α [rad/s²] of the body frame, global axes.
 /// @param direction  0 … 2: global x, y, z, or magnitude_direction
 /// @param derivative  first: velocity; second: acceleration

@@ -120,8 +120,9 @@ enum class ResponseType {
   jerk,
   angular_jerk,
   joint_acceleration,
-  damping_ratio,  ///< of a mode of the mechanism
-  growth_rate     ///< of the mode that grows fastest, or decays most slowly
+  damping_ratio,      ///< of a mode of the mechanism
+  growth_rate,        ///< of the mode that grows fastest, or decays most slowly
+  transmission_angle  ///< between two members, or a member and the normal of a guide
 };
 enum class OverTime { max, min, max_abs, rms, mean, integral, final };
 
@@ -189,7 +190,7 @@ struct ResponseSettings {
   /// axes, magnitude_direction
   int direction = 1;
   /// position, velocity, acceleration, angular velocity and acceleration: the component along this
-  /// unit vector, global axes; in place of `direction`
+  /// unit vector, global axes; in place of `direction`. Transmission angle: the axis of a guide
   std::optional<std::array<double, 3>> along = {};
   std::string joint;  ///< drive torque and power, reactions, position and velocity of a joint
   DrivenCoordinate coordinate = DrivenCoordinate::angle;  ///< position and velocity of a joint

@@ -67,6 +67,7 @@ inline constexpr ResponseKind response_kinds[] = {
      ResponseType::joint_velocity},
     {ResponseType::damping_ratio, "damping-ratio", quantities::pure_number},
     {ResponseType::growth_rate, "growth-rate", quantities::rate},
+    {ResponseType::transmission_angle, "transmission-angle", quantities::angle},
 };
 static_assert(are_in_order(response_kinds));
 

@@ -7,10 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "core/base/eager_matrices.hpp"
-#include "core/base/number_text.hpp"
 #include "core/trust/asked_responses.hpp"
 #include "core/trust/doubts.hpp"
 #include "core/trust/ranking.hpp"
@@ -72,9 +69,7 @@ void judge_numbers(DesignProblem& design, Result& result) {
       result.status = Status::unresolved;
       result.message = "optimal by its numbers, but " + inaccurate;
     } else if (result.error && result.evaluation.objective != 0.0) {
-      result.message += fmt::format(
-          "; steps and elements: to ± {} %",
-          significant(100.0 * result.error->bound() / std::abs(result.evaluation.objective), 2));
+      result.message += "; steps and elements: " + accuracy_text(design, result, trust);
     }
   }
   result.response_errors = std::move(trust.errors);

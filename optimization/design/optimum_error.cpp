@@ -33,18 +33,28 @@ std::string advice(const ProblemFile& file, const ErrorBar& bar, double excess) 
   return fmt::format("Try a /simulation/step of {:.2g} s", factor * file.simulation.step);
 }
 
+/// Where nobody asks for an accuracy, an optimum is verified to what it is known; beyond this no number is to
+/// be trusted (core/trust/resolution.hpp).
+constexpr double most_unasked_error = 0.1;
+
+double share_of(const ErrorBar& bar, double size) {
+  return size > 0.0 ? bar.bound() / size : 0.0;
+}
+
 /// @param size  what the error is compared with
 /// @returns empty if the target is met
 std::string complaint(const ProblemFile& file, const std::string& what, const ErrorBar& bar,
                       double size) {
-  const double target = file.accuracy.target;
-  const double share = size > 0.0 ? bar.bound() / size : 0.0;
+  const bool is_asked = file.accuracy.chooses_setting;
+  const double target = is_asked ? file.accuracy.target : most_unasked_error;
+  const double share = share_of(bar, size);
   if (bar.is_resolved() && share <= target) return "";
   const std::string amount =
       bar.is_resolved() ? fmt::format("is known to ± {} % only", significant(100.0 * share, 2))
                         : std::string("is not resolved by steps and elements");
-  return fmt::format("{} {}, /accuracy/target is {:g} %. {}", what, amount, 100.0 * target,
-                     advice(file, bar, share / target));
+  const std::string asked =
+      is_asked ? fmt::format(", /accuracy/target is {:g} %", 100.0 * target) : "";
+  return fmt::format("{} {}{}. {}", what, amount, asked, advice(file, bar, share / target));
 }
 
 /// Whether a limit could be broken by the error of its value.
@@ -93,6 +103,21 @@ double nearest_limit(const ConstraintSettings& limit, double value) {
   return *limit.upper - value < value - *limit.lower ? *limit.upper : *limit.lower;
 }
 
+/// Calls visit(limit, error, size) for each limit that the error of its value could break.
+template <class Visit>
+void for_each_open_limit(DesignProblem& design, const Result& result, const Trust& trust,
+                         const Visit& visit) {
+  const std::vector<ConstraintSettings>& limits = design.file().constraints;
+  for (std::size_t i = 0; i < limits.size(); ++i) {
+    const auto response = design.response_of(i);
+    if (!response || !trust.errors[*response]) continue;
+    const ErrorBar& error = *trust.errors[*response];
+    const double value = result.evaluation.constraints(i);
+    if (!may_break(limits[i], value, error.bound())) continue;
+    visit(limits[i], error, std::abs(nearest_limit(limits[i], value)));
+  }
+}
+
 }  // namespace
 
 std::optional<ErrorBar> optimum_error(DesignProblem& design, const Result& result,
@@ -117,24 +142,35 @@ double optimum_change(DesignProblem& design, const Result& result, const Eigen::
 std::string inaccuracy(DesignProblem& design, const Result& result, const Trust& trust) {
   const std::optional<ErrorBar> bar = optimum_error(design, result, trust);
   if (!bar) return "";
-  const std::vector<std::optional<ErrorBar>>& errors = trust.errors;
   const ProblemFile& file = design.file();
   const std::string of_objective =
       complaint(file, fmt::format("the optimum of {}", file.objective->response), *bar,
                 std::abs(result.evaluation.objective));
   if (!of_objective.empty()) return of_objective;
-  for (std::size_t i = 0; i < file.constraints.size(); ++i) {
-    const ConstraintSettings& limit = file.constraints[i];
-    const auto response = design.response_of(i);
-    if (!response || !errors[*response]) continue;
-    const double value = result.evaluation.constraints(i);
-    if (!may_break(limit, value, errors[*response]->bound())) continue;
-    const std::string text =
-        complaint(file, fmt::format("\"{}\", which is limited,", limit.response),
-                  *errors[*response], std::abs(nearest_limit(limit, value)));
-    if (!text.empty()) return text;
-  }
-  return "";
+  std::string of_limit;
+  for_each_open_limit(design, result, trust,
+                      [&](const ConstraintSettings& limit, const ErrorBar& error, double size) {
+                        const std::string what =
+                            fmt::format("\"{}\", which is limited,", limit.response);
+                        if (of_limit.empty()) of_limit = complaint(file, what, error, size);
+                      });
+  return of_limit;
+}
+
+std::string accuracy_text(DesignProblem& design, const Result& result, const Trust& trust) {
+  const auto percent = [](double share) {
+    return fmt::format("± {} %", significant(100.0 * share, 2));
+  };
+  std::string text =
+      "to " + percent(share_of(*result.error, std::abs(result.evaluation.objective)));
+  for_each_open_limit(design, result, trust,
+                      [&](const ConstraintSettings& limit, const ErrorBar& error, double size) {
+                        const double share = share_of(error, size);
+                        if (share <= design.file().accuracy.target) return;
+                        text += fmt::format(", the limit on \"{}\" to {}", limit.response,
+                                            percent(share));
+                      });
+  return text;
 }
 
 }  // namespace pleuel

@@ -26,9 +26,13 @@ std::optional<ErrorBar> optimum_error(DesignProblem& design, const Result& resul
 /// @param changes  one a response of the file [SI]
 double optimum_change(DesignProblem& design, const Result& result, const Eigen::VectorXd& changes);
 
-/// Why the optimum is not known to the accuracy that the file asks for, and what would do; empty if
-/// it is. What counts is the error of the objective at the optimum, and that of each limit which
-/// the error could break.
+/// Why the optimum is not known to the accuracy that the file asks for, or to 10 % where it asks for
+/// none, and what would do; empty if it is. What counts is the error of the objective at the
+/// optimum, and that of each limit which the error could break.
 std::string inaccuracy(DesignProblem& design, const Result& result, const Trust& trust);
+
+/// How well it is known: "to ± 0.3 %, the limit on "sideways" to ± 1.3 %".
+/// @pre result.error, and an objective that is not zero
+std::string accuracy_text(DesignProblem& design, const Result& result, const Trust& trust);
 
 }  // namespace pleuel

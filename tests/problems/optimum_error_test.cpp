@@ -56,10 +56,12 @@ TEST(OptimumError, CoversTheOptimumOfFinerSteps) {
   }
 }
 
-/// 0.8 ms leave 1.6 % of the round slider-crank's mass: no optimum that is verified to one percent.
-TEST(OptimumError, BeyondTheTargetLeavesNoOptimumVerified) {
+/// 0.8 ms leave 1.6 % of the round slider-crank's mass: an optimum that is verified to that much where nobody
+/// asks for more.
+TEST(OptimumError, IsToldWhereNobodyAskedForLess) {
   const Result coarse = optimum("slider_crank_round", {"/simulation/step=0.8 ms"});
-  EXPECT_EQ(coarse.status, Status::unresolved) << coarse.message;
+  EXPECT_EQ(coarse.status, Status::verified) << coarse.message;
+  EXPECT_GT(coarse.error->bound(), 0.01 * coarse.evaluation.objective);
 }
 
 TEST(OptimumError, IsComparedWithTheTargetOfTheFile) {
@@ -117,7 +119,7 @@ TEST(OptimumError, OfALimitThatItMayBreakIsAsLargeAsTheTargetAtMost) {
           "variables": {"d": {"start": 0.02, "lower": 0.01, "upper": 0.03}},
           "responses": {"m": {"type": "mass"},
             "sag": {"type": "deflection", "body": "b", "at": 1, "over_time": "max"}},
-          "objective": {"minimize": "m"},
+          "objective": {"minimize": "m"}, "accuracy": {"target": 0.01},
           "constraints": {"limit": {"response": "sag", ")" +
                 side + R"(": "10 mm"}}})",
             "limit.json")

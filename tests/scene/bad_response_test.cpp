@@ -11,7 +11,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         BadEdit{
             "/responses/speed/type", R"("velocty")",
-            R"(/responses/speed/type must be "mass", "stress", "deflection", "position", "velocity", "acceleration", "drive-torque", "drive-force", "drive-power", "reaction-force", "reaction-moment", "frequency", "buckling", "kinetic-energy", "elastic-energy", "energy-balance", "constraint-drift", "expression", "section-force", "angular-velocity", "joint-position", "joint-velocity", "spring-length", "spring-force", "motor-power", "damper-power", "angle", "angular-acceleration", "fatigue", "shear-stress", "fatigue-damage", "lateral-buckling", "jerk", "angular-jerk", "joint-acceleration", "damping-ratio" or "growth-rate", got "velocty"; did you mean "velocity"?)"},
+            R"(/responses/speed/type must be "mass", "stress", "deflection", "position", "velocity", "acceleration", "drive-torque", "drive-force", "drive-power", "reaction-force", "reaction-moment", "frequency", "buckling", "kinetic-energy", "elastic-energy", "energy-balance", "constraint-drift", "expression", "section-force", "angular-velocity", "joint-position", "joint-velocity", "spring-length", "spring-force", "motor-power", "damper-power", "angle", "angular-acceleration", "fatigue", "shear-stress", "fatigue-damage", "lateral-buckling", "jerk", "angular-jerk", "joint-acceleration", "damping-ratio", "growth-rate" or "transmission-angle", got "velocty"; did you mean "velocity"?)"},
         BadEdit{
             "/responses/time", R"({"type": "mass"})",
             R"(/responses/time has a name that files of histories need for their own columns: "time" and "…:error")"},

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include <fmt/format.h>
 
+#include "core/scene/joint_kind.hpp"
 #include "core/scene/magnitude_direction.hpp"
 #include "core/scene/reading/body_response_reader.hpp"
 #include "core/scene/reading/expression_response_reader.hpp"
@@ -57,6 +59,43 @@ void read_joint_motion(const JsonNode& node, const ResponseContext& context,
   check_coordinate_between_bodies(name, joint);
   response.joint = joint.name;
   response.coordinate = read_coordinate(node, joint);
+  read_history(node, context, response);
+}
+
+/// The axis of a joint with the ground that a body slides or turns in.
+std::array<double, 3> read_guide_axis(const JsonNode& node, const Scene& scene) {
+  const Joint& joint = read_joint_name(node, scene);
+  if (!kind_of(joint.type).has_axis() || joint.bodies[0] != ground_name) {
+    node.fail(
+        fmt::format("must name a joint with an axis and \"ground\" as its first body, but "
+                    "\"{}\" is none",
+                    joint.name));
+  }
+  const auto& [x, y, z] = joint.axis;
+  const double length = std::hypot(x, y, z);
+  return {x / length, y / length, z / length};
+}
+
+std::string read_turning_body(const JsonNode& node, const Scene& scene) {
+  const Body& body = read_body_name(node, scene);
+  if (std::holds_alternative<PointMass>(body.shape))
+    node.fail("must not be a point mass, which does not turn");
+  return body.name;
+}
+
+void read_transmission_angle(const JsonNode& node, const ResponseContext& context,
+                             ResponseSettings& response) {
+  const bool has_guide = node.find("joint").has_value();
+  if (has_guide) {
+    allow_history_keys(node, {"body", "joint"});
+    response.bodies = {read_turning_body(node.at("body"), context.scene)};
+    response.along = read_guide_axis(node.at("joint"), context.scene);
+  } else {
+    allow_history_keys(node, {"bodies"});
+    for (const JsonNode& body : node.at("bodies").items(2)) {
+      response.bodies.push_back(read_turning_body(body, context.scene));
+    }
+  }
   read_history(node, context, response);
 }
 
@@ -303,6 +342,9 @@ ResponseSettings read_response(const std::string& name, const JsonNode& node,
     case ResponseType::joint_position:
     case ResponseType::joint_velocity:
       read_joint_motion(node, context, response);
+      break;
+    case ResponseType::transmission_angle:
+      read_transmission_angle(node, context, response);
       break;
     case ResponseType::spring_length:
     case ResponseType::spring_force:
