@@ -131,7 +131,8 @@ class PlaneCheck {
     const bool turns = is_driven(joint, DrivenCoordinate::angle);
     const JointKind& kind = kind_of(joint.type);
     if (kind.has_axis()) {
-      const bool may_be_normal = kind.has_angle(), may_lie_in_plane = !kind.only_turns_about_axis();
+      const bool may_be_normal = kind.has_angle() || kind.slides == JointSlides::across_axis,
+                 may_lie_in_plane = !kind.only_turns_about_axis();
       require((may_be_normal && is_normal_axis) || (may_lie_in_plane && is_axis_in_plane), what);
     }
     if (kind.has_second_axis()) {
