@@ -39,9 +39,7 @@ std::vector<int> usable_processors() {
 }  // namespace
 
 RankDescription describe_rank() {
-  Fingerprint fingerprint;
-  fingerprint.add(whole_text("/proc/self/exe"));
-  return {machine_name(), fingerprint.text(), usable_processors()};
+  return {machine_name(), program_fingerprint(), usable_processors()};
 }
 
 std::vector<int> processors_of(const std::vector<RankDescription>& ranks) {

@@ -3,8 +3,6 @@
 #include <fstream>
 #include <iterator>
 
-#include <fmt/format.h>
-
 #include "core/scene/reading/document_reader.hpp"
 
 namespace pleuel {
@@ -39,22 +37,15 @@ void add_files_of_scene(const Json& problem, const std::filesystem::path& folder
 
 }  // namespace
 
-void Fingerprint::add(const std::string& text) {
-  for (const char c : text) add_byte(static_cast<unsigned char>(c));
-  add_byte(0);  // so that {"a", "b"} differs from {"ab"}
-}
-
-std::string Fingerprint::text() const {
-  return fmt::format("fnv1a64:{:016x}", state_);
-}
-
-void Fingerprint::add_byte(unsigned char byte) {
-  state_ = (state_ ^ byte) * 0x100000001b3u;
-}
-
 std::string whole_text(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+std::string program_fingerprint() {
+  Fingerprint fingerprint;
+  fingerprint.add(whole_text("/proc/self/exe"));
+  return fingerprint.text();
 }
 
 Json fingerprints_of_files(const Json& problem, const std::filesystem::path& file) {
