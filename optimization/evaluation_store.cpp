@@ -7,7 +7,7 @@ namespace pleuel {
 
 namespace {
 
-enum class Question : char { find, keep };
+enum class Question : char { find, keep, confirm };
 
 }  // namespace
 
@@ -19,6 +19,10 @@ void RemoteStore::keep(const EvaluationKey& key, const StoredEvaluation& stored)
   caller_.ask(packed(Question::keep, key, stored));
 }
 
+void RemoteStore::confirm(const EvaluationKey& key, const StoredEvaluation& again) {
+  caller_.ask(packed(Question::confirm, key, again));
+}
+
 std::string reply_of(EvaluationStore& store, const std::string& question) {
   Unpacker unpacker(question);
   Question kind = Question::find;
@@ -27,7 +31,7 @@ std::string reply_of(EvaluationStore& store, const std::string& question) {
   if (kind == Question::find) return packed(store.find(key));
   StoredEvaluation stored;
   unpacker(stored);
-  store.keep(key, stored);
+  kind == Question::keep ? store.keep(key, stored) : store.confirm(key, stored);
   return "";
 }
 

@@ -26,6 +26,7 @@ struct StoredEvaluation {
   /// Of gradients: how they were computed, and why so.
   std::string method, reason;
   double seconds = 0.0;  ///< that it took
+  int older_row = 0;     ///< in the record that this run goes on with; 0: it was made by this run
 };
 
 class EvaluationStore {
@@ -33,6 +34,9 @@ class EvaluationStore {
   virtual ~EvaluationStore() = default;
   virtual std::optional<StoredEvaluation> find(const EvaluationKey& key) = 0;
   virtual void keep(const EvaluationKey& key, const StoredEvaluation& stored) = 0;
+  /// An older evaluation was made again.
+  /// @throws InputError if it differs by more than round-off
+  virtual void confirm(const EvaluationKey& key, const StoredEvaluation& again) = 0;
 };
 
 /// The store of the process that handed out a task, for the task.
@@ -41,6 +45,7 @@ class RemoteStore : public EvaluationStore {
   explicit RemoteStore(TaskCaller& caller) : caller_(caller) {}
   std::optional<StoredEvaluation> find(const EvaluationKey& key) override;
   void keep(const EvaluationKey& key, const StoredEvaluation& stored) override;
+  void confirm(const EvaluationKey& key, const StoredEvaluation& again) override;
 
  private:
   TaskCaller& caller_;

@@ -1,10 +1,17 @@
 #include "record/run_database.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
+
+#include "core/base/eager_matrices.hpp"
+#include "core/base/error.hpp"
+#include "core/base/fingerprint.hpp"
+#include "core/base/packed.hpp"
 
 namespace pleuel {
 
@@ -13,11 +20,11 @@ namespace {
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 constexpr int application = 0x506c6575;  // "Pleu"
-constexpr int layout = 1;
+constexpr int layout = 2;
 
 constexpr const char* tables = R"(
 BEGIN IMMEDIATE;
-CREATE TABLE run(name TEXT PRIMARY KEY, value TEXT NOT NULL);
+CREATE TABLE run(name TEXT PRIMARY KEY, value TEXT NOT NULL, checksum INTEGER NOT NULL);
 CREATE TABLE settings(setting INTEGER PRIMARY KEY, text TEXT NOT NULL UNIQUE);
 CREATE TABLE evaluations(
   id INTEGER PRIMARY KEY,
@@ -34,9 +41,15 @@ CREATE TABLE evaluations(
   objective_gradient BLOB,
   constraint_gradients BLOB,
   method TEXT NOT NULL,
-  reason TEXT NOT NULL);
+  reason TEXT NOT NULL,
+  checksum INTEGER NOT NULL);
 CREATE UNIQUE INDEX evaluation_key
   ON evaluations(design, setting, rows, request, asked_method);
+CREATE TABLE parts(
+  name TEXT PRIMARY KEY,
+  ended TEXT NOT NULL DEFAULT (strftime('%Y-%m-%dT%H:%M:%fZ', 'now')),
+  content BLOB NOT NULL,
+  checksum INTEGER NOT NULL);
 CREATE TABLE history(
   evaluation INTEGER PRIMARY KEY,
   iteration INTEGER NOT NULL,
@@ -93,10 +106,41 @@ std::int64_t integer_of(Database& database, const std::string& question) {
 
 constexpr const char* stored_columns =
     "failure, objective, constraints, objective_gradient, constraint_gradients, method, reason, "
-    "seconds";
+    "seconds, asked_method, checksum, id";
+
+template <class... Parts>
+std::int64_t checksum_of(const Parts&... parts) {
+  Fingerprint fingerprint;
+  fingerprint.add(packed(parts...));
+  return static_cast<std::int64_t>(fingerprint.number());
+}
+
+/// What a table holds of it: no numbers of what failed, no sign of zero and of what is no number.
+StoredEvaluation as_stored(StoredEvaluation stored) {
+  if (!stored.failure.empty()) stored.evaluation = {};
+  double& objective = stored.evaluation.objective;
+  objective = std::isnan(objective) ? std::numeric_limits<double>::quiet_NaN() : objective + 0.0;
+  return stored;
+}
+
+void check_row(bool is_whole, const std::string& row, const std::string& table) {
+  if (is_whole) return;
+  throw DatabaseError(fmt::format(
+      "row {} of the table {} does not match its checksum: the file is damaged", row, table));
+}
+
+/// What a statement about this name finds first.
+std::optional<std::string> named_text(Statement& row, const std::string& name,
+                                      const std::string& table) {
+  row.bind(1, name);
+  if (!row.step()) return std::nullopt;
+  std::string text = row.blob(0);
+  check_row(checksum_of(name, text) == row.integer(1), name, table);
+  return text;
+}
 
 /// From a row that begins with these columns.
-StoredEvaluation stored_in(const Statement& row, const EvaluationKey& key) {
+StoredEvaluation unchecked_in(const Statement& row, const EvaluationKey& key) {
   StoredEvaluation stored;
   stored.failure = row.text(0);
   stored.method = row.text(5);
@@ -109,6 +153,47 @@ StoredEvaluation stored_in(const Statement& row, const EvaluationKey& key) {
   stored.evaluation.objective_gradient = vector_of(row.blob(3));
   stored.evaluation.constraint_jacobian = matrix_of(row.blob(4), key.x.size());
   return stored;
+}
+
+StoredEvaluation stored_in(const Statement& row, EvaluationKey key) {
+  StoredEvaluation stored = unchecked_in(row, key);
+  key.method = row.text(8);
+  check_row(checksum_of(key, stored) == row.integer(9), row.text(10), "evaluations");
+  return stored;
+}
+
+/// Of two evaluations of a design; more than what another processor rounds otherwise.
+constexpr double round_off = 1e-6;
+
+bool is_same(const Eigen::VectorXd& one, const Eigen::VectorXd& other) {
+  return one.size() == other.size() &&
+         !((one - other).lpNorm<Eigen::Infinity>() >
+           round_off * std::max(one.lpNorm<Eigen::Infinity>(), other.lpNorm<Eigen::Infinity>()));
+}
+
+bool is_same(double one, double other) {
+  return is_same(Eigen::VectorXd::Constant(1, one), Eigen::VectorXd::Constant(1, other));
+}
+
+/// Number by number, and gradients as changes by relative changes of the variables.
+bool is_same(const Evaluation& one, const Evaluation& other, const Eigen::VectorXd& x) {
+  if (one.constraints.size() != other.constraints.size() ||
+      one.constraint_jacobian.rows() != other.constraint_jacobian.rows() ||
+      one.objective_gradient.size() != other.objective_gradient.size()) {
+    return false;
+  }
+  bool is_all = is_same(one.objective, other.objective);
+  for (Eigen::Index i = 0; i < one.constraints.size(); ++i) {
+    is_all = is_all && is_same(one.constraints(i), other.constraints(i));
+  }
+  if (!one.has_gradients()) return is_all;
+  const Eigen::VectorXd size = x.unaryExpr([](double v) { return v == 0.0 ? 1.0 : v; });
+  for (Eigen::Index i = 0; i < one.constraint_jacobian.rows(); ++i) {
+    is_all = is_all && is_same(one.constraint_jacobian.row(i).transpose().cwiseProduct(size),
+                               other.constraint_jacobian.row(i).transpose().cwiseProduct(size));
+  }
+  return is_all && is_same(one.objective_gradient.cwiseProduct(size),
+                           other.objective_gradient.cwiseProduct(size));
 }
 
 void prepare(Database& database) {
@@ -143,8 +228,9 @@ Eigen::VectorXd vector_of(const std::string& bytes) {
   return values;
 }
 
-RunDatabase::RunDatabase(const std::filesystem::path& file) : database_(file) {
+RunDatabase::RunDatabase(std::filesystem::path file) : database_(file), file_(std::move(file)) {
   prepare(database_);
+  last_older_ = integer_of(database_, "SELECT coalesce(max(id), 0) FROM evaluations");
   find_ = std::make_unique<Statement>(database_, fmt::format(R"(
     SELECT {} FROM evaluations JOIN settings USING (setting)
     WHERE design = ?1 AND settings.text = ?2 AND rows = ?3 AND request = ?4
@@ -152,23 +238,32 @@ RunDatabase::RunDatabase(const std::filesystem::path& file) : database_(file) {
                                                              stored_columns));
   keep_ = std::make_unique<Statement>(database_, R"(
     INSERT OR IGNORE INTO evaluations(design, setting, rows, request, asked_method, failure,
-      objective, constraints, objective_gradient, constraint_gradients, method, reason, seconds)
-    VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13))");
+      objective, constraints, objective_gradient, constraint_gradients, method, reason, seconds,
+      checksum)
+    VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14))");
   add_ = std::make_unique<Statement>(
       database_,
       "INSERT OR REPLACE INTO history VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, "
       "?11, ?12, ?13)");
 }
 
+void RunDatabase::check() const {
+  Statement whole(database_, "PRAGMA integrity_check(1)");
+  whole.step();
+  if (whole.text(0) != "ok") throw DatabaseError("the file is damaged: " + whole.text(0));
+  read_evaluations([](const NumberedEvaluation&) {});
+  for (Statement row(database_, "SELECT name FROM run"); row.step();) description(row.text(0));
+  for (Statement row(database_, "SELECT name FROM parts"); row.step();) find_part(row.text(0));
+}
+
 void RunDatabase::describe(const std::string& name, const std::string& text) {
-  Statement statement(database_, "INSERT OR REPLACE INTO run VALUES (?1, ?2)");
-  statement.bind(1, name).bind(2, text).run();
+  Statement statement(database_, "INSERT OR REPLACE INTO run VALUES (?1, ?2, ?3)");
+  statement.bind(1, name).bind(2, text).bind(3, checksum_of(name, text)).run();
 }
 
 std::optional<std::string> RunDatabase::description(const std::string& name) const {
-  Statement statement(database_, "SELECT value FROM run WHERE name = ?1");
-  statement.bind(1, name);
-  return statement.step() ? std::optional(statement.text(0)) : std::nullopt;
+  Statement row(database_, "SELECT value, checksum FROM run WHERE name = ?1");
+  return named_text(row, name, "run");
 }
 
 std::optional<StoredEvaluation> RunDatabase::find(const EvaluationKey& key) {
@@ -176,42 +271,39 @@ std::optional<StoredEvaluation> RunDatabase::find(const EvaluationKey& key) {
   row.bind_blob(1, bytes_of(key.x)).bind(2, key.setting).bind(3, key.rows);
   row.bind(4, request_name(key.request)).bind(5, key.method);
   std::optional<StoredEvaluation> stored;
-  if (row.step()) stored = stored_in(row, key);
+  if (row.step()) {
+    stored = stored_in(row, key);
+    if (row.integer(10) <= last_older_) stored->older_row = static_cast<int>(row.integer(10));
+  }
   row.reset();
   found_ += stored ? 1 : 0;
   return stored;
 }
 
 std::optional<std::string> RunDatabase::find_part(const std::string& name) const {
-  Statement there(database_, "SELECT 1 FROM sqlite_master WHERE name = 'parts'");
-  if (!there.step()) return std::nullopt;
-  Statement row(database_, "SELECT content FROM parts WHERE name = ?1");
-  row.bind(1, name);
-  return row.step() ? std::optional(row.blob(0)) : std::nullopt;
+  Statement row(database_, "SELECT content, checksum FROM parts WHERE name = ?1");
+  return named_text(row, name, "parts");
 }
 
 void RunDatabase::keep_part(const std::string& name, const std::string& content) {
-  // Only studies have it; so records without it are of the same layout.
-  database_.execute(
-      "CREATE TABLE IF NOT EXISTS parts(name TEXT PRIMARY KEY, ended TEXT NOT NULL DEFAULT "
-      "(strftime('%Y-%m-%dT%H:%M:%fZ', 'now')), content BLOB NOT NULL)");
-  Statement row(database_, "INSERT OR REPLACE INTO parts(name, content) VALUES (?1, ?2)");
-  row.bind(1, name).bind_blob(2, content).run();
+  Statement row(database_,
+                "INSERT OR REPLACE INTO parts(name, content, checksum) VALUES (?1, ?2, ?3)");
+  row.bind(1, name).bind_blob(2, content).bind(3, checksum_of(name, content)).run();
 }
 
 void RunDatabase::read_evaluations(
     const std::function<void(const NumberedEvaluation&)>& see) const {
   Statement row(database_, fmt::format("SELECT {}, ended, settings.text, rows, request, "
-                                       "asked_method, design FROM evaluations JOIN settings USING "
+                                       "design FROM evaluations JOIN settings USING "
                                        "(setting) ORDER BY id",
                                        stored_columns));
   NumberedEvaluation one;
   while (row.step()) {
     ++one.number;
-    one.ended = row.text(8);
-    one.request = row.text(11);
-    one.key = {row.text(9), row.text(10), row.text(12), request_of(one.request),
-               vector_of(row.blob(13))};
+    one.ended = row.text(11);
+    one.request = row.text(14);
+    one.key = {row.text(12), row.text(13), row.text(8), request_of(one.request),
+               vector_of(row.blob(15))};
     one.stored = stored_in(row, one.key);
     see(one);
   }
@@ -219,7 +311,8 @@ void RunDatabase::read_evaluations(
 
 void RunDatabase::keep(const EvaluationKey& key, const StoredEvaluation& stored) {
   Statement& row = *keep_;
-  const Evaluation& evaluation = stored.evaluation;
+  const StoredEvaluation kept = as_stored(stored);
+  const Evaluation& evaluation = kept.evaluation;
   row.bind_blob(1, bytes_of(key.x)).bind(2, setting_number(key.setting)).bind(3, key.rows);
   row.bind(4, request_name(key.request)).bind(5, key.method);
   if (stored.failure.empty()) {
@@ -231,7 +324,18 @@ void RunDatabase::keep(const EvaluationKey& key, const StoredEvaluation& stored)
     row.bind(6, stored.failure);
   }
   row.bind(11, stored.method).bind(12, stored.reason).bind(13, stored.seconds);
-  row.run();
+  row.bind(14, checksum_of(key, kept)).run();
+}
+
+void RunDatabase::confirm(const EvaluationKey& key, const StoredEvaluation& again) {
+  const auto known = find(key);
+  const bool is_confirmed = known && known->failure.empty() == again.failure.empty() &&
+                            is_same(known->evaluation, as_stored(again).evaluation, key.x);
+  if (is_confirmed) return;
+  throw InputError(fmt::format(
+      "{}: row {} of the table evaluations is not what this program computes for its design: the "
+      "record is damaged or was changed; {}",
+      file_.string(), known ? known->older_row : 0, begin_anew));
 }
 
 int RunDatabase::evaluations() const {

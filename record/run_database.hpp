@@ -24,12 +24,16 @@ struct NumberedEvaluation {
 /// The record of a run, run.sqlite: every evaluation with what it follows from, bit by bit, and the
 /// way of the search. Each is a transaction (write-ahead log): whoever kills the program leaves all
 /// evaluations that had ended, and a file that can be opened. Tables are told in
-/// docs/reference/run-folder.md.
+/// docs/reference/run-folder.md. Rows have checksums: damage is an error that names the row.
 class RunDatabase : public EvaluationStore {
  public:
   /// Opens a record, or begins one where there is none.
   /// @throws DatabaseError if it is none of this kind, or cannot be read or written
-  explicit RunDatabase(const std::filesystem::path& file);
+  explicit RunDatabase(std::filesystem::path file);
+
+  /// Reads all of it.
+  /// @throws DatabaseError if something is damaged
+  void check() const;
 
   /// What is said of the whole run: command, problem, versions …
   void describe(const std::string& name, const std::string& text);
@@ -37,6 +41,7 @@ class RunDatabase : public EvaluationStore {
 
   std::optional<StoredEvaluation> find(const EvaluationKey& key) override;
   void keep(const EvaluationKey& key, const StoredEvaluation& stored) override;
+  void confirm(const EvaluationKey& key, const StoredEvaluation& again) override;
 
   std::optional<std::string> find_part(const std::string& name) const;
   void keep_part(const std::string& name, const std::string& content);
@@ -59,8 +64,13 @@ class RunDatabase : public EvaluationStore {
 
   mutable Database database_;
   std::unique_ptr<Statement> find_, keep_, add_;
+  std::filesystem::path file_;
+  std::int64_t last_older_ = 0;  ///< row that was there when it was opened
   int found_ = 0;
 };
+
+/// What to do with a record that is refused.
+inline constexpr const char* begin_anew = "--overwrite begins anew, another folder keeps it";
 
 /// Doubles as bytes, and back.
 std::string bytes_of(const Eigen::VectorXd& values);

@@ -23,7 +23,9 @@ constexpr std::pair<const char*, const char*> decisive[] = {
     {"problem", "problem"},
     {"files", "file that the problem names"},
     {"design", "start"},
-    {"options", "options"}};
+    {"options", "options"},
+    {"versions", "version of Pleuel or what it is made of"},
+    {"program", "build of Pleuel"}};
 
 std::string utc_now() {
   return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
@@ -36,7 +38,8 @@ std::string first_difference(const Json& there, const Json& here) {
     const auto text = [&](const Json& document) {
       return document.contains(place) ? document.at(place).dump() : std::string("missing");
     };
-    return fmt::format("{} is {} there and {} here", place.to_string(), text(there), text(here));
+    return fmt::format("{} is {} there and {} here", place.empty() ? "it" : place.to_string(),
+                       text(there), text(here));
   }
   const std::string place = first_reordered(there, here).value_or("");
   return fmt::format("the keys of {} stand in another order", place.empty() ? "the file" : place);
@@ -61,6 +64,7 @@ RunStore::RunStore(RunRecord& record, const Arguments& arguments, const ProblemI
                   {"design", design},
                   {"options", std::move(options)},
                   {"versions", record.versions()},
+                  {"program", program_fingerprint()},
                   {"variables", variables},
                   {"constraints", constraints}};
   if (arguments.resumes) open_older();
@@ -71,10 +75,11 @@ void RunStore::open_older() {
   if (!std::filesystem::exists(file)) return begin_without_record();
   try {
     database_.emplace(file);
+    database_->check();
     check_same_run();
     goes_on_ = true;
   } catch (const DatabaseError& error) {
-    throw InputError(fmt::format("--resume: {}: {}", file.string(), error.what()));
+    throw InputError(fmt::format("--resume: {}: {}; {}", file.string(), error.what(), begin_anew));
   }
 }
 
@@ -93,23 +98,19 @@ void RunStore::begin_without_record() const {
 }
 
 void RunStore::check_same_run() const {
-  if (!database_->description("begun")) return;  // killed before it was described
+  if (!database_->description("begun") && database_->evaluations() == 0)
+    return;  // killed before it
   const auto older = [&](const std::string& name) {
-    return Json::parse(database_->description(name).value_or("null"));
+    const auto text = database_->description(name);
+    if (!text) throw DatabaseError(fmt::format("the table run has no row {}", name));
+    return Json::parse(*text);
   };
   for (const auto& [name, word] : decisive) {
     const Json there = older(name), &here = description_.at(name);
     if (there == here) continue;
-    throw InputError(fmt::format(
-        "--resume: {} holds a run with another {}: {}; take that one again, or another folder",
-        record_.folder().string(), word, first_difference(there, here)));
-  }
-  if (older("versions") != description_.at("versions")) {
-    show(stderr,
-         fmt::format("pleuel: note: the record in {} was made with other versions ({}); its "
-                     "evaluations are used as they are\n",
-                     record_.folder().string(),
-                     first_difference(older("versions"), description_.at("versions"))));
+    throw InputError(
+        fmt::format("--resume: {} holds a run with another {}: {}; take that one again; {}",
+                    record_.folder().string(), word, first_difference(there, here), begin_anew));
   }
 }
 
@@ -162,26 +163,22 @@ void RunStore::keep(const EvaluationKey& key, const StoredEvaluation& stored) {
   attempt([&](RunDatabase& database) { database.keep(key, stored); });
 }
 
+void RunStore::confirm(const EvaluationKey& key, const StoredEvaluation& again) {
+  attempt([&](RunDatabase& database) { database.confirm(key, again); });
+  ++confirmed_;
+}
+
 std::optional<std::string> RunStore::find_part(const std::string& name) {
   std::optional<std::string> found;
   if (!database_) return found;
-  attempt([&](RunDatabase& database) { found = database.find_part(part_name(name)); });
+  attempt([&](RunDatabase& database) { found = database.find_part(name); });
   known_parts_ += found ? 1 : 0;
   return found;
 }
 
 void RunStore::keep_part(const std::string& name, const std::string& content) {
   ++made_parts_;
-  attempt([&](RunDatabase& database) { database.keep_part(part_name(name), content); });
-}
-
-std::string RunStore::part_name(const std::string& name) {
-  if (program_.empty()) {
-    Fingerprint fingerprint;
-    fingerprint.add(whole_text("/proc/self/exe"));
-    program_ = fingerprint.text();
-  }
-  return fmt::format("{} ({})", name, program_);
+  attempt([&](RunDatabase& database) { database.keep_part(name, content); });
 }
 
 void RunStore::add(const EvaluationRecord& record) {
@@ -205,6 +202,9 @@ std::string RunStore::text() const {
   std::string text;
   if (known_ + made_ > 0) {
     text += fmt::format("{} of {} evaluations were known from {}\n", known_, known_ + made_, file);
+  }
+  if (confirmed_ > 0) {
+    text += fmt::format("{} of them were made again for the verdict, and agree\n", confirmed_);
   }
   if (known_parts_ + made_parts_ > 0) {
     text += fmt::format("{} of {} parts of the study were known from {}\n", known_parts_,

@@ -27,8 +27,8 @@ class RunStore : public EvaluationStore, public PartStore {
 
   std::optional<StoredEvaluation> find(const EvaluationKey& key) override;
   void keep(const EvaluationKey& key, const StoredEvaluation& stored) override;
+  void confirm(const EvaluationKey& key, const StoredEvaluation& again) override;
 
-  /// Parts are packed: only the program that kept one knows it again.
   std::optional<std::string> find_part(const std::string& name) override;
   void keep_part(const std::string& name, const std::string& content) override;
 
@@ -49,7 +49,6 @@ class RunStore : public EvaluationStore, public PartStore {
   /// Does this on the record, if there is one that can be written.
   template <class Action>
   void attempt(const Action& action);
-  std::string part_name(const std::string& name);
   void stop() const;
 
   RunRecord& record_;
@@ -62,9 +61,8 @@ class RunStore : public EvaluationStore, public PartStore {
   bool is_begun_ = false;  ///< something was recorded by this process
   bool has_failed_ = false;
   bool has_history_ = false;
-  int known_ = 0, made_ = 0;
+  int known_ = 0, made_ = 0, confirmed_ = 0;
   int known_parts_ = 0, made_parts_ = 0;
-  std::string program_;  ///< fingerprint; empty before the first part
 };
 
 /// How to go on with an interrupted run; empty for others.

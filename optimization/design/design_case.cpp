@@ -123,11 +123,13 @@ EvaluationKey DesignCase::key_of(const Eigen::VectorXd& x, Request request,
 }
 
 std::optional<DesignCase::Answer> DesignCase::recall(const Eigen::VectorXd& x, Request request,
-                                                     const std::string& rows) {
+                                                     const std::string& name,
+                                                     const std::vector<ConstraintRows>& rows) {
   if (!store_) return std::nullopt;
-  asked_ = key_of(x, request, rows);
+  asked_ = key_of(x, request, name);
   const auto stored = store_->find(*asked_);
   if (!stored) return std::nullopt;
+  if (stored->older_row > 0) recalled_.emplace_back(*asked_, rows);
   Answer answer;
   answer.is_known = true;
   answer.seconds = stored->seconds;
@@ -156,7 +158,17 @@ DesignCase::Answer DesignCase::compute(const Eigen::VectorXd& x, Request request
 }
 
 void DesignCase::keep(Request request, const Answer& answer) {
-  if (!store_ || answer.is_known) return;
+  if (store_ && !answer.is_known) store_->keep(*asked_, stored_form(request, answer));
+}
+
+void DesignCase::confirm(const std::function<bool(const Eigen::VectorXd& x)>& counts) {
+  for (const auto& [key, rows] : std::exchange(recalled_, {})) {
+    if (!counts(key.x)) continue;
+    store_->confirm(key, stored_form(key.request, compute(key.x, key.request, rows)));
+  }
+}
+
+StoredEvaluation DesignCase::stored_form(Request request, const Answer& answer) const {
   StoredEvaluation stored;
   stored.seconds = answer.seconds;
   if (answer.failure) {
@@ -172,7 +184,7 @@ void DesignCase::keep(Request request, const Answer& answer) {
       stored.reason = choice_->reason;
     }
   }
-  store_->keep(*asked_, stored);
+  return stored;
 }
 
 Evaluation DesignCase::simulated_rows(const Eigen::VectorXd& x, Request request,

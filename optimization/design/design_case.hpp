@@ -2,9 +2,11 @@
 
 #include <cstddef>
 #include <exception>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/response/analysis.hpp"
@@ -65,12 +67,15 @@ class DesignCase {
   };
 
   /// What the store knows of an evaluation. Asks this process: not for other threads.
-  std::optional<Answer> recall(const Eigen::VectorXd& x, Request request, const std::string& rows);
+  std::optional<Answer> recall(const Eigen::VectorXd& x, Request request, const std::string& name,
+                               const std::vector<ConstraintRows>& rows);
   /// The evaluation itself; may run beside those of other cases.
   Answer compute(const Eigen::VectorXd& x, Request request,
                  const std::vector<ConstraintRows>& rows);
   /// Tells the store of what recall() asked it for last.
   void keep(Request request, const Answer& answer);
+  /// Makes what was recalled of an older run at these designs again, for the store to compare.
+  void confirm(const std::function<bool(const Eigen::VectorXd& x)>& counts);
 
  private:
   /// One of them at a simulated design: a value, and the instants that it comes from where it is of
@@ -85,6 +90,7 @@ class DesignCase {
   std::vector<ConstraintRows> with_objective(const std::vector<ConstraintRows>& rows) const;
   Evaluation simulated_rows(const Eigen::VectorXd& x, Request request,
                             const std::vector<ConstraintRows>& rows);
+  StoredEvaluation stored_form(Request request, const Answer& answer) const;
   EvaluationKey key_of(const Eigen::VectorXd& x, Request request, const std::string& rows) const;
   double linear_value(std::size_t constraint) const;
   std::vector<Row> rows_at(const Analysis& analysis, const std::vector<ConstraintRows>& rows) const;
@@ -101,6 +107,8 @@ class DesignCase {
   std::string setting_;  ///< of its evaluations, for the store
   /// What the store was asked for last: the choice of gradients may have changed since.
   std::optional<EvaluationKey> asked_;
+  /// What the store knew of an older run so far.
+  std::vector<std::pair<EvaluationKey, std::vector<ConstraintRows>>> recalled_;
   Eigen::VectorXd x_;
   std::unique_ptr<Analysis> analysis_;
   std::optional<GradientChoice> choice_;

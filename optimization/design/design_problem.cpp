@@ -142,7 +142,7 @@ std::vector<DesignCase::Answer> DesignProblem::answers_of(const Eigen::VectorXd&
   std::vector<DesignCase::Answer> answers(case_count());
   std::vector<std::size_t> open;
   for (std::size_t c = 0; c < case_count(); ++c) {
-    if (auto known = cases_[c]->recall(x, request, rows.name)) {
+    if (auto known = cases_[c]->recall(x, request, rows.name, rows.cases[c].of)) {
       answers[c] = std::move(*known);
     } else {
       open.push_back(c);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -47,6 +48,12 @@ class DesignProblem : public Problem {
   /// The same with other rows in place of the constraints; in each case one run of the chosen
   /// method for all. What fails says in which case.
   Evaluation evaluate_rows(const Eigen::VectorXd& x, Request request, const NamedRows& rows);
+
+  /// Makes evaluations of an older run at these designs again.
+  /// @throws InputError if they differ from what is known of them
+  void confirm(const std::function<bool(const Eigen::VectorXd& x)>& counts) {
+    for (const auto& one : cases_) one->confirm(counts);
+  }
 
   const ProblemFile& file() const { return file_; }
 

@@ -14,6 +14,7 @@
 #include "optimization/design/case_trust.hpp"
 #include "optimization/design/margin_doubts.hpp"
 #include "optimization/design/optimum_error.hpp"
+#include "optimization/scaling.hpp"
 
 namespace pleuel {
 
@@ -46,10 +47,27 @@ const Doubt* find_serious(const std::vector<Doubt>& doubts, const ProblemFile& f
   return found == doubts.end() ? nullptr : &*found;
 }
 
+/// How near to an answer its gradients and margins are differences.
+constexpr double beside = 1e-3;
+
+/// A verdict rests on evaluations of this run: those of the answer and beside it, those of audits, and
+/// that of the start, by which small is measured.
+void confirm_answer(DesignProblem& design, const Result& result) {
+  const Eigen::VectorXd scales = local_scales(design, result.x);
+  design.confirm([&](const Eigen::VectorXd& x) {
+    const auto is_judged = [&](const EvaluationRecord& record) {
+      return record.purpose == Purpose::audit && record.x == x;
+    };
+    return (x - result.x).cwiseQuotient(scales).lpNorm<Eigen::Infinity>() <= beside ||
+           x == result.history.front().x || std::ranges::any_of(result.history, is_judged);
+  });
+}
+
 }  // namespace
 
 void judge_numbers(DesignProblem& design, Result& result) {
   if (!result.evaluation.has_gradients()) return;
+  confirm_answer(design, result);
   result.case_objectives = objectives_in_cases(design, result.x);
   Trust trust = judge_cases(design, result.x, Scrutiny::close);
   for (Doubt doubt : doubt_margins(design, result.x)) {

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "core/base/eager_matrices.hpp"
+#include "core/base/error.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace pleuel::test::run_database_test {
@@ -29,6 +30,11 @@ class Record : public testing::Test {
 EvaluationKey key(double x, Request request = Request::values_and_gradients,
                   const std::string& method = "") {
   return {"step 1e-05 s", "constraints", method, request, Eigen::Vector2d(x, 1.0 / 3.0)};
+}
+
+std::string read_text(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
 /// Of two variables and three constraints.
@@ -151,6 +157,109 @@ TEST_F(Record, RefusesTheRecordOfAnotherVersion) {
   } catch (const DatabaseError& error) {
     EXPECT_THAT(error.what(), HasSubstr("another version"));
   }
+}
+
+/// What opens and reads it whole says of it; empty if all is well.
+std::string refusal(const std::filesystem::path& file) {
+  try {
+    const RunDatabase record(file);
+    record.check();
+  } catch (const DatabaseError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST_F(Record, NamesTheRowThatWasChanged) {
+  for (const std::string change :
+       {"objective = 0.9 * objective", "constraints = zeroblob(7)", "objective_gradient = x'00'",
+        "constraint_gradients = NULL", "failure = 'locks'", "reason = 'none'", "objective = NULL",
+        "design = zeroblob(16)", "asked_method = 'adjoint'", "method = 'direct'", "seconds = 9",
+        "request = 'values'"}) {
+    std::filesystem::remove(file());
+    {
+      RunDatabase record(file());
+      for (const double x : {0.1, 0.2}) record.keep(key(x), evaluated(x));
+    }
+    EXPECT_EQ(refusal(file()), "");
+    Database(file()).execute("UPDATE evaluations SET " + change + " WHERE id = 2");
+    EXPECT_THAT(refusal(file()), HasSubstr("row 2 of the table evaluations")) << change;
+  }
+}
+
+TEST_F(Record, NamesWhatIsSaidOfTheRunAndWasChanged) {
+  {
+    RunDatabase record(file());
+    record.describe("design", "{}");
+    record.keep_part("run 1", "content");
+  }
+  Database(file()).execute("UPDATE parts SET content = x'00'");
+  EXPECT_THAT(refusal(file()), HasSubstr("row run 1 of the table parts"));
+  Database(file()).execute("UPDATE run SET value = '{'");
+  EXPECT_THAT(refusal(file()), HasSubstr("row design of the table run"));
+  Database(file()).execute("DELETE FROM run; DROP TABLE parts");
+  EXPECT_THAT(refusal(file()), HasSubstr("parts"));
+}
+
+/// Bytes that flip, and ends that are lost: either it is refused, or what it gives is what was kept.
+TEST_F(Record, GivesNoOtherNumbersWhenItIsDamaged) {
+  {
+    RunDatabase record(file());
+    record.describe("design", "{}");
+    for (int i = 0; i < 20; ++i) record.keep(key(i), evaluated(1.0 + i));
+    record.keep_part("run 1", std::string(300, 'x'));
+  }
+  const std::string whole = read_text(file());
+  std::mt19937 random(1);
+  int refused = 0;
+  for (int round = 0; round < 300; ++round) {
+    std::string damaged = whole;
+    const std::size_t place =
+        std::uniform_int_distribution<std::size_t>(0, whole.size() - 1)(random);
+    if (round % 10 == 0) {
+      damaged.resize(place);
+    } else {
+      damaged[place] = static_cast<char>(damaged[place] ^ (1 << round % 8));
+    }
+    std::ofstream(file(), std::ios::binary) << damaged;
+    if (!refusal(file()).empty()) {
+      ++refused;
+      continue;
+    }
+    RunDatabase record(file());
+    for (int i = 0; i < 20; ++i) {
+      const auto found = record.find(key(i));
+      EXPECT_EQ(found ? found->evaluation.objective : 1.0 + i, 1.0 + i) << round;
+    }
+    EXPECT_EQ(record.description("design").value_or("{}"), "{}");
+    EXPECT_EQ(record.find_part("run 1").value_or(std::string(300, 'x')), std::string(300, 'x'));
+  }
+  EXPECT_GT(refused, 50);
+}
+
+TEST_F(Record, RefusesWhatIsNotComputedAgain) {
+  RunDatabase(file()).keep(key(0.1), evaluated(1.0));
+  RunDatabase record(file());
+  StoredEvaluation again = *record.find(key(0.1));
+  EXPECT_EQ(again.older_row, 1);
+  again.evaluation.objective += 1e-9;
+  EXPECT_NO_THROW(record.confirm(key(0.1), again));
+  std::vector<StoredEvaluation> others(4, again);
+  others[0].evaluation.objective = 0.9;
+  others[1].evaluation.constraints(0) *= 1.001;
+  others[2].evaluation.objective_gradient(1) *= 0.9;
+  others[3].failure = "locks";
+  for (const StoredEvaluation& other : others) {
+    EXPECT_THROW(record.confirm(key(0.1), other), InputError);
+  }
+}
+
+TEST_F(Record, KnowsWhatIsOlder) {
+  RunDatabase(file()).keep(key(0.1), evaluated(1.0));
+  RunDatabase record(file());
+  record.keep(key(0.2), evaluated(2.0));
+  EXPECT_EQ(record.find(key(0.1))->older_row, 1);
+  EXPECT_EQ(record.find(key(0.2))->older_row, 0);
 }
 
 /// A process that is killed at any instant loses nothing that keep() has returned from.
