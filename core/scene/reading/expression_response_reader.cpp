@@ -158,7 +158,8 @@ void split_extreme(ResponseSettings& whole, std::vector<ResponseSettings>& respo
       argument = expression.arguments[step.first];
     } else {
       ResponseSettings part;
-      part.name = has_texts ? texts[i] : fmt::format("{} [{}]", whole.name, i + 1);
+      const bool is_variable = expression.steps[leaves[i]].operation == Operation::argument;
+      part.name = has_texts && !is_variable ? texts[i] : fmt::format("{} [{}]", whole.name, i + 1);
       part.type = ResponseType::expression;
       part.expression =
           std::make_shared<const Expression>(Extract(expression, part.name).ending_with(leaves[i]));
@@ -216,10 +217,13 @@ ResponseSettings& read_response_or_formula(const JsonNode& node,
     return *find_named(responses, read_known_name(node, "response", names_of(responses)));
   }
   const std::string name = formula_name(node);
-  if (ResponseSettings* known = find_named(responses, name)) {
-    if (known->type == ResponseType::expression) return *known;
-  }
+  if (ResponseSettings* known = find_named(responses, name)) return *known;
   ResponseSettings response = make_response(name, node, responses, numbers);
+  const Expression& formula = *response.expression;
+  if (formula.steps.size() == 1 && formula.arguments.front().kind != Kind::response) {
+    node.fail_with_value("must not be a design variable alone, whose name it would have",
+                         fmt::format("; write \"= 1*{}\"", name));
+  }
   split_extreme(response, responses);
   responses.push_back(std::move(response));
   return responses.back();
