@@ -13,6 +13,7 @@
 #include "core/base/stop.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/base/task_failure.hpp"
+#include "core/base/worker.hpp"
 
 namespace pleuel {
 
@@ -48,6 +49,21 @@ class Places {
   std::vector<TaskPlace*> all_;  ///< this process first
 };
 
+/// For a task that this process carries out itself.
+class CallerHere : public TaskCaller {
+ public:
+  CallerHere(Tasks& tasks, int task, std::vector<std::string>& messages)
+      : tasks_(tasks), task_(task), messages_(messages) {}
+
+  void tell(const std::string& message) override { messages_.push_back(message); }
+  std::string ask(const std::string& question) override { return tasks_.reply(task_, question); }
+
+ private:
+  Tasks& tasks_;
+  int task_;
+  std::vector<std::string>& messages_;
+};
+
 class TaskRun {
  public:
   TaskRun(Tasks& tasks, const TaskOptions& options)
@@ -63,12 +79,12 @@ class TaskRun {
     while (delivered_ < states_.size()) {
       try {
         check_stop();
+        start_workers();
       } catch (const Stopped&) {
         end_workers();
         deliver_rest();
         throw;
       }
-      start_workers();
       listen(patience);
       give_up_slow_ones();
       deliver();
@@ -125,8 +141,7 @@ class TaskRun {
   void start_workers() {
     while (TaskPlace* place = free_place()) {
       const auto task = next_task();
-      if (!task) return;
-      start(*task, *place);
+      if (!task || !start(*task, *place)) return;
     }
   }
 
@@ -136,7 +151,9 @@ class TaskRun {
     return workers / std::clamp(tasks_.count(), 1, workers);
   }
 
-  void start(std::size_t task, TaskPlace& place) {
+  /// @returns whether it has begun: where there can be no more workers, those that are there go on,
+  /// and without any this process does what a worker would
+  bool start(std::size_t task, TaskPlace& place) {
     State& state = states_[task];
     TaskOrder order = {static_cast<int>(task), std::min(threads(), place.workers()), {}};
     if (const auto index = tasks_.needed_by(order.task)) {
@@ -148,7 +165,29 @@ class TaskRun {
     state.messages.clear();
     ++state.attempts;
     running_.push_back({task, &place, Stopwatch()});
-    place.start(order);
+    try {
+      place.start(order);
+      return true;
+    } catch (const NoWorker&) {
+      running_.pop_back();
+      --state.attempts;
+      state.phase = Phase::waiting;
+      if (running_.empty()) carry_out_here(order, state);
+      return false;
+    }
+  }
+
+  void carry_out_here(const TaskOrder& order, State& state) {
+    CallerHere caller(tasks_, order.task, state.messages);
+    try {
+      state.result = tasks_.run(order.task, order.needed, caller);
+      state.phase = Phase::answered;
+    } catch (const Stopped&) {
+      throw;
+    } catch (...) {
+      state.result = thrown_report();
+      state.phase = Phase::threw;
+    }
   }
 
   /// Waits for news from the workers.

@@ -6,7 +6,6 @@
 #include <csignal>
 #include <cstdint>
 #include <cstring>
-#include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
@@ -111,7 +110,7 @@ Worker::Worker(const std::function<void(Channel&)>& work) : Worker(forked(work))
 Worker Worker::forked(const std::function<void(Channel&)>& work) {
   std::array<int, 2> ends;
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) == -1) {
-    throw std::runtime_error(fmt::format("no worker process: {}", std::strerror(errno)));
+    throw NoWorker(fmt::format("no worker process: {}", std::strerror(errno)));
   }
   const pid_t parent = ::getpid();
   const pid_t process = ::fork();
@@ -120,7 +119,7 @@ Worker Worker::forked(const std::function<void(Channel&)>& work) {
   ::close(ends[1]);
   if (process == -1) {
     ::close(ends[0]);
-    throw std::runtime_error(fmt::format("no worker process: {}", std::strerror(error)));
+    throw NoWorker(fmt::format("no worker process: {}", std::strerror(error)));
   }
   return {process, ends[0]};
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,12 @@ class Channel {
 
   int descriptor_;
   std::string buffer_;
+};
+
+/// There can be no more processes, or connections to them.
+class NoWorker : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
 };
 
 /// A process that was forked from this one: it has all that is in memory, and shares nothing. It ends

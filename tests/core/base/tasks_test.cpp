@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "core/base/error.hpp"
@@ -99,6 +100,40 @@ TEST(Tasks, BeginWithTheAnswerThatTheyNeed) {
   const std::vector<std::string> one = notes_with(1, chain);
   EXPECT_EQ(one[12], "4: begun with 4");  // 4 needs 2
   for (const int jobs : {2, 3, 8}) EXPECT_EQ(notes_with(jobs, chain), one) << jobs;
+}
+
+/// So many descriptors may be open in a block.
+class DescriptorLimit {
+ public:
+  explicit DescriptorLimit(rlim_t most) {
+    ::getrlimit(RLIMIT_NOFILE, &before_);
+    const rlimit limit = {most, before_.rlim_max};
+    ::setrlimit(RLIMIT_NOFILE, &limit);
+  }
+  ~DescriptorLimit() { ::setrlimit(RLIMIT_NOFILE, &before_); }
+  DescriptorLimit(const DescriptorLimit&) = delete;
+  DescriptorLimit& operator=(const DescriptorLimit&) = delete;
+
+ private:
+  rlimit before_ = {};
+};
+
+TEST(Tasks, AreTheSameWhereThereCanBeFewerWorkersOrNone) {
+  const std::vector<std::string> one = notes_with(1);
+  const int next = ::dup(STDIN_FILENO);
+  ::close(next);
+  for (int more = 0; more < 5; ++more) {
+    const DescriptorLimit limit(static_cast<rlim_t>(next + more));
+    EXPECT_EQ(notes_with(4), one) << more;
+  }
+}
+
+TEST(Tasks, PassOnWhatTheyThrowWithoutWorkers) {
+  Noted tasks(2, [](int, const std::string&, TaskCaller&) -> std::string {
+    throw InputError("a bad number");
+  });
+  const DescriptorLimit limit(0);
+  EXPECT_THROW(run_tasks(tasks, {.jobs = 2}), InputError);
 }
 
 TEST(Tasks, RunInProcessesOfTheirOwn) {
