@@ -22,6 +22,7 @@ struct Trust {
   std::vector<std::optional<ErrorBar>> errors;
   std::vector<std::optional<Evidence>> evidence;  ///< of the errors by steps and elements
   std::vector<Eigen::VectorXd> bands;             ///< of histories (error_bands.hpp)
+  std::string failed_run;                         ///< why a run that judges failed; empty: none did
 };
 
 Trust judge_run(const TrustedRun& run);

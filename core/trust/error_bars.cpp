@@ -36,6 +36,9 @@ constexpr double share_of_turning = 0.25, share_of_falling = 0.1, most_fall = 40
 
 const double unknown = std::numeric_limits<double>::quiet_NaN();
 
+/// Of runs that failed: nothing bounds it.
+constexpr double any_bound = std::numeric_limits<double>::infinity();
+
 ErrorPart unresolved(double bound) {
   return {0.0, bound, false};
 }
@@ -111,7 +114,7 @@ ErrorPart step_part(const Evidence& runs, std::optional<double>& order) {
   if (is_there(runs.half_step) && is_there(runs.quarter_step)) {
     return step_by_finer(runs, *runs.quarter_step, *runs.half_step, runs.value, order);
   }
-  if (!is_there(runs.twice_step)) return unresolved(unknown);
+  if (!is_there(runs.twice_step)) return unresolved(any_bound);
   const double twice = *runs.twice_step;
   if (is_there(runs.half_step)) {
     return step_by_finer(runs, *runs.half_step, runs.value, twice, order);
@@ -129,7 +132,7 @@ ErrorPart step_part(const Evidence& runs, std::optional<double>& order) {
 ErrorPart part_of(const Evidence& evidence, const std::optional<double>& difference, double share,
                   double safety) {
   if (!difference) return {};
-  if (!std::isfinite(*difference)) return unresolved(unknown);
+  if (!std::isfinite(*difference)) return unresolved(any_bound);
   const double change = share * *difference;
   if (std::abs(change) <= value_round_off * evidence.magnitude) return {};
   return {change, safety * std::abs(change), true};

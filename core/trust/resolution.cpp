@@ -252,6 +252,12 @@ class Judgement {
     if (has_modes_of_more_elements_) runs.modes = {&modes_of_more_elements_, &other_elements_};
     if (are_modes_suspicious_) runs.modes = {&more_modes_, &found_};
     if (has_tolerance_) runs.newton = {&other_newton_, &coarsest_};
+    const NestedRun* const judging[] = {
+        runs.quarter_step,      runs.half_step,          &coarse_,       &coarsest_,
+        runs.more_elements.run, runs.fewer_elements.run, runs.modes.run, runs.newton.run};
+    for (const NestedRun* run : judging) {
+      if (run && resolution.failed_run.empty()) resolution.failed_run = run->failure;
+    }
     JudgingRuns of_bands = runs;  // histories of one step have bands, too
     of_bands.twice_step = &coarse_;
     of_bands.four_steps = &coarsest_;

@@ -28,7 +28,8 @@ struct Resolution {
   std::vector<std::optional<ErrorBar>> bars;
   std::vector<std::optional<Evidence>> evidence;  ///< what the bars are made from
   std::vector<Eigen::VectorXd> bands;             ///< of histories (error_bands.hpp)
-  std::string failure;  ///< of a finer run that could not be made; empty: none
+  std::string failure;     ///< of a finer run that could not be made; empty: none
+  std::string failed_run;  ///< the same of any run that judges
 };
 
 /// Judges which responses are resolved, in two stages:

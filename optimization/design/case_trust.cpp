@@ -88,6 +88,7 @@ Trust judge_cases(DesignProblem& design, const Eigen::VectorXd& x, Scrutiny scru
   for (std::size_t c = 0; c < design.case_count(); ++c) {
     Trust one = trust_of(design.load_case(c), x, scrutiny);
     doubts.push_back(std::move(one.doubts));
+    if (all.failed_run.empty()) all.failed_run = std::move(one.failed_run);
     for (std::size_t i = 0; i < file.responses.size(); ++i) {
       if (is_over_cases(file, i) || file.case_responses[i].load_case != c) continue;
       const std::size_t here = file.case_responses[i].index;

@@ -44,7 +44,7 @@ double share_of(const ErrorBar& bar, double size) {
 /// @param size  what the error is compared with
 /// @returns empty if the target is met
 std::string complaint(const ProblemFile& file, const std::string& what, const ErrorBar& bar,
-                      double size) {
+                      double size, const std::string& failed_run) {
   const bool is_asked = file.accuracy.chooses_setting;
   const double target = is_asked ? file.accuracy.target : most_unasked_error;
   const double share = share_of(bar, size);
@@ -54,7 +54,9 @@ std::string complaint(const ProblemFile& file, const std::string& what, const Er
                         : std::string("is not resolved by steps and elements");
   const std::string asked =
       is_asked ? fmt::format(", /accuracy/target is {:g} %", 100.0 * target) : "";
-  return fmt::format("{} {}{}. {}", what, amount, asked, advice(file, bar, share / target));
+  return fmt::format("{} {}{}. {}", what, amount, asked,
+                     std::isfinite(share) ? advice(file, bar, share / target)
+                                          : "A run that would tell failed: " + failed_run);
 }
 
 /// Whether a limit could be broken by the error of its value.
@@ -145,14 +147,15 @@ std::string inaccuracy(DesignProblem& design, const Result& result, const Trust&
   const ProblemFile& file = design.file();
   const std::string of_objective =
       complaint(file, fmt::format("the optimum of {}", file.objective->response), *bar,
-                std::abs(result.evaluation.objective));
+                std::abs(result.evaluation.objective), trust.failed_run);
   if (!of_objective.empty()) return of_objective;
   std::string of_limit;
   for_each_open_limit(design, result, trust,
                       [&](const ConstraintSettings& limit, const ErrorBar& error, double size) {
                         const std::string what =
                             fmt::format("\"{}\", which is limited,", limit.response);
-                        if (of_limit.empty()) of_limit = complaint(file, what, error, size);
+                        if (!of_limit.empty()) return;
+                        of_limit = complaint(file, what, error, size, trust.failed_run);
                       });
   return of_limit;
 }

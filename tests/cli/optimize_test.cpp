@@ -11,7 +11,9 @@
 namespace pleuel::test::optimize_test {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::vector<std::string> quick_optimization(const std::vector<std::string>& more) {
   return joined(joined({"optimize", problem("slider_crank_round")}, quick()), more);
@@ -199,6 +201,18 @@ TEST(Optimize, WithoutTimeToFinishItIsNotVerified) {
       run_program(folder.path(), quick_optimization({"--set", "/optimizer/max_iterations=2"}));
   EXPECT_EQ(run.exit_code, 4) << run.err;
   EXPECT_THAT(run.out, HasSubstr("NOT VERIFIED"));
+}
+
+/// Coarser steps have room, half of them do not.
+TEST(Optimize, NamesTheRunThatWouldTellItsErrors) {
+  const TemporaryFolder folder;
+  const ProgramRun run = run_program(
+      folder.path(), {"optimize", problem("slider_crank_round"), "--set", "/simulation/step=0.4 ms",
+                      "--set", R"(/sensitivity={"memory": "60 kB"})", "--no-report"});
+  EXPECT_EQ(run.exit_code, 4) << run.err;
+  EXPECT_THAT(unwrapped(run.out),
+              AllOf(HasSubstr("A run that would tell failed: /sensitivity/memory is too little"),
+                    Not(HasSubstr("nan"))));
 }
 
 TEST(Optimize, AStartThatCannotBeSimulatedIsASimulationFailure) {
