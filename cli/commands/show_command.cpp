@@ -89,6 +89,7 @@ void add_first_steps(const ProblemFile& problem, const Eigen::VectorXd& x, Shown
 }
 
 Shown describe(const ProblemFile& problem, const Eigen::VectorXd& x) {
+  const std::vector<Doubt> doubts_before = find_doubts_before(problem);
   const Eigen::VectorXd start = start_design(problem);
   Model model = build_model(problem.scene, problem.effects, {start.begin(), start.end()},
                             {x.begin(), x.end()}, problem.sensitivity.invariants);
@@ -111,7 +112,7 @@ Shown describe(const ProblemFile& problem, const Eigen::VectorXd& x) {
                     {"effects", effects_document(problem, model, {})}};
   add_assembly(problem, model, shown, warnings);
   if (!shown.document.contains("failure")) add_first_steps(problem, x, shown, warnings);
-  for (const auto& doubts : {find_doubts_before(problem), doubt_proportions_before(problem, x)}) {
+  for (const auto& doubts : {doubts_before, doubt_proportions_before(problem, x)}) {
     for (const std::string& text : texts_of(doubts)) warnings.push_back(text);
   }
   shown.document["warnings"] = warnings;

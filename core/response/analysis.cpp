@@ -137,9 +137,7 @@ SimulationOptions options_of(const ProblemFile& problem) {
   throw SimulationError(text);
 }
 
-/// Histories of responses are held as a whole, whatever the memory for states is.
-/// @throws InputError if the machine cannot hold them
-void require_memory(const std::vector<Response>& responses, const SimulationOptions& options) {
+void require_memory(const std::vector<Response>& responses, const TimeIntegration& options) {
   double channels = 1.0;  // the time
   for (const Response& response : responses) {
     if (response.history()) channels += response.history()->signal->channels();
@@ -216,6 +214,14 @@ Eigen::VectorXd start_design(const ProblemFile& problem) {
   return x;
 }
 
+void require_memory(const ProblemFile& problem) {
+  const Eigen::VectorXd start = start_design(problem);
+  const Design<double> x(start.begin(), start.end());
+  const Model model =
+      build_model(problem.scene, problem.effects, x, x, problem.sensitivity.invariants);
+  require_memory(make_responses(problem.responses, model, model), problem.simulation);
+}
+
 ProblemFile with_steps_of(const Trajectory& trajectory, ProblemFile problem) {
   const bool is_regular = problem.simulation.local_error == 0.0 && window_ends(problem).empty();
   if (is_regular) return problem;
@@ -247,12 +253,12 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
   set_full_mechanism(problem, start_values, design, *analysis);
   analysis->responses =
       make_responses(problem.responses, analysis->model, model_of_modes(*analysis));
+  require_memory(analysis->responses, problem.simulation);
   const SimulationOptions options = options_of(problem);
   if (!problem.simulation.moves_by_bending) {
     analysis->rigid_path = follow_drives(analysis->model, options.end_time, options.step);
     require_no_lock(analysis->model, analysis->rigid_path);
   }
-  require_memory(analysis->responses, options);
   Recorder recorder(analysis->responses, step_count(options) + 1);
   ConstraintGuard guard(analysis->model, options);
   try {

@@ -47,6 +47,11 @@ const Model& model_of_modes(const Analysis& analysis);
 /// One a response [SI].
 Eigen::VectorXd values_of(const Analysis& analysis);
 
+/// Histories of responses are held as a whole, whatever the memory for states is: to be asked before
+/// anything goes through the instants.
+/// @throws InputError if the machine cannot hold them
+void require_memory(const ProblemFile& problem);
+
 /// Builds and simulates the mechanism of a problem at a design, and reduces its responses.
 /// @param problem  with what its tolerance of effects leaves out (effect_measurement.hpp)
 /// @param x        design variables [SI]

@@ -34,6 +34,14 @@ TEST(BadInput, WrongValueIsNamedByItsPointer) {
                    "/simulation/step");
 }
 
+/// Commands that simulate, and those that only look at instants.
+TEST(BadInput, StepsThatNoMachineHoldsAreRefusedBeforeAnyLoop) {
+  for (const char* command : {"show", "simulate", "optimize"}) {
+    expect_complaint({command, problem("slider_crank_round"), "--set", "/simulation/step=1.2e-10"},
+                     "but the machine has");
+  }
+}
+
 TEST(BadInput, SeveralMistakesAreALineEach) {
   const ProgramRun run =
       run_program(TemporaryFolder().path(),

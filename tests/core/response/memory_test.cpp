@@ -29,12 +29,13 @@ TEST(Memory, ByDefaultFollowsTheMachineUpToFourGigabytes) {
 TEST(Memory, OfHistoriesThatNoMachineHoldsIsTooMuchBeforeTheRun) {
   const ProblemFile problem = read_problem_text(pendulum, "p.json").complete();
   try {
-    analyze(problem, start_design(problem));
+    require_memory(problem);
     FAIL();
   } catch (const InputError& error) {
     EXPECT_THAT(error.what(), testing::HasSubstr("1e+09 steps with"));
     EXPECT_THAT(error.what(), testing::HasSubstr("but the machine has"));
   }
+  EXPECT_THROW(analyze(problem, start_design(problem)), InputError);
 }
 
 }  // namespace
