@@ -17,6 +17,7 @@
 #include "cli/text/console.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/error.hpp"
+#include "core/base/excerpt.hpp"
 #include "core/base/parallel.hpp"
 #include "core/base/stop.hpp"
 
@@ -68,13 +69,15 @@ std::string with_file(const std::string& message, const Arguments& arguments) {
 
 /// "/tmp/aaaa…: File name too long": long names are told by their beginnings.
 std::string path_text(const fs::filesystem_error& error) {
-  constexpr std::size_t longest = 120;
-  std::string path = error.path1().string();
-  if (path.size() > longest) path = path.substr(0, longest) + "…";
-  return fmt::format("{}: the system says: {}", path, error.code().message());
+  return fmt::format("{}: the system says: {}", excerpt(error.path1().string(), 120),
+                     error.code().message());
 }
 
-int report_error(ExitCode code, const std::string& message, bool wants_json) {
+/// However long names, keys and formulas of the user are.
+constexpr std::size_t longest_message = 4000;
+
+int report_error(ExitCode code, const std::string& whole_message, bool wants_json) {
+  const std::string message = excerpt(whole_message, longest_message);
   const std::string text = fmt::format("pleuel: {}\n", message);
   show(stderr, ::isatty(STDERR_FILENO) == 1 ? wrapped(text, "  ") : text);  // a line for programs
   const int number = static_cast<int>(code);

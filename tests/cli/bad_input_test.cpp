@@ -42,6 +42,24 @@ TEST(BadInput, StepsThatNoMachineHoldsAreRefusedBeforeAnyLoop) {
   }
 }
 
+TEST(BadInput, LongTextsAreToldByTheirBeginnings) {
+  const TemporaryFolder folder;
+  const std::string text(1'000'000, 'x');
+  for (const auto& [place, value] :
+       {std::pair{"name", nlohmann::json(1)}, std::pair{"scene", nlohmann::json(text)},
+        std::pair{"objective", nlohmann::json{{"minimize", text}}},
+        std::pair{"objective", nlohmann::json{{"minimize", "= " + text}}},
+        std::pair{"simulation", nlohmann::json{{text, 1}}}}) {
+    nlohmann::json document = nlohmann::json::parse(read_file(problem("slider_crank_round")));
+    document[place] = value;
+    std::ofstream(folder.path() / "long.json") << document;
+    const ProgramRun run = run_program(folder.path(), {"show", "long.json"});
+    EXPECT_EQ(run.exit_code, 2) << place;
+    EXPECT_THAT(run.err, StartsWith("pleuel: long.json: /")) << place;
+    EXPECT_LT(run.err.size(), 5000) << place;
+  }
+}
+
 TEST(BadInput, SeveralMistakesAreALineEach) {
   const ProgramRun run =
       run_program(TemporaryFolder().path(),

@@ -6,19 +6,14 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/base/excerpt.hpp"
 #include "core/scene/reading/suggestion.hpp"
 
 namespace pleuel {
 namespace {
 
-/// The value as JSON, shortened: a message is a line, not a listing.
 std::string shown(const Json& value) {
-  constexpr std::size_t longest = 60;
-  std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
-  if (text.size() <= longest) return text;
-  std::size_t end = longest;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // UTF-8
-  return text.substr(0, end) + "…";
+  return excerpt(value.dump(-1, ' ', false, Json::error_handler_t::replace), 60);
 }
 
 }  // namespace
