@@ -138,6 +138,7 @@ void take_as_point(ParetoPoint& point, const ProblemFile& problem, EvaluationSto
   DesignProblem design(problem, available_threads(), store);
   Result& result = point.result;
   result.evaluation = design.evaluate(result.x, Request::values_and_gradients);
+  design.confirm([&](const Eigen::VectorXd& x) { return x == result.x; });
   result.constraint_multipliers = Eigen::VectorXd::Zero(result.evaluation.constraints.size());
   result.error.reset();  // of the response that it is best for
   point.limit = point.limited_value = limited_value(problem, result.evaluation.constraints);
