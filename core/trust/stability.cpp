@@ -18,6 +18,7 @@
 #include "core/response/lateral_buckling_signal.hpp"
 #include "core/start/equilibrium.hpp"
 #include "core/trust/disturbance_growth.hpp"
+#include "core/trust/nested_runs.hpp"
 
 namespace pleuel {
 
@@ -273,23 +274,34 @@ std::vector<Doubt> judge_motion(const Scene& scene, const Analysis& analysis) {
   return {passing(frozen, time, growth)};
 }
 
-std::vector<Doubt> judge_in_space(const TrustedRun& run) {
+/// The mechanism in space and with geometric stiffening; what holds its beams from outside holds them.
+ProblemFile problem_in_space(const TrustedRun& run) {
   ProblemFile space = with_all_modes(run.problem);
   space.effects.geometric_stiffening = EffectChoice::on;
   space.simulation.moves_by_bending = true;  // it was asked already
   space.responses.clear();
   add_outside_holds(run.x, space.scene);
-  const std::string where = "in space and with geometric stiffening";
-  try {
-    const std::unique_ptr<Analysis> analysis = analyze(space, run.x);
-    return judge_motion(space.scene, *analysis);
-  } catch (const UnstableEquilibrium& error) {
-    return {{fmt::format("Judged {}, {}.{}", where, error.what(), remedy), true}};
-  } catch (const SimulationError& error) {
-    return {not_judged(fmt::format("{} it cannot be simulated: {}", where, error.what()))};
-  } catch (const InputError& error) {
-    return {not_judged(fmt::format("{} it cannot be simulated: {}", where, error.what()))};
+  return space;
+}
+
+std::vector<Doubt> judge_in_space(const TrustedRun& run) {
+  const ProblemFile space = problem_in_space(run);
+  std::string failure;
+  // Disturbances need no fine steps; where twice the step is too long, that of the file is not.
+  for (const double step : {2.0, 1.0}) {
+    const ProblemFile coarse = refined(space, {.step = step});
+    try {
+      return judge_motion(space.scene, *analyze(coarse, run.x));
+    } catch (const UnstableEquilibrium& error) {
+      return {{fmt::format("In space and with geometric stiffening {}.{}", error.what(), remedy),
+               true}};
+    } catch (const SimulationError& error) {
+      failure = error.what();
+    } catch (const InputError& error) {
+      failure = error.what();
+    }
   }
+  return {not_judged("in space and with geometric stiffening it cannot be simulated: " + failure)};
 }
 
 /// Of the mechanism in space.

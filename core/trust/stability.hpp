@@ -12,7 +12,7 @@ constexpr int most_judged_coordinates = 600;
 
 /// Whether members of a mechanism buckle or flutter, alone or together, where the motion does not
 /// show it, as it is straight, in a plane, or too short. It is judged in space and with geometric
-/// stiffening, for which a mechanism without them is simulated once more.
+/// stiffening, for which a mechanism without them is simulated once more, with twice the steps.
 ///
 /// At an equilibrium that the motion starts from the eigenvalues decide (elastic_stability.hpp). Along a motion
 /// frozen eigenvalues say where to look: where the loads are more than a fifth of those that make the
