@@ -75,6 +75,16 @@ UndecidedProblem read_asked_case(const std::filesystem::path& file, const Argume
   return read;
 }
 
+/// Of a start design that cannot be built it is told where that is simulated.
+void require_room_for_instants(const ProblemFile& problem) {
+  for (const ProblemFile* one : simulated_problems(problem)) {
+    try {
+      require_memory(*one);
+    } catch (const SimulationError&) {
+    }
+  }
+}
+
 ProblemInput read_file(const std::filesystem::path& file, const Arguments& arguments) {
   ProblemInput input;
   input.file = file;
@@ -101,6 +111,7 @@ ProblemInput read_file(const std::filesystem::path& file, const Arguments& argum
     fingerprint.add(whole_text(is_folder ? *arguments.design / "result.json" : *arguments.design));
   }
   input.hash = fingerprint.text();
+  require_room_for_instants(input.problem);
   note_unstable_scheme(input);
   return input;
 }

@@ -46,7 +46,6 @@ namespace pleuel {
 std::vector<Doubt> find_doubts_before(const ProblemFile& problem) {
   std::vector<std::vector<Doubt>> doubts;
   for (const ProblemFile* one : simulated_problems(problem)) {
-    require_memory(*one);
     doubts.push_back(doubt_fast_laws_before(*one));
   }
   std::vector<Doubt> joined = joined_doubts(problem, doubts);

@@ -12,7 +12,6 @@ namespace pleuel {
 
 /// What the file alone says against the numbers to come, at its start design: known before a long
 /// run, and found again after it.
-/// @throws InputError if the machine cannot hold the instants
 std::vector<Doubt> find_doubts_before(const ProblemFile& problem);
 
 /// How far the numbers of a simulated design can be trusted.

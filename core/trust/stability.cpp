@@ -247,14 +247,14 @@ ElasticStability flutter_of(const Mechanism& mechanism, const State& state, doub
 }
 
 /// Of a mechanism whose model shows buckling.
-std::vector<Doubt> judge_motion(const Scene& scene, const Analysis& analysis) {
+std::vector<Doubt> judge_motion(const std::set<int>& instants, const Analysis& analysis) {
   const Mechanism& mechanism = analysis.model.mechanism;
   const Trajectory& trajectory = analysis.trajectory;
   std::optional<int> first;
   ElasticStability frozen;
   State state;
   double time = 0.0;
-  for (const int i : critical_instants(scene, analysis)) {
+  for (const int i : instants) {
     trajectory.states->load(i, state);
     if (!may_grow(mechanism, state)) continue;
     if (!first) first = i;
@@ -280,6 +280,7 @@ ProblemFile problem_in_space(const TrustedRun& run) {
   space.effects.geometric_stiffening = EffectChoice::on;
   space.simulation.moves_by_bending = true;  // it was asked already
   space.responses.clear();
+  space.sensitivity.memory = SensitivitySettings().memory;
   add_outside_holds(run.x, space.scene);
   return space;
 }
@@ -291,7 +292,8 @@ std::vector<Doubt> judge_in_space(const TrustedRun& run) {
   for (const double step : {2.0, 1.0}) {
     const ProblemFile coarse = refined(space, {.step = step});
     try {
-      return judge_motion(space.scene, *analyze(coarse, run.x));
+      const std::unique_ptr<Analysis> analysis = analyze(coarse, run.x);
+      return judge_motion(critical_instants(space.scene, *analysis), *analysis);
     } catch (const UnstableEquilibrium& error) {
       return {{fmt::format("In space and with geometric stiffening {}.{}", error.what(), remedy),
                true}};
@@ -350,14 +352,15 @@ std::vector<Doubt> doubt_stability(const TrustedRun& run) {
   const Model& model = run.analysis.model;
   std::vector<Doubt> doubts = judge_start(run);
   if (!doubts.empty() && doubts.front().is_serious) return doubts;
-  if (critical_instants(run.problem.scene, run.analysis).empty()) return doubts;
+  const std::set<int> instants = critical_instants(run.problem.scene, run.analysis);
+  if (instants.empty()) return doubts;
   if (coordinates_in_space(model) > most_judged_coordinates) {
     doubts.push_back(
         not_judged(fmt::format("it has more than {} coordinates.", most_judged_coordinates)));
     return doubts;
   }
   const std::vector<Doubt> of_motion = shows_buckling(run.problem.scene, model)
-                                           ? judge_motion(run.problem.scene, run.analysis)
+                                           ? judge_motion(instants, run.analysis)
                                            : judge_in_space(run);
   doubts.insert(doubts.end(), of_motion.begin(), of_motion.end());
   return doubts;

@@ -235,7 +235,7 @@ TEST(Goal, MayBeAFormula) {
   EXPECT_DOUBLE_EQ(*problem.constraints[4].upper, 2.5);
 }
 
-TEST(Goal, ThatIsOneNameIsThatResponseAndNoVariable) {
+TEST(Goal, ThatIsOneNameIsThatResponseOrThatVariable) {
   Json document = with_constants();
   document["objective"] = {{"minimize", "= bow"}};
   document["constraints"]["slenderness"] = {{"response", "= 2*bow"}, {"upper", "1 m"}};
@@ -245,10 +245,8 @@ TEST(Goal, ThatIsOneNameIsThatResponseAndNoVariable) {
   EXPECT_EQ(read(document).responses.size(), responses);
   document["objective"] = {{"minimize", "= width"}};
   document["constraints"]["slenderness"] = {{"response", "= diameter/width"}, {"upper", 9}};
-  EXPECT_EQ(
-      complaint(document),
-      "bad.json: /objective/minimize must not be a design variable alone, whose name it would "
-      "have, got \"= width\"; write \"= 1*width\"");
+  EXPECT_EQ(complaint(document), "");
+  EXPECT_EQ(read(document).objective->response, "(width)");
   document["objective"] = {{"minimize", "= max(width, 2*diameter)"}};
   EXPECT_EQ(complaint(document), "");
   document["objective"] = {{"minimize", "= 1*width"}};

@@ -216,14 +216,11 @@ ResponseSettings& read_response_or_formula(const JsonNode& node,
     }
     return *find_named(responses, read_known_name(node, "response", names_of(responses)));
   }
-  const std::string name = formula_name(node);
+  std::string name = formula_name(node);
+  if (numbers.find_variable(name))
+    name = "(" + name + ")";  // formulas mean the variable by its name
   if (ResponseSettings* known = find_named(responses, name)) return *known;
   ResponseSettings response = make_response(name, node, responses, numbers);
-  const Expression& formula = *response.expression;
-  if (formula.steps.size() == 1 && formula.arguments.front().kind != Kind::response) {
-    node.fail_with_value("must not be a design variable alone, whose name it would have",
-                         fmt::format("; write \"= 1*{}\"", name));
-  }
   split_extreme(response, responses);
   responses.push_back(std::move(response));
   return responses.back();
