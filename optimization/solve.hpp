@@ -41,6 +41,8 @@ struct SolveOptions {
   std::vector<std::string> other_backends{};
   /// What the verdict asks for.
   Tolerances verdict{};
+  /// Whether what speaks against the numbers of the answer is looked for.
+  bool checks_numbers = true;
   /// What an earlier part of the same run has used already, for messages.
   struct Used {
     int iterations = 0;

@@ -328,7 +328,7 @@ Outcome run_gradient(const Arguments& arguments) {
   findings.ties = computed.kinks ? make_ties(*findings.analysis, *computed.kinks)
                                  : find_ties(*findings.analysis, problem.variables);
   const Monitors monitors = monitor(findings.analysis->model, findings.analysis->trajectory);
-  TrustedRun judged{problem, input.design, *findings.analysis, monitors};
+  TrustedRun judged{problem, input.design, *findings.analysis, monitors, arguments.scrutiny};
   if (input.choice) judged.known = &input.choice->bars;
   Trust trust = judge_run(judged);
   findings.warnings =

@@ -50,13 +50,13 @@ struct Simulated {
 constexpr int many_steps = 10000;
 
 /// Finds the warnings. An interrupt ends that, but not what is known.
-void check_numbers(const ProblemInput& input, Simulated& run) {
+void check_numbers(const ProblemInput& input, Scrutiny scrutiny, Simulated& run) {
   if (run.analysis.trajectory.steps() > many_steps) {
     show(stderr, fmt::format("simulated in {}; checking the numbers …\n", duration(run.seconds)));
   }
   const Stopwatch check;
   try {
-    TrustedRun judged{input.problem, input.design, run.analysis, run.monitors};
+    TrustedRun judged{input.problem, input.design, run.analysis, run.monitors, scrutiny};
     if (input.choice) judged.known = &input.choice->bars;
     Trust trust = judge_run(judged);
     run.warnings = texts_of(trust.doubts);
@@ -174,7 +174,7 @@ Outcome run_simulate(const Arguments& arguments) {
   const double seconds = stopwatch.seconds();
   record.begin_phase("monitor");
   Simulated run{*analysis, monitor(analysis->model, analysis->trajectory), seconds};
-  check_numbers(input, run);
+  check_numbers(input, arguments.scrutiny, run);
   if (arguments.wants_all_warnings) run.consequences = 0;
   if (arguments.wants_effects && run.is_checked) {
     try {

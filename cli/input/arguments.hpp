@@ -8,6 +8,7 @@
 
 #include "core/base/parallel.hpp"
 #include "core/base/tasks.hpp"
+#include "core/trust/trusted_run.hpp"
 
 namespace pleuel {
 
@@ -39,6 +40,7 @@ struct Arguments {
   std::vector<std::string> names;   ///< of histories that are drawn
   std::string order = "time";       ///< of runs that are listed: "time" or "name"
   bool wants_all_warnings = false;  ///< those that follow from others, too
+  Scrutiny scrutiny = Scrutiny::usual;
   bool wants_effects = false;       ///< what each effect brings and costs
   bool wants_json = false;
   bool wants_vtk = false;          ///< the motion as files for ParaView

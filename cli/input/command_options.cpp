@@ -61,6 +61,17 @@ void add_all_warnings(CLI::App* command, Arguments& arguments) {
                     "show warnings that may follow from others, too");
 }
 
+void add_checks(CLI::App* command, Arguments& arguments) {
+  CLI::Option* all = command->add_flag_callback(
+      "--all-checks", [&arguments] { arguments.scrutiny = Scrutiny::close; },
+      "judge the numbers as those of an optimum: with half the step and twice the elements");
+  command
+      ->add_flag_callback(
+          "--no-checks", [&arguments] { arguments.scrutiny = Scrutiny::none; },
+          "look for nothing that speaks against the numbers")
+      ->excludes(all);
+}
+
 void add_effects(CLI::App* command, Arguments& arguments) {
   command->add_flag("--effects", arguments.wants_effects,
                     "list all physical effects, also those that change next to nothing");

@@ -17,6 +17,8 @@ void add_no_report(CLI::App* command, Arguments& arguments);
 CLI::Option* add_output(CLI::App* command, Arguments& arguments);
 void add_design(CLI::App* command, Arguments& arguments);
 void add_all_warnings(CLI::App* command, Arguments& arguments);
+/// What is looked at besides the simulation.
+void add_checks(CLI::App* command, Arguments& arguments);
 void add_effects(CLI::App* command, Arguments& arguments);
 void add_accuracy(CLI::App* command, Arguments& arguments);
 void add_backend(CLI::App* command, Arguments& arguments);

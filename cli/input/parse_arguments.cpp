@@ -87,6 +87,7 @@ void add_gradient(CLI::App& app, Arguments& arguments) {
   add_jobs(gradient, arguments);
   add_accuracy(gradient, arguments);
   add_all_warnings(gradient, arguments);
+  add_checks(gradient, arguments);
   gradient->add_flag("--histories", arguments.wants_histories,
                      "write the derivatives of all histories into a run folder");
   gradient->add_flag("--compare", arguments.compares_methods,
@@ -232,6 +233,7 @@ void add_commands(CLI::App& app, Arguments& arguments) {
                                         "simulate one design and say whether it keeps its limits");
   add_output(simulate, arguments);
   add_all_warnings(simulate, arguments);
+  add_checks(simulate, arguments);
   add_accuracy(simulate, arguments);
   simulate->add_flag("--effects", arguments.wants_effects,
                      "show what each effect brings and costs: a simulation more for each");
@@ -242,6 +244,7 @@ void add_commands(CLI::App& app, Arguments& arguments) {
                                         "find the best design within the limits, and verify it");
   add_output(optimize, arguments);
   add_all_warnings(optimize, arguments);
+  add_checks(optimize, arguments);
   add_resume(optimize, arguments);
   add_accuracy(optimize, arguments);
   add_design(optimize, arguments);

@@ -12,6 +12,7 @@ SolveOptions solve_options(const ProblemFile& problem, const Arguments& argument
     options.other_backends = {"nlopt-mma", "ipopt", "nlopt-ccsaq"};
   }
   options.tolerance = problem.optimizer.tolerance;
+  options.checks_numbers = arguments.scrutiny != Scrutiny::none;
   options.max_iterations = problem.optimizer.max_iterations;
   try {
     make_optimizer(options.backend, {options.tolerance});

@@ -13,6 +13,7 @@ namespace pleuel {
 
 /// How much a judgement of errors may cost.
 enum class Scrutiny {
+  none,   ///< nothing: what speaks against the numbers is not looked for
   usual,  ///< about as much as the simulation, if nothing is suspicious
   close   ///< three times as much more: with half the step and twice the elements
 };

@@ -394,7 +394,7 @@ Result judge_design(DesignProblem& design, const SolveOptions& options, const Ob
   for (EvaluationRecord& record : result.history) {
     record = simulated_with(design.file(), std::move(record));
   }
-  judge_numbers(design, result);
+  judge_numbers(design, options.checks_numbers ? Scrutiny::close : Scrutiny::none, result);
   return result;
 }
 
@@ -444,7 +444,7 @@ Result solve_design(DesignProblem& design, const SolveOptions& options, const Ob
   Result result = find_optimum(searched, options, with_setting, notice);
   for (EvaluationRecord& record : result.history) record = simulated_with(file, std::move(record));
   return_to_best(design, options.verdict, result);
-  judge_numbers(design, result);
+  judge_numbers(design, options.checks_numbers ? Scrutiny::close : Scrutiny::none, result);
   return result;
 }
 

@@ -65,11 +65,11 @@ void confirm_answer(DesignProblem& design, const Result& result) {
 
 }  // namespace
 
-void judge_numbers(DesignProblem& design, Result& result) {
+void judge_numbers(DesignProblem& design, Scrutiny scrutiny, Result& result) {
   if (!result.evaluation.has_gradients()) return;
   confirm_answer(design, result);
   result.case_objectives = objectives_in_cases(design, result.x);
-  Trust trust = judge_cases(design, result.x, Scrutiny::close);
+  Trust trust = judge_cases(design, result.x, scrutiny);
   for (Doubt doubt : doubt_margins(design, result.x)) {
     doubt.cause = Cause::limit;
     trust.doubts.push_back(std::move(doubt));

@@ -92,6 +92,31 @@ TEST(Warnings, AreAListOfEveryDocument) {
   }
 }
 
+/// The numbers are the same however closely they are looked at; without checks there are no bars, and a
+/// warning says so.
+TEST(Warnings, AreLookedForAsCloselyAsIsAskedFor) {
+  const TemporaryFolder folder;
+  const auto simulated = [&](const std::vector<std::string>& more) {
+    return run_program(
+               folder.path(),
+               joined(joined({"simulate", problem("slider_crank_round"), "--json"}, quick()),
+                      joined({"--set", "/simulation/step=0.1 ms"}, more)))
+        .document();
+  };
+  const auto none = simulated({"--no-checks"}), usual = simulated({}),
+             all = simulated({"--all-checks"});
+  ASSERT_EQ(none.at("warnings").size(), 1u);
+  EXPECT_THAT(none.at("warnings").at(0).get<std::string>(), HasSubstr("not looked for"));
+  for (const auto& [name, response] : usual.at("responses").items()) {
+    EXPECT_EQ(response.at("value"), none.at("responses").at(name).at("value")) << name;
+    EXPECT_EQ(response.at("value"), all.at("responses").at(name).at("value")) << name;
+    EXPECT_TRUE(none.at("responses").at(name).at("error").is_null()) << name;
+  }
+  const ProgramRun both = run_program(
+      folder.path(), {"simulate", problem("slider_crank_round"), "--no-checks", "--all-checks"});
+  EXPECT_EQ(both.exit_code, 2);
+}
+
 /// The words of a report stay within a hundred columns; only what a shell is to read is not broken.
 TEST(Warnings, FitIntoAHundredColumns) {
   const TemporaryFolder folder;
