@@ -94,9 +94,9 @@ class SparseFactors {
   }
 
   /// Directions of no meaning, without their shares of rows and of each other.
-  MatrixXd normal_space() const {
+  MatrixXd normal_space(Index most) const {
     const Index size = rows_.cols();
-    MatrixXd space(size, size - rank_);
+    MatrixXd space(size, std::min(size - rank_, most));
     for (Index k = 0; k < space.cols(); ++k) {
       VectorXd direction(size);
       for (Index i = 0; i < size; ++i) {
@@ -332,7 +332,7 @@ Index rank_of_rows(SparseRows rows, double threshold) {
   return rank;
 }
 
-MatrixXd null_space_of_rows(SparseRows rows, double threshold) {
+MatrixXd null_space_of_rows(SparseRows rows, double threshold, Index most) {
   normalize(rows);
   std::vector<MatrixXd> spaces;
   std::vector<std::vector<int>> columns;
@@ -343,7 +343,7 @@ MatrixXd null_space_of_rows(SparseRows rows, double threshold) {
     const SparseRows part = select_block(rows, block);
     spaces.push_back(is_small(part)
                          ? PivotedQr(MatrixXd(part).transpose(), threshold).normal_space()
-                         : SparseFactors(part, threshold).normal_space());
+                         : SparseFactors(part, threshold).normal_space(most));
     columns.push_back(block.columns);
   }
   for (std::size_t column = 0; column < is_free.size(); ++column) {

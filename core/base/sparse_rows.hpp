@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include <Eigen/Core>
@@ -50,7 +51,9 @@ RankedRows rank_rows(SparseRows rows, double negligible);
 Eigen::Index rank_of_rows(SparseRows rows, double threshold);
 
 /// Columns: an orthonormal basis of { x : rows x = 0 }.
-Eigen::MatrixXd null_space_of_rows(SparseRows rows, double threshold);
+/// @param most  of a large block, whose basis takes their number squared, so many generic ones
+Eigen::MatrixXd null_space_of_rows(SparseRows rows, double threshold,
+                                   Eigen::Index most = std::numeric_limits<Eigen::Index>::max());
 
 /// Of all x with rows x = b the shortest one. The rows have to be independent where they are many.
 Eigen::VectorXd least_norm_solution(const SparseRows& rows, const Eigen::VectorXd& b);

@@ -1,6 +1,7 @@
 #include "core/start/degrees_of_freedom.hpp"
 
 #include <cmath>
+#include <map>
 #include <vector>
 
 #include "core/base/eager_matrices.hpp"
@@ -17,6 +18,8 @@ namespace {
 constexpr double independent = 1e-8;
 /// What is less out of line is not meant to block a motion.
 constexpr double clearly_independent = 1e-4;
+/// Motions of a large part that stand for all.
+constexpr Eigen::Index few = 8;
 /// Of the mechanism's size, or [rad].
 constexpr double meets = 1e-6;
 
@@ -107,18 +110,52 @@ int blocked_drives(const Mechanism& mechanism, const State& state, const std::ve
   return int_size(drives) - static_cast<int>(added);
 }
 
-Eigen::MatrixXd free_motions(const Mechanism& mechanism, const State& state) {
-  const std::vector<int> rigid = rigid_coordinates(mechanism);
-  const Eigen::Index size = rigid.size();
-  Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(size, size);
-  if (mechanism.system->multipliers() > 0) {
-    basis = null_space_of_rows(rigid_jacobian(mechanism, state, rigid), independent);
+FreeMotions::FreeMotions(const Mechanism& mechanism, const State& state)
+    : rigid_(rigid_coordinates(mechanism)),
+      jacobian_(mechanism.system->multipliers(), mechanism.system->coordinates()) {
+  if (mechanism.system->multipliers() == 0) return;
+  const SparseRows rows = rigid_jacobian(mechanism, state, rigid_);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index row = 0; row < rows.rows(); ++row) {
+    for (SparseRows::InnerIterator entry(rows, row); entry; ++entry) {
+      entries.emplace_back(row, rigid_[entry.col()], entry.value());
+    }
   }
-  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(state.q.size(), basis.cols());
-  for (Eigen::Index j = 0; j < size; ++j) {
-    motions.row(rigid[j]) = basis.row(j);
+  jacobian_.setFromTriplets(entries.begin(), entries.end());
+}
+
+/// Those that have entries.
+SparseRows FreeMotions::rows_of(const std::vector<int>& coordinates) const {
+  std::map<Eigen::Index, Eigen::Index> rows;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t j = 0; j < coordinates.size(); ++j) {
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(jacobian_, coordinates[j]); entry;
+         ++entry) {
+      const auto row = rows.try_emplace(entry.row(), std::ssize(rows)).first->second;
+      entries.emplace_back(row, j, entry.value());
+    }
+  }
+  SparseRows selected(std::ssize(rows), std::ssize(coordinates));
+  selected.setFromTriplets(entries.begin(), entries.end());
+  return selected;
+}
+
+Eigen::Index FreeMotions::count(const std::vector<int>& coordinates) const {
+  return std::ssize(coordinates) - rank_of_rows(rows_of(coordinates), independent);
+}
+
+Eigen::MatrixXd FreeMotions::some(const std::vector<int>& coordinates) const {
+  const Eigen::MatrixXd basis = null_space_of_rows(rows_of(coordinates), independent, few);
+  Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(jacobian_.cols(), basis.cols());
+  for (std::size_t j = 0; j < coordinates.size(); ++j) {
+    motions.row(coordinates[j]) = basis.row(j);
   }
   return motions;
+}
+
+Eigen::MatrixXd free_motions(const Mechanism& mechanism, const State& state) {
+  const FreeMotions motions(mechanism, state);
+  return motions.some(motions.rigid());
 }
 
 State generic_position(const Mechanism& mechanism, const State& state) {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "core/base/sparse_rows.hpp"
 #include "core/mechanism/mechanism.hpp"
 
 namespace pleuel {
@@ -31,8 +32,27 @@ int blocked_drives(const Mechanism& mechanism, const State& state, const std::ve
 
 /// The rigid motions that constraints and drives leave free, as velocities: n × free(), columns
 /// orthonormal in coordinates over their scale (which is how they are given). Elastic rows are
-/// zero.
+/// zero. Of large parts of a mechanism with many of them some that are generic.
 Eigen::MatrixXd free_motions(const Mechanism& mechanism, const State& state);
+
+/// The same of a part of a mechanism while the rest is held.
+class FreeMotions {
+ public:
+  FreeMotions(const Mechanism& mechanism, const State& state);
+
+  /// @param coordinates  of the part
+  Eigen::Index count(const std::vector<int>& coordinates) const;
+  /// All of them if they are few, else some that are generic: what moves at all, moves in these.
+  Eigen::MatrixXd some(const std::vector<int>& coordinates) const;
+  /// Those of all rigid motion.
+  const std::vector<int>& rigid() const { return rigid_; }
+
+ private:
+  SparseRows rows_of(const std::vector<int>& coordinates) const;
+
+  std::vector<int> rigid_;
+  Eigen::SparseMatrix<double> jacobian_;  ///< a column a coordinate, also of elastic ones: zero
+};
 
 /// A position near by that is no special one: some way along a free motion of no meaning, with the
 /// constraints closed by rigid motion. The state itself where that fails.

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/base/dense_solvers.hpp"
 #include "core/base/eager_matrices.hpp"
 #include "core/base/find_named.hpp"
 #include "core/model/body_energy.hpp"
@@ -36,13 +36,6 @@ std::string quoted(const std::vector<std::string>& names) {
 /// Rows of the motions of a body's frame.
 auto rows_of(const BodyModel& body, const Eigen::MatrixXd& motions) {
   return motions.middleRows(body.frame.offset, body.frame.size());
-}
-
-/// Columns: an orthonormal basis of those combinations of motions that leave rows at rest.
-Eigen::MatrixXd at_rest(const Eigen::MatrixXd& motions, const Eigen::MatrixXd& rows) {
-  if (rows.rows() == 0 || motions.cols() == 0) return motions;
-  if (rows.lpNorm<Eigen::Infinity>() <= visible) return motions;
-  return motions * PivotedQr(rows.transpose(), visible).normal_space();
 }
 
 /// The state of the trajectory with the fewest free motions: no dead centre.
@@ -75,26 +68,41 @@ class IdleFreedoms {
     state_.v.setZero();
     state_.a.setZero();
     state_.lambda.setZero();
-    const Eigen::MatrixXd free = free_motions(model_.mechanism, state_);
+    motions_.emplace(model_.mechanism, state_);
+    free_ = motions_->some(motions_->rigid());
     if (floats_and_moves()) return {};
-    const Eigen::MatrixXd idle = idle_motions(free, true);
-    if (idle.cols() > 0) return {describe(idle)};
+    find_forced();
+    const std::vector<int> idle = idle_coordinates(true);
+    if (motions_->count(idle) > 0) return {describe(idle)};
     if (drive_rows(model_).empty()) return {};
-    const Eigen::MatrixXd hanging = idle_motions(free, false);
-    if (hanging.cols() == 0) return {};
+    const std::vector<int> hanging = idle_coordinates(false);
+    if (motions_->count(hanging) == 0) return {};
     return {describe_hanging(hanging)};
   }
 
  private:
-  /// Free motions that move only bodies on which nothing acts.
-  Eigen::MatrixXd idle_motions(const Eigen::MatrixXd& free, bool weight_counts) {
-    Eigen::MatrixXd idle = free;
-    for (const BodyModel& body : model_.bodies) {
-      if (is_acted_on(body, free, weight_counts) || !is_grounded(body)) {
-        idle = at_rest(idle, rows_of(body, idle));
-      }
+  /// Those of the bodies on which nothing acts, and whose spin is not harmless.
+  std::vector<int> idle_coordinates(bool weight_counts) {
+    std::vector<bool> is_idle;
+    for (std::size_t i = 0; i < model_.bodies.size(); ++i) {
+      const BodyModel& body = model_.bodies[i];
+      is_idle.push_back(moves_freely(body) && !is_acted_on(i, weight_counts) && is_grounded(body));
     }
-    return without_harmless_spins(std::move(idle));
+    for (std::size_t i = 0; i < is_idle.size(); ++i) {
+      if (is_idle[i] && spins_harmlessly(model_.bodies[i], is_idle)) is_idle[i] = false;
+    }
+    return coordinates_of(is_idle, {});
+  }
+
+  /// @param name  of the body that is meant; empty: all
+  std::vector<int> coordinates_of(const std::vector<bool>& bodies, const std::string& name) const {
+    std::vector<int> coordinates;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      const BodyModel& body = model_.bodies[i];
+      if (!bodies[i] || (!name.empty() && body.name != name)) continue;
+      for (int k = 0; k < body.frame.size(); ++k) coordinates.push_back(body.frame.offset + k);
+    }
+    return coordinates;
   }
 
   /// Frequencies and masses need no motion.
@@ -138,25 +146,28 @@ class IdleFreedoms {
     return false;
   }
 
-  bool is_acted_on(const BodyModel& body, const Eigen::MatrixXd& free, bool weight_counts) {
-    if (rows_of(body, free).lpNorm<Eigen::Infinity>() <= visible) return false;
-    return has_given_velocity(scene_body(body), design_) ||
-           (weight_counts && has_weight(body, free)) || has_force(body, free);
+  bool moves_freely(const BodyModel& body) const {
+    return rows_of(body, free_).lpNorm<Eigen::Infinity>() > visible;
   }
 
-  bool does_work(const Eigen::VectorXd& force, const BodyModel& body,
-                 const Eigen::MatrixXd& free) const {
+  bool is_acted_on(std::size_t i, bool weight_counts) const {
+    const BodyModel& body = model_.bodies[i];
+    return is_forced_[i] || has_given_velocity(scene_body(body), design_) ||
+           (weight_counts && has_weight(body));
+  }
+
+  bool does_work(const Eigen::VectorXd& force, const BodyModel& body) const {
     const auto part =
         force.segment(body.frame.offset, body.frame.size())
             .cwiseProduct(model_.mechanism.scale.segment(body.frame.offset, body.frame.size()))
             .eval();
     if (part.isZero(0.0)) return false;
-    return (rows_of(body, free).transpose() * part).lpNorm<Eigen::Infinity>() >
+    return (rows_of(body, free_).transpose() * part).lpNorm<Eigen::Infinity>() >
            visible * part.lpNorm<Eigen::Infinity>();
   }
 
   /// Its weight is what is left of the residual of a body at rest.
-  bool has_weight(const BodyModel& body, const Eigen::MatrixXd& free) {
+  bool has_weight(const BodyModel& body) const {
     if (model_.gravity.isZero(0.0)) return false;
     Eigen::VectorXd force = Eigen::VectorXd::Zero(model_.mechanism.system->size());
     Eigen::VectorXd q, v;
@@ -164,50 +175,49 @@ class IdleFreedoms {
     v.setZero(state_.q.size());
     add_energy_gradient(body, model_.gravity, state_, {.weight = 1.0}, q, v);
     force.head(q.size()) = q;
-    return does_work(force, body, free);
+    return does_work(force, body);
   }
 
-  /// Of loads and force elements, at any time and with any motion; joints exert none with λ = 0.
-  bool has_force(const BodyModel& body, const Eigen::MatrixXd& free) {
+  /// On which loads and force elements do work, with any motion and at any time; joints exert none
+  /// with λ = 0.
+  void find_forced() {
+    is_forced_.assign(model_.bodies.size(), false);
     const std::vector<Term*> terms = terms_besides_bodies(model_).acting;
     State state = state_;
+    state.v = model_.mechanism.scale.cwiseProduct(
+        free_ * Eigen::VectorXd::LinSpaced(free_.cols(), 1.0, 1.7));
+    add_forced(terms, state);
+    state.v.setZero();
     const double end = run_.problem.simulation.end_time;  // of which the analysis may be a part
     for (int i = 0; i <= instants; ++i) {
       state.time = end * i / instants;
-      if (does_any_work(terms, state, body, free)) return true;
+      add_forced(terms, state);
     }
-    state.v = model_.mechanism.scale.cwiseProduct(
-        free * Eigen::VectorXd::LinSpaced(free.cols(), 1.0, 1.7));
-    return does_any_work(terms, state, body, free);
   }
 
-  bool does_any_work(const std::vector<Term*>& terms, const State& state, const BodyModel& body,
-                     const Eigen::MatrixXd& free) const {
+  void add_forced(const std::vector<Term*>& terms, const State& state) {
+    std::vector<std::size_t> open;
+    for (std::size_t i = 0; i < is_forced_.size(); ++i) {
+      if (!is_forced_[i] && moves_freely(model_.bodies[i])) open.push_back(i);
+    }
+    Eigen::VectorXd force(model_.mechanism.system->size());
     for (Term* term : terms) {
-      Eigen::VectorXd force = Eigen::VectorXd::Zero(model_.mechanism.system->size());
+      if (open.empty()) return;
+      force.setZero();
       term->add_residual(state, ConstraintLevel::position, force);
-      if (does_work(force, body, free)) return true;
+      std::erase_if(open, [&](std::size_t i) {
+        is_forced_[i] = does_work(force, model_.bodies[i]);
+        return is_forced_[i];
+      });
     }
-    return false;
   }
 
-  /// Where the only body that moves spins about an axis through its centre of mass.
-  Eigen::MatrixXd without_harmless_spins(Eigen::MatrixXd idle) const {
-    for (const BodyModel& body : model_.bodies) {
-      const Eigen::MatrixXd alone = at_rest(idle, rows_of_others(body, idle));
-      if (alone.cols() != 1 || moves_centre(body, alone)) continue;
-      if (!is_held_by_points(body.name) && !moves(body)) continue;
-      idle = at_rest(idle, rows_of(body, idle));
-    }
-    return idle;
-  }
-
-  Eigen::MatrixXd rows_of_others(const BodyModel& body, const Eigen::MatrixXd& motions) const {
-    Eigen::MatrixXd rows = motions;
-    for (const BodyModel* part : model_.parts(body.name)) {
-      rows.middleRows(part->frame.offset, part->frame.size()).setZero();
-    }
-    return rows;
+  /// Whether it is the only body that moves, about an axis through its centre of mass.
+  bool spins_harmlessly(const BodyModel& body, const std::vector<bool>& is_idle) const {
+    const std::vector<int> coordinates = coordinates_of(is_idle, body.name);
+    if (motions_->count(coordinates) != 1) return false;
+    return !moves_centre(body, motions_->some(coordinates)) &&
+           (is_held_by_points(body.name) || moves(body));
   }
 
   /// The kinetic energy of the motion that the mass would have in its centre.
@@ -235,8 +245,9 @@ class IdleFreedoms {
     return count >= 2;
   }
 
-  /// The bodies that some of these motions move.
-  std::vector<std::string> names_of(const Eigen::MatrixXd& motions) const {
+  /// The bodies that move while all other coordinates are held.
+  std::vector<std::string> names_of(const std::vector<int>& coordinates) const {
+    const Eigen::MatrixXd motions = motions_->some(coordinates);
     std::vector<std::string> names;
     for (const BodyModel& body : model_.bodies) {
       if (rows_of(body, motions).lpNorm<Eigen::Infinity>() <= visible) continue;
@@ -245,12 +256,13 @@ class IdleFreedoms {
     return names;
   }
 
-  static std::string count_text(const Eigen::MatrixXd& motions) {
-    return motions.cols() == 1 ? "one free motion" : fmt::format("{} free motions", motions.cols());
+  std::string count_text(const std::vector<int>& coordinates) const {
+    const Eigen::Index count = motions_->count(coordinates);
+    return count == 1 ? "one free motion" : fmt::format("{} free motions", count);
   }
 
   /// A payload that swings is meant, a linkage that lacks a joint is not.
-  Doubt describe_hanging(const Eigen::MatrixXd& hanging) const {
+  Doubt describe_hanging(const std::vector<int>& hanging) const {
     const std::vector<std::string> names = names_of(hanging);
     return {fmt::format("beside the drives {} can move freely ({}), with nothing but weight that "
                         "acts on {}. Is a joint missing?",
@@ -258,7 +270,7 @@ class IdleFreedoms {
             false, concerned(names), names};
   }
 
-  Doubt describe(const Eigen::MatrixXd& idle) const {
+  Doubt describe(const std::vector<int>& idle) const {
     const std::vector<std::string> names = names_of(idle);
     const bool is_moved =
         std::any_of(model_.bodies.begin(), model_.bodies.end(), [&](const BodyModel& body) {
@@ -309,6 +321,9 @@ class IdleFreedoms {
   const Model& model_;
   std::vector<double> design_;
   State state_;
+  std::optional<FreeMotions> motions_;  ///< there
+  Eigen::MatrixXd free_;                ///< some of the whole mechanism
+  std::vector<bool> is_forced_;         ///< one a body
   std::set<std::string> grounded_ = grounded_bodies(run_.problem.scene);
 };
 

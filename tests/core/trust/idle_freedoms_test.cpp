@@ -2,9 +2,11 @@
 
 #include "core/trust/idle_freedoms.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/scene/problem_reader.hpp"
 #include "core/trust/misaligned_joints.hpp"
 #include "core/trust/proportions.hpp"
 #include "tests/core/trust/crank_rocker.hpp"
@@ -82,6 +84,38 @@ TEST(IdleFreedoms, AreNotWhereSomethingActs) {
         IsEmpty())
         << override_text;
   }
+}
+
+/// Links that hang on a driven crank, so many that a basis of their motions would take longer than to
+/// simulate them: each is free to turn.
+TEST(IdleFreedoms, OfALongChainAreCounted) {
+  constexpr int links = 120;
+  std::string bodies = R"("crank": {"type": "rigid", "at": [0, 0, 0], "mass": 1,
+                                    "inertia": [0.1, 0.1, 0.1, 0, 0, 0]})",
+              joints = R"("A": {"type": "revolute", "bodies": ["ground", "crank"], "at": [0, 0, 0],
+                                "drive": {"type": "constant-speed", "speed": 1}})",
+              last = "crank";
+  for (int i = 0; i < links; ++i) {
+    bodies += fmt::format(R"(, "b{}": {{"type": "rigid", "at": [{}, 0, 0], "mass": 1,
+                                        "inertia": [0.1, 0.1, 0.1, 0, 0, 0]}})",
+                          i, i + 1.5);
+    joints += fmt::format(
+        R"(, "j{0}": {{"type": "revolute", "bodies": ["{1}", "b{0}"], "at": [{2}, 0, 0]}})", i,
+        last, i + 1);
+    last = fmt::format("b{}", i);
+  }
+  const ProblemFile problem =
+      read_problem_text(
+          fmt::format(
+              R"({{"scene": {{"gravity": [0, -9.81, 0], "bodies": {{{}}}, "joints": {{{}}}}},
+                       "simulation": {{"end_time": 2e-3, "step": 1e-3}}, "responses": {{}}}})",
+              bodies, joints),
+          "chain.json")
+          .complete();
+  const std::vector<Doubt> doubts = doubts_of(problem, doubt_idle_freedoms);
+  ASSERT_THAT(doubts, SizeIs(1));
+  EXPECT_THAT(doubts[0].text, HasSubstr("(120 free motions)"));
+  EXPECT_THAT(doubts[0].bodies, SizeIs(links));
 }
 
 TEST(IdleFreedoms, AreNotInTheProblemsOfTheHouse) {
