@@ -16,6 +16,7 @@
 #include "core/integration/repetition.hpp"
 #include "core/integration/stacked_states.hpp"
 #include "core/integration/step_messages.hpp"
+#include "core/start/equilibrium.hpp"
 
 namespace pleuel {
 
@@ -133,7 +134,7 @@ class PeriodicSearch {
   PeriodicStart found(const Attempt& attempt) const {
     const double growth = map_->growth();
     if (growth > unstable) {
-      throw SimulationError(
+      throw UnstableEquilibrium(
           fmt::format("/simulation/initial_state: the motion that repeats itself after {:.6g} s is "
                       "unstable: disturbances grow by {:.2g} % in each period, so that no machine "
                       "would run so",

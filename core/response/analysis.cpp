@@ -57,6 +57,8 @@ void choose_modes(bool is_damped, Analysis& analysis) {
     try {
       analysis.mechanism_modes[i] = find_mode(*mechanism, response.mode()->choice);
     } catch (const InputError& error) {
+      // Whether something vibrates changes with the design.
+      if (is_damped) throw SimulationError(error.what());
       refuse_response(response.name, error.what());
     }
   }

@@ -202,8 +202,12 @@ std::vector<JointHold> LateralMember::holds() const {
 
 void LateralMember::hold_from_outside(std::vector<LateralSupport>& supports) const {
   const HeldPlaces* held = counts_outside_ ? model_.holds.outside(name_) : nullptr;
-  if (held == nullptr || !held->displacements[across(plane_).along]) return;
-  const auto hold = [](LateralSupport& at) { at.deflection = at.twist = true; };
+  if (held == nullptr) return;
+  const bool holds_deflection = held->displacements[across(plane_).along];
+  const auto hold = [&](LateralSupport& at) {
+    at.deflection = at.deflection || holds_deflection;
+    at.twist = true;
+  };
   for (const double at : held->at) {
     const ElementPlace place = find_place(beam_, at);
     hold(supports[static_cast<std::size_t>(place.element + (place.xi < 0.5 ? 0 : 1))]);

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/base/dense_solvers.hpp"
 #include "core/base/eager_matrices.hpp"
 #include "core/integration/step_differentiation.hpp"
+#include "core/linear/axial_strains.hpp"
 #include "core/linear/elastic_stability.hpp"
 #include "core/linear/free_deformations.hpp"
 
@@ -13,81 +15,154 @@ namespace pleuel {
 
 namespace {
 
-constexpr Eigen::Index most_disturbances = 8;
+/// Of each kind: lowest in frequency, and those that loads soften most.
+constexpr Eigen::Index modes_of_a_kind = 4;
+/// So often in a motion disturbances that have not grown begin anew.
+constexpr int beginnings = 16;
 constexpr double followed_growth = 1e6;
+/// What turns or moves bodies by so many times as much as it deforms them is no matter of elasticity.
+constexpr double rigid_ratio = 10.0;
 
-/// Disturbances of elastic coordinates, one a column, and how large they are.
+/// Disturbances of a mechanism, one a column, and how large they are.
 class Disturbances {
  public:
-  Disturbances(const Mechanism& mechanism, const State& at) : mechanism_(mechanism) {
-    const Eigen::MatrixXd all = elastic_stiffness(mechanism, at);
-    stiffness_ = all(mechanism.elastic, mechanism.elastic);
+  explicit Disturbances(const Mechanism& mechanism)
+      : mechanism_(mechanism), strains_(*mechanism.system) {
+    for (const int i : mechanism.elastic) is_elastic_.push_back(i);
   }
 
-  /// Each displaced along one of the lowest modes, and accelerated as its vibration would be.
-  StateSensitivity at_rest(const State& at) const {
+  /// New ones at a state: each displaced along a mode without velocity, and accelerated as its vibration would
+  /// be.
+  StateSensitivity at_rest(const State& at) {
+    stiffness_ = elastic_stiffness(mechanism_, at);
     const Eigen::MatrixXd z = free_deformations(mechanism_, at);
     const int n = mechanism_.system->coordinates();
     const Eigen::MatrixXd mass = scaled_tangent(mechanism_, at, {.a = 1.0}).topRows(n);
-    const SymmetricModes modes =
-        symmetric_modes(symmetric_part(deformation_stiffness(mechanism_, at, z)),
-                        symmetric_part(z.transpose() * mass * z));
-    const Eigen::Index count = std::min(most_disturbances, modes.vectors.cols());
-    StateSensitivity start;
-    start.q = mechanism_.scale.asDiagonal() * (z * modes.vectors.leftCols(count));
-    const Eigen::VectorXd size = sizes(start).cwiseMax(1e-300);
-    start.q = start.q * size.cwiseInverse().asDiagonal();
-    start.v = Eigen::MatrixXd::Zero(n, count);
-    start.a = start.q * (-modes.values.head(count)).asDiagonal();
-    start.w = start.a;
-    start.lambda = Eigen::MatrixXd::Zero(mechanism_.system->multipliers(), count);
-    return start;
+    const Eigen::MatrixXd loaded = symmetric_part(deformation_stiffness(mechanism_, at, z)),
+                          inertia = symmetric_part(z.transpose() * mass * z),
+                          unloaded = symmetric_part(z.transpose() * stiffness_ * z);
+    Eigen::MatrixXd shapes = lowest(loaded, inertia);
+    if (Cholesky(unloaded).is_positive_definite()) {
+      const Eigen::MatrixXd soft = lowest(loaded, unloaded);
+      Eigen::MatrixXd both(z.cols(), shapes.cols() + soft.cols());
+      both << shapes, soft;
+      shapes = both;
+    }
+    return displaced(at, z, shapes, loaded, inertia);
   }
 
-  Eigen::VectorXd sizes(const StateSensitivity& disturbance) const {
-    const Eigen::MatrixXd scaled = scaled_elastic(disturbance);
-    const Eigen::MatrixXd forces = stiffness_ * scaled;
-    Eigen::VectorXd energies(scaled.cols());
-    for (Eigen::Index i = 0; i < scaled.cols(); ++i) energies(i) = scaled.col(i).dot(forces.col(i));
+  /// The root of the elastic energy in each, of springs, too. Where members are bent, bending stretches them
+  /// (axial_strains.hpp).
+  Eigen::VectorXd sizes(const State& at, const StateSensitivity& disturbance) const {
+    std::vector<Eigen::Triplet<double>> entries;
+    strains_.add_coupling(at.q, entries);
+    Eigen::SparseMatrix<double> coupling(at.q.size(), at.q.size());
+    coupling.setFromTriplets(entries.begin(), entries.end());
+    const Eigen::MatrixXd x = mechanism_.scale.cwiseInverse().asDiagonal() * disturbance.q;
+    const Eigen::MatrixXd forces = stiffness_ * x;
+    Eigen::VectorXd energies(x.cols());
+    for (Eigen::Index i = 0; i < x.cols(); ++i) {
+      const Eigen::VectorXd q = disturbance.q.col(i);
+      energies(i) = x.col(i).dot(forces.col(i)) + q.dot(coupling * q);
+    }
     return energies.cwiseMax(0.0).cwiseSqrt();
+  }
+
+  bool is_rigid(const StateSensitivity& disturbance, Eigen::Index column) const {
+    const Eigen::VectorXd x =
+        mechanism_.scale.cwiseInverse().asDiagonal() * disturbance.q.col(column);
+    Eigen::VectorXd frames = x;
+    frames(is_elastic_).setZero();
+    const double deformed = Eigen::VectorXd(x(is_elastic_)).lpNorm<Eigen::Infinity>();
+    return frames.lpNorm<Eigen::Infinity>() > rigid_ratio * deformed;
   }
 
   /// What one moves most.
   std::string owner(const StateSensitivity& disturbance, Eigen::Index column) const {
+    const Eigen::VectorXd x =
+        mechanism_.scale.cwiseInverse().asDiagonal() * disturbance.q.col(column);
     Eigen::Index largest = 0;
-    scaled_elastic(disturbance).col(column).cwiseAbs().maxCoeff(&largest);
-    const int coordinate = mechanism_.elastic[largest];
+    Eigen::VectorXd(x(is_elastic_)).cwiseAbs().maxCoeff(&largest);
+    const int coordinate = is_elastic_[static_cast<std::size_t>(largest)];
     const auto& names = mechanism_.equation_names;
     return coordinate < std::ssize(names) ? names[coordinate] : "a member";
   }
 
  private:
-  Eigen::MatrixXd scaled_elastic(const StateSensitivity& disturbance) const {
-    const Eigen::VectorXd scale = mechanism_.scale(mechanism_.elastic);
-    return scale.cwiseInverse().asDiagonal() * disturbance.q(mechanism_.elastic, Eigen::all).eval();
+  static Eigen::MatrixXd lowest(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& beside) {
+    const SymmetricModes modes = symmetric_modes(stiffness, beside);
+    return modes.vectors.leftCols(std::min(modes_of_a_kind, modes.vectors.cols()));
+  }
+
+  /// Of unit size; accelerations by the quotient of stiffness and inertia of each shape.
+  StateSensitivity displaced(const State& at, const Eigen::MatrixXd& z,
+                             const Eigen::MatrixXd& shapes, const Eigen::MatrixXd& loaded,
+                             const Eigen::MatrixXd& inertia) const {
+    StateSensitivity start;
+    start.q = mechanism_.scale.asDiagonal() * (z * shapes);
+    const Eigen::VectorXd size = sizes(at, start).cwiseMax(1e-300);
+    start.q = start.q * size.cwiseInverse().asDiagonal();
+    Eigen::VectorXd squares(shapes.cols());
+    for (Eigen::Index i = 0; i < shapes.cols(); ++i) {
+      const Eigen::VectorXd shape = shapes.col(i);
+      squares(i) = shape.dot(loaded * shape) / shape.dot(inertia * shape);
+    }
+    start.a = start.q * (-squares).asDiagonal();
+    start.w = start.a;
+    start.v = Eigen::MatrixXd::Zero(start.q.rows(), start.q.cols());
+    start.lambda = Eigen::MatrixXd::Zero(mechanism_.system->multipliers(), start.q.cols());
+    return start;
   }
 
   const Mechanism& mechanism_;
-  Eigen::MatrixXd stiffness_;  ///< of elastic coordinates relative to their scales
+  AxialStrains strains_;
+  std::vector<int> is_elastic_;
+  Eigen::MatrixXd
+      stiffness_;  ///< of coordinates relative to their scales, where the last ones began
 };
+
+/// Those of the old ones that have grown, and new ones in place of the others.
+StateSensitivity renewed(const StateSensitivity& old, const Eigen::VectorXd& sizes,
+                         StateSensitivity fresh, std::vector<double>& begun, double now) {
+  const Eigen::Index count = std::min<Eigen::Index>(old.q.cols(), fresh.q.cols());
+  begun.resize(static_cast<std::size_t>(fresh.q.cols()), now);
+  for (Eigen::Index i = 0; i < fresh.q.cols(); ++i) {
+    if (i >= count || sizes(i) <= 1.0) {
+      begun[static_cast<std::size_t>(i)] = now;
+      continue;
+    }
+    fresh.q.col(i) = old.q.col(i);
+    fresh.v.col(i) = old.v.col(i);
+    fresh.a.col(i) = old.a.col(i);
+    fresh.w.col(i) = old.w.col(i);
+    fresh.lambda.col(i) = old.lambda.col(i);
+  }
+  return fresh;
+}
 
 }  // namespace
 
-DisturbanceGrowth disturbance_growth(const Mechanism& mechanism, const Trajectory& trajectory,
-                                     int from) {
+DisturbanceGrowth disturbance_growth(const Mechanism& mechanism, const Trajectory& trajectory) {
   State at;
-  trajectory.states->load(from, at);
-  const Disturbances disturbances(mechanism, at);
+  trajectory.states->load(0, at);
+  Disturbances disturbances(mechanism);
   StepDifferentiation motion(mechanism, trajectory, DerivativesOf::old_state);
-  motion.begin(disturbances.at_rest(at), from);
+  motion.begin(disturbances.at_rest(at));
+  std::vector<double> begun(static_cast<std::size_t>(motion.sensitivity().q.cols()), at.time);
+  const int stretch = std::max(1, trajectory.steps() / beginnings);
   DisturbanceGrowth growth{0.0, at.time, at.time, ""};
   while (growth.factor < followed_growth && motion.advance()) {
+    const StateSensitivity& now = motion.sensitivity();
+    const Eigen::VectorXd sizes = disturbances.sizes(motion.state(), now);
     Eigen::Index column = 0;
-    const Eigen::VectorXd sizes = disturbances.sizes(motion.sensitivity());
-    if (sizes.size() == 0 || !(sizes.maxCoeff(&column) > growth.factor)) continue;
-    growth.factor = sizes(column);
-    growth.largest = motion.state().time;
-    growth.where = disturbances.owner(motion.sensitivity(), column);
+    if (sizes.size() > 0 && sizes.maxCoeff(&column) > growth.factor &&
+        !disturbances.is_rigid(now, column)) {
+      growth = {sizes(column), begun[static_cast<std::size_t>(column)], motion.state().time,
+                disturbances.owner(now, column)};
+    }
+    if (motion.step() % stretch != 0 || motion.step() == trajectory.steps()) continue;
+    const State here = motion.state();
+    motion.begin(renewed(now, sizes, disturbances.at_rest(here), begun, here.time), motion.step());
   }
   return growth;
 }

@@ -81,29 +81,24 @@ class PressedBeams {
     sums_.push_back(sum);
   }
 
-  /// Instants at which beams are pressed most, each of them or all together, enough to buckle, and
-  /// the first at which they are pressed nearly as much.
+  /// Instants at which beams are pressed most, each of them and all together.
   std::set<int> instants() const {
-    std::set<int> instants;
-    for (const PressedBeam& beam : beams_) {
-      const double share = beam.member.full_length() / length_;
-      if (*std::ranges::max_element(beam.shares) > harmless_ * share * share) {
-        add_peak(beam.shares, instants);
-      }
-    }
-    if (!instants.empty()) add_peak(sums_, instants);
+    std::set<int> instants{peak(sums_)};
+    for (const PressedBeam& beam : beams_) instants.insert(peak(beam.shares));
     return instants;
   }
 
+  /// Whether one is pressed enough to buckle, in whatever it is a part of.
+  bool may_buckle() const {
+    return std::ranges::any_of(beams_, [&](const PressedBeam& beam) {
+      const double share = beam.member.full_length() / length_;
+      return beam.shares[peak(beam.shares)] > harmless_ * share * share;
+    });
+  }
+
  private:
-  static void add_peak(const std::vector<double>& shares, std::set<int>& instants) {
-    constexpr double nearly = 0.9;
-    const auto most = std::ranges::max_element(shares);
-    const auto first =
-        std::ranges::find_if(shares, [&](double share) { return share >= nearly * *most; });
-    for (const auto& instant : {first, most}) {
-      instants.insert(static_cast<int>(instant - shares.begin()));
-    }
+  static int peak(const std::vector<double>& shares) {
+    return static_cast<int>(std::ranges::max_element(shares) - shares.begin());
   }
 
   double harmless_;  ///< with springs, which may be as soft as they like: nothing
@@ -112,42 +107,40 @@ class PressedBeams {
   std::vector<double> sums_;  ///< of shares of Euler loads, one an instant
 };
 
-/// When what turns as one, as a shaft with its disks, turned fastest.
-struct FastestRotor {
-  double speed = 0.0;
-  int instant = -1;
-
-  void see(const Mechanism& mechanism, const State& state, int now) {
-    constexpr double same = 1e-6;
-    const double turn = fastest_turn(mechanism, state).omega.norm();
-    if (!(turn > (1.0 + same) * speed) || !is_rotor(mechanism, state)) return;
-    speed = turn;
-    instant = now;
-  }
+/// Instants at which it is worth while to look: of the largest presses and of the fastest turn.
+struct CriticalInstants {
+  std::set<int> all;
+  bool may_buckle = false;  ///< by what presses alone
 };
 
-/// Instants at which it is worth while to look.
-std::set<int> critical_instants(const Scene& scene, const Analysis& analysis) {
+CriticalInstants critical_instants(const Scene& scene, const Analysis& analysis) {
   PressedBeams beams(scene, analysis.model);
   if (beams.is_empty()) return {};
-  FastestRotor rotor;
+  double fastest = 0.0;
+  int when = -1;
   State state;
   for (int i = 0; i < int_size(analysis.trajectory.time); ++i) {
+    constexpr double more = 1.0 + 1e-6;
     analysis.trajectory.states->load(i, state);
     beams.see(state);
-    rotor.see(analysis.model.mechanism, state, i);
+    const double speed = fastest_turn(analysis.model.mechanism, state).omega.norm();
+    if (speed <= more * fastest) continue;
+    fastest = speed;
+    when = i;
   }
-  std::set<int> instants = beams.instants();
-  if (rotor.instant >= 0) instants.insert(rotor.instant);
-  return instants;
+  CriticalInstants found{beams.instants(), beams.may_buckle()};
+  if (when >= 0) found.all.insert(when);
+  return found;
+}
+
+/// Whether the file says that something outside of the mechanism holds a body.
+bool is_held(const Body& body) {
+  const auto* beam = std::get_if<BeamBody>(&body.shape);
+  return beam != nullptr && beam->held;
 }
 
 /// Whether bodies move in space, beams have their geometric stiffening, and nothing is held from outside.
 bool shows_buckling(const Scene& scene, const Model& model) {
-  const auto is_held = [](const Body& body) {
-    const auto* beam = std::get_if<BeamBody>(&body.shape);
-    return beam != nullptr && beam->held;
-  };
   const auto shows_it = [](const BodyModel& body) {
     const bool is_elastic_beam = body.is_beam() && body.is_elastic;
     return body.frame.rotation != RotationCoordinates::angle &&
@@ -204,17 +197,20 @@ std::string times_text(double factor) {
 }
 
 Doubt grown(const DisturbanceGrowth& growth, const ElasticStability& frozen) {
-  return {fmt::format("From t = {:.4g} s to {:.4g} s a small disturbance of {} grows {}: it {}. "
-                      "The motion itself may not show it.{}",
-                      growth.begin, growth.largest, growth.where, times_text(growth.factor),
-                      frozen.is_stable ? "flutters" : frozen.how, remedy),
+  const std::string how =
+      frozen.is_stable
+          ? "the motion or what acts feeds it (flutter, whirl, or parametric resonance)"
+          : "it " + frozen.how;
+  return {fmt::format("From t = {:.4g} s to {:.4g} s a small disturbance of {} grows {}: {}. The "
+                      "motion itself may not show it. Make it stiffer, damp or hold it.",
+                      growth.begin, growth.largest, growth.where, times_text(growth.factor), how),
           true};
 }
 
 Doubt passing(const ElasticStability& frozen, double time, const DisturbanceGrowth& growth) {
   const std::string what = growth.factor > 1.0
                                ? fmt::format("grows {} only", times_text(growth.factor))
-                               : "does not grow";
+                               : "has no time to grow";
   return {fmt::format("At t = {:.4g} s the mechanism is not in stable equilibrium with its loads: "
                       "{} {}. In this motion a small disturbance {}.",
                       time, frozen.where, frozen.how, what),
@@ -246,32 +242,38 @@ ElasticStability flutter_of(const Mechanism& mechanism, const State& state, doub
   return frozen;
 }
 
+/// The first of some instants at which disturbances may grow in the coordinates of a model.
+std::optional<int> first_doubtful(const std::set<int>& instants, const Analysis& analysis) {
+  State state;
+  for (const int i : instants) {
+    analysis.trajectory.states->load(i, state);
+    if (may_grow(analysis.model.mechanism, state)) return i;
+  }
+  return std::nullopt;
+}
+
 /// Of a mechanism whose model shows buckling.
 std::vector<Doubt> judge_motion(const std::set<int>& instants, const Analysis& analysis) {
   const Mechanism& mechanism = analysis.model.mechanism;
   const Trajectory& trajectory = analysis.trajectory;
-  std::optional<int> first;
+  const std::optional<int> first = first_doubtful(instants, analysis);
+  if (!first) return {};
   ElasticStability frozen;
   State state;
-  double time = 0.0;
   for (const int i : instants) {
     trajectory.states->load(i, state);
-    if (!may_grow(mechanism, state)) continue;
-    if (!first) first = i;
-    if (!frozen.is_stable) continue;
     frozen = elastic_stability(mechanism, state);
-    time = state.time;
+    if (!frozen.is_stable) break;
   }
-  if (!first) return {};
-  const DisturbanceGrowth growth = disturbance_growth(mechanism, trajectory, *first);
+  const DisturbanceGrowth growth = disturbance_growth(mechanism, trajectory);
   if (growth.factor > harmful_growth) return {grown(growth, frozen)};
   if (frozen.is_stable) {
     const double rest = trajectory.time(trajectory.steps()) - trajectory.time(*first);
+    trajectory.states->load(*first, state);
     frozen = flutter_of(mechanism, state, rest, growth);
-    time = state.time;
   }
   if (frozen.is_stable) return {};
-  return {passing(frozen, time, growth)};
+  return {passing(frozen, state.time, growth)};
 }
 
 /// The mechanism in space and with geometric stiffening; what holds its beams from outside holds them.
@@ -293,7 +295,7 @@ std::vector<Doubt> judge_in_space(const TrustedRun& run) {
     const ProblemFile coarse = refined(space, {.step = step});
     try {
       const std::unique_ptr<Analysis> analysis = analyze(coarse, run.x);
-      return judge_motion(critical_instants(space.scene, *analysis), *analysis);
+      return judge_motion(critical_instants(space.scene, *analysis).all, *analysis);
     } catch (const UnstableEquilibrium& error) {
       return {{fmt::format("In space and with geometric stiffening {}.{}", error.what(), remedy),
                true}};
@@ -319,8 +321,15 @@ std::vector<std::string> numbers_of_modes(const Analysis& analysis) {
   return names;
 }
 
-/// Of the start at rest, where the file asks for an equilibrium or for small vibrations about one: the
-/// mode that grows fastest, rigid motions included.
+/// Whether nothing moves, nor begins to.
+bool is_in_equilibrium(const Mechanism& mechanism, const State& state) {
+  constexpr double nothing = 1e-6;  // [1/s²]
+  return state.v.isZero(0.0) &&
+         state.a.cwiseQuotient(mechanism.scale).lpNorm<Eigen::Infinity>() <= nothing;
+}
+
+/// Of the start, where it is an equilibrium and the file asks for one, or for small vibrations about one: the
+/// mode that grows fastest, rigid motions included. Where beams are held from outside, it does not know.
 std::vector<Doubt> judge_start(const TrustedRun& run) {
   const Analysis& analysis = run.analysis;
   const std::vector<std::string> names = numbers_of_modes(analysis);
@@ -328,10 +337,11 @@ std::vector<Doubt> judge_start(const TrustedRun& run) {
   const Model& model = names.empty() ? analysis.model : model_of_modes(analysis);
   const bool is_large = model.mechanism.system->coordinates() > most_judged_coordinates;
   if (is_large || (names.empty() && !is_equilibrium) || !analysis.modes_left_out.empty()) return {};
+  if (std::ranges::any_of(run.problem.scene.bodies, is_held)) return {};
   State state;
   analysis.trajectory.states->load(0, state);
   if (!names.empty()) state = analysis.vibrating->initial.state;
-  if (!state.v.isZero(0.0)) return {};
+  if (!is_in_equilibrium(model.mechanism, state)) return {};
   const auto mode = growing_mode_or_none(model.mechanism, state);
   if (!mode) return {};
   const bool is_flutter = vibrates(*mode);
@@ -352,15 +362,18 @@ std::vector<Doubt> doubt_stability(const TrustedRun& run) {
   const Model& model = run.analysis.model;
   std::vector<Doubt> doubts = judge_start(run);
   if (!doubts.empty() && doubts.front().is_serious) return doubts;
-  const std::set<int> instants = critical_instants(run.problem.scene, run.analysis);
-  if (instants.empty()) return doubts;
-  if (coordinates_in_space(model) > most_judged_coordinates) {
+  const CriticalInstants instants = critical_instants(run.problem.scene, run.analysis);
+  const bool is_large = coordinates_in_space(model) > most_judged_coordinates;
+  const bool is_doubtful =
+      instants.may_buckle || (!is_large && first_doubtful(instants.all, run.analysis));
+  if (!is_doubtful) return doubts;
+  if (is_large) {
     doubts.push_back(
         not_judged(fmt::format("it has more than {} coordinates.", most_judged_coordinates)));
     return doubts;
   }
   const std::vector<Doubt> of_motion = shows_buckling(run.problem.scene, model)
-                                           ? judge_motion(instants, run.analysis)
+                                           ? judge_motion(instants.all, run.analysis)
                                            : judge_in_space(run);
   doubts.insert(doubts.end(), of_motion.begin(), of_motion.end());
   return doubts;

@@ -56,7 +56,7 @@ TEST(DampedMode, OfAMassOnASpringIsTheClosedForm) {
 
 /// Beyond c = 2√(km) = 80 N s/m nothing vibrates: s = −(c ∓ √(c² − 4 k m))/(2m).
 TEST(DampedMode, WithoutVibrationHasARateAndNoRatio) {
-  EXPECT_THROW(oscillator(100.0), InputError);
+  EXPECT_THROW(oscillator(100.0), SimulationError);
 }
 
 /// A cantilever whose damping goes with its stiffness, C = β K: ζ = β ω/2 of each mode, and the first
