@@ -31,8 +31,7 @@ class Disturbances {
     for (const int i : mechanism.elastic) is_elastic_.push_back(i);
   }
 
-  /// New ones at a state: each displaced along a mode without velocity, and accelerated as its vibration would
-  /// be.
+  /// New ones at a state: each displaced along a mode, without velocity.
   StateSensitivity at_rest(const State& at) {
     stiffness_ = elastic_stiffness(mechanism_, at);
     const Eigen::MatrixXd z = free_deformations(mechanism_, at);
@@ -48,7 +47,7 @@ class Disturbances {
       both << shapes, soft;
       shapes = both;
     }
-    return displaced(at, z, shapes, loaded, inertia);
+    return displaced(at, z * shapes);
   }
 
   /// The root of the elastic energy in each, of springs, too. Where members are bent, bending stretches them
@@ -94,22 +93,14 @@ class Disturbances {
     return modes.vectors.leftCols(std::min(modes_of_a_kind, modes.vectors.cols()));
   }
 
-  /// Of unit size; accelerations by the quotient of stiffness and inertia of each shape.
-  StateSensitivity displaced(const State& at, const Eigen::MatrixXd& z,
-                             const Eigen::MatrixXd& shapes, const Eigen::MatrixXd& loaded,
-                             const Eigen::MatrixXd& inertia) const {
+  /// Of unit size. Accelerations follow from the first step: those of modes that it does not resolve
+  /// would be taken for much too long.
+  StateSensitivity displaced(const State& at, const Eigen::MatrixXd& shapes) const {
     StateSensitivity start;
-    start.q = mechanism_.scale.asDiagonal() * (z * shapes);
+    start.q = mechanism_.scale.asDiagonal() * shapes;
     const Eigen::VectorXd size = sizes(at, start).cwiseMax(1e-300);
     start.q = start.q * size.cwiseInverse().asDiagonal();
-    Eigen::VectorXd squares(shapes.cols());
-    for (Eigen::Index i = 0; i < shapes.cols(); ++i) {
-      const Eigen::VectorXd shape = shapes.col(i);
-      squares(i) = shape.dot(loaded * shape) / shape.dot(inertia * shape);
-    }
-    start.a = start.q * (-squares).asDiagonal();
-    start.w = start.a;
-    start.v = Eigen::MatrixXd::Zero(start.q.rows(), start.q.cols());
+    start.v = start.a = start.w = Eigen::MatrixXd::Zero(start.q.rows(), start.q.cols());
     start.lambda = Eigen::MatrixXd::Zero(mechanism_.system->multipliers(), start.q.cols());
     return start;
   }

@@ -239,7 +239,7 @@ TEST(SidewaysBuckling, OfADividedBeamIsThatOfTheWhole) {
     EXPECT_TRUE(doubts(0.7).empty()) << frames;
     EXPECT_EQ(doubts(0.9).size(), 1u) << frames;
     const std::vector<Doubt> beyond = doubts(2.0);
-    ASSERT_EQ(beyond.size(), 1u) << frames;
+    ASSERT_GE(beyond.size(), 1u) << frames;  // in space frames that turn have some of it, too
     EXPECT_NE(beyond[0].text.find("\"arm\" buckles out of the plane"), std::string::npos);
     EXPECT_NE(beyond[0].text.find("the critical load is 0.5"), std::string::npos) << beyond[0].text;
   }
@@ -472,8 +472,11 @@ TEST(SidewaysBuckling, IsNoDangerWhereTheFileSaysThatTheBeamIsHeld) {
     EXPECT_NE(held[0].text.find("Without what holds it"), std::string::npos) << held[0].text;
   }
   const std::vector<Doubt> in_plane = doubts(R"(, "held": {"direction": [0, 1, 0]})");
-  ASSERT_EQ(in_plane.size(), 2u);
-  EXPECT_TRUE(in_plane[0].is_serious) << "held across the other axis";
+  ASSERT_EQ(in_plane.size(), 1u);
+  EXPECT_FALSE(in_plane[0].is_serious) << "what cannot twist does not buckle sideways";
+  const std::vector<Doubt> at_foot = doubts(R"(, "held": {"direction": [0, 1, 0], "at": 0})");
+  ASSERT_EQ(at_foot.size(), 2u);
+  EXPECT_TRUE(at_foot[0].is_serious);
 }
 
 /// A column that is held at its middle out of its plane buckles as a clamped and pinned half there.
