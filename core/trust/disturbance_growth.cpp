@@ -1,7 +1,9 @@
 #include "core/trust/disturbance_growth.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "core/base/dense_solvers.hpp"
@@ -17,8 +19,10 @@ namespace {
 
 /// Of each kind: lowest in frequency, and those that loads soften most.
 constexpr Eigen::Index modes_of_a_kind = 4;
-/// So often in a motion disturbances that have not grown begin anew.
-constexpr int beginnings = 16;
+/// Of a motion: stretches after which disturbances that have not grown begin anew, of each of three groups: those
+/// that begin often see what comes late, those that begin once what grows slowly.
+constexpr int stretches = 16;
+constexpr std::array<int, 3> renewals = {1, 4, 16};
 constexpr double followed_growth = 1e6;
 /// What turns or moves bodies by so many times as much as it deforms them is no matter of elasticity.
 constexpr double rigid_ratio = 10.0;
@@ -112,24 +116,38 @@ class Disturbances {
       stiffness_;  ///< of coordinates relative to their scales, where the last ones began
 };
 
-/// Those of the old ones that have grown, and new ones in place of the others.
-StateSensitivity renewed(const StateSensitivity& old, const Eigen::VectorXd& sizes,
-                         StateSensitivity fresh, std::vector<double>& begun, double now) {
-  const Eigen::Index count = std::min<Eigen::Index>(old.q.cols(), fresh.q.cols());
-  begun.resize(static_cast<std::size_t>(fresh.q.cols()), now);
-  for (Eigen::Index i = 0; i < fresh.q.cols(); ++i) {
-    if (i >= count || sizes(i) <= 1.0) {
-      begun[static_cast<std::size_t>(i)] = now;
-      continue;
-    }
-    fresh.q.col(i) = old.q.col(i);
-    fresh.v.col(i) = old.v.col(i);
-    fresh.a.col(i) = old.a.col(i);
-    fresh.w.col(i) = old.w.col(i);
-    fresh.lambda.col(i) = old.lambda.col(i);
+/// The groups of disturbances while they are propagated.
+struct Groups {
+  Eigen::Index size;          ///< of each
+  std::vector<double> begun;  ///< one a column [s]
+
+  Groups(const StateSensitivity& first, double now)
+      : size(first.q.cols()),
+        begun(renewals.size() * static_cast<std::size_t>(first.q.cols()), now) {}
+
+  StateSensitivity all(const StateSensitivity& one) const {
+    const auto groups = static_cast<Eigen::Index>(renewals.size());
+    return {one.q.replicate(1, groups), one.v.replicate(1, groups), one.a.replicate(1, groups),
+            one.w.replicate(1, groups), one.lambda.replicate(1, groups)};
   }
-  return fresh;
-}
+
+  /// New ones in place of those that have not grown, in the groups whose turn it is.
+  void renew(int stretch, double now, const Eigen::VectorXd& sizes, const StateSensitivity& fresh,
+             StateSensitivity& columns) {
+    for (std::size_t group = 0; group < renewals.size(); ++group) {
+      if (stretch % renewals[group] != 0) continue;
+      for (Eigen::Index i = 0; i < std::min(size, fresh.q.cols()); ++i) {
+        const Eigen::Index column = static_cast<Eigen::Index>(group) * size + i;
+        if (sizes(column) > 1.0) continue;
+        begun[static_cast<std::size_t>(column)] = now;
+        for (const auto part : {&StateSensitivity::q, &StateSensitivity::v, &StateSensitivity::a,
+                                &StateSensitivity::w, &StateSensitivity::lambda}) {
+          (columns.*part).col(column) = (fresh.*part).col(i);
+        }
+      }
+    }
+  }
+};
 
 }  // namespace
 
@@ -137,23 +155,24 @@ DisturbanceGrowth disturbance_growth(const Mechanism& mechanism, const Trajector
   State at;
   trajectory.states->load(0, at);
   Disturbances disturbances(mechanism);
+  const StateSensitivity first = disturbances.at_rest(at);
+  Groups groups(first, at.time);
   StepDifferentiation motion(mechanism, trajectory, DerivativesOf::old_state);
-  motion.begin(disturbances.at_rest(at));
-  std::vector<double> begun(static_cast<std::size_t>(motion.sensitivity().q.cols()), at.time);
-  const int stretch = std::max(1, trajectory.steps() / beginnings);
+  motion.begin(groups.all(first));
+  const int stretch = std::max(1, trajectory.steps() / stretches);
   DisturbanceGrowth growth{0.0, at.time, at.time, ""};
-  while (growth.factor < followed_growth && motion.advance()) {
-    const StateSensitivity& now = motion.sensitivity();
+  while (first.q.cols() > 0 && growth.factor < followed_growth && motion.advance()) {
+    StateSensitivity now = motion.sensitivity();
     const Eigen::VectorXd sizes = disturbances.sizes(motion.state(), now);
     Eigen::Index column = 0;
-    if (sizes.size() > 0 && sizes.maxCoeff(&column) > growth.factor &&
-        !disturbances.is_rigid(now, column)) {
-      growth = {sizes(column), begun[static_cast<std::size_t>(column)], motion.state().time,
+    if (sizes.maxCoeff(&column) > growth.factor && !disturbances.is_rigid(now, column)) {
+      growth = {sizes(column), groups.begun[static_cast<std::size_t>(column)], motion.state().time,
                 disturbances.owner(now, column)};
     }
     if (motion.step() % stretch != 0 || motion.step() == trajectory.steps()) continue;
     const State here = motion.state();
-    motion.begin(renewed(now, sizes, disturbances.at_rest(here), begun, here.time), motion.step());
+    groups.renew(motion.step() / stretch, here.time, sizes, disturbances.at_rest(here), now);
+    motion.begin(std::move(now), motion.step());
   }
   return growth;
 }
