@@ -110,7 +110,7 @@ TEST(Warnings, AreLookedForAsCloselyAsIsAskedFor) {
   for (const auto& [name, response] : usual.at("responses").items()) {
     EXPECT_EQ(response.at("value"), none.at("responses").at(name).at("value")) << name;
     EXPECT_EQ(response.at("value"), all.at("responses").at(name).at("value")) << name;
-    EXPECT_TRUE(none.at("responses").at(name).at("error").is_null()) << name;
+    EXPECT_FALSE(none.at("responses").at(name).contains("error")) << name;
   }
   const ProgramRun both = run_program(
       folder.path(), {"simulate", problem("slider_crank_round"), "--no-checks", "--all-checks"});
