@@ -203,7 +203,7 @@ std::vector<Doubt> doubts_of_shaft(const Shaft& shaft) {
         "loads": {{"press": {{"type": "force", "body": "bar", "at": [1, 0, 0],
                              "direction": [-1, 0, 0], "value": {}}}}}}},
       "effects": {{"spatial_motion": "on", "geometric_stiffening": "on"}},
-      "simulation": {{"end_time": 0.01, "step": 2e-4}},
+      "simulation": {{"end_time": 0.1, "step": 2e-4}},
       "responses": {{"mass": {{"type": "mass"}}}}}})j",
       -shaft.gravity, speed, shaft.damping, shaft.height,
       shaft.disk > 0.0 ? disk(shaft.disk, speed) : "", shaft.disk > 0.0 ? weld : "",
