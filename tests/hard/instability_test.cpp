@@ -37,14 +37,15 @@ PLEUEL_WITH_EACH_FORMULATION(Instability);
 const double bar_frequency = pi * pi * std::sqrt(7e10 * 1e-4 / 12 / 2700);
 
 /// exp(ω P t/4P_E), of first order in P/P_E = 0.3 (Bolotin, The Dynamic Stability of Elastic Systems,
-/// 1964, ch. 1). 1 %: measured 0.3 %. At three times the frequency nothing grows.
+/// 1964, ch. 1). 1 %: measured 0.3 %. At 2.6 times the frequency nothing grows; at 3.1 times it would,
+/// out of the plane, where a pin clamps.
 TEST_P(Instability, OfAStrutInParametricResonanceGrowsAsMathieuSays) {
   const ProblemFile strut = problem("parametric_strut");
   const auto analysis = run(strut);
   EXPECT_NEAR(growth_of(*analysis, 0.4) / (0.25 * 0.3 * bar_frequency), 1.0, 0.01);
   expect_veto(strut, *analysis, "\"strut\"");
   const ProblemFile beside =
-      problem("parametric_strut", {"/scene/loads/press/value/frequency=\"= 3*omega\""});
+      problem("parametric_strut", {"/scene/loads/press/value/frequency=\"= 2.6*omega\""});
   EXPECT_TRUE(doubts_of(beside, *run(beside)).empty());
 }
 

@@ -32,7 +32,7 @@ std::vector<Doubt> doubts_of_column(const std::string& bodies, const std::string
                              "direction": [-1, 0, 0],
                              "value": {{"type": "ramp", "to": {}, "end": 0.05}}}}}}}},
       "effects": {{"spatial_motion": "{}", "geometric_stiffening": "on"}},
-      "simulation": {{"end_time": 0.1, "step": 0.0025}},
+      "simulation": {{"end_time": 0.4, "step": 0.0025}},
       "responses": {{"mass": {{"type": "mass"}}}}}})j",
       bodies, joints, springs, loaded, at, force, spatial_motion);
   return doubts_of(read_scene(text), find);
@@ -296,7 +296,7 @@ TEST(Stability, OfBecksColumnIsLostWhenItsLoadComesLate) {
 }
 
 /// A strut on pins under a force P sin(νt): its deflection follows q̈ + ω² (1 − P/P_E sin νt) q = 0
-/// (Mathieu), which grows for ν = 2ω as exp(ω P/(4 P_E) t) and not for ν = 3ω, while the strut stays
+/// (Mathieu), which grows for ν = 2ω as exp(ω P/(4 P_E) t) and not for ν = 2.6ω, while the strut stays
 /// straight in its own motion (Bolotin, The Dynamic Stability of Elastic Systems, 1964).
 std::vector<Doubt> doubts_of_pulsating(double share, double speed) {
   constexpr double bending = 7e10 * 0.01 * 1e-6 / 12, wave = 9.869604401089358;
@@ -321,7 +321,7 @@ TEST(Stability, OfAStrutIsLostInParametricResonance) {
   const std::vector<Doubt> doubts = doubts_of_pulsating(0.6, 2.0);
   ASSERT_EQ(doubts.size(), 1u);
   EXPECT_TRUE(doubts[0].is_serious) << doubts[0].text;
-  EXPECT_TRUE(doubts_of_pulsating(0.6, 3.0).empty());
+  EXPECT_TRUE(doubts_of_pulsating(0.6, 2.6).empty());
 }
 
 /// Beyond the load of buckling, but for a twentieth of a period only.
@@ -361,7 +361,7 @@ TEST(Stability, OfAPendulumThatIsSaidToBeInEquilibriumIsAsked) {
   const std::vector<Doubt> upright = doubts_of_pendulum(1.0, "quasi-static");
   ASSERT_EQ(upright.size(), 1u);
   EXPECT_TRUE(upright[0].is_serious);
-  EXPECT_NE(upright[0].text.find(fmt::format("exp({:.3g}", std::sqrt(1.5 * 9.81))),
+  EXPECT_NE(upright[0].text.find(fmt::format("exp({:.4g}", std::sqrt(1.5 * 9.81))),
             std::string::npos)
       << upright[0].text;
   EXPECT_TRUE(doubts_of_pendulum(-1.0, "quasi-static").empty());
