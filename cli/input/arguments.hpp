@@ -41,7 +41,7 @@ struct Arguments {
   std::string order = "time";       ///< of runs that are listed: "time" or "name"
   bool wants_all_warnings = false;  ///< those that follow from others, too
   Scrutiny scrutiny = Scrutiny::usual;
-  bool wants_effects = false;       ///< what each effect brings and costs
+  bool wants_effects = false;  ///< what each effect brings and costs
   bool wants_json = false;
   bool wants_vtk = false;          ///< the motion as files for ParaView
   bool leaves_out_report = false;  ///< no report.html
