@@ -145,8 +145,7 @@ bool is_fatigue(const ResponseSettings& response) {
 }
 
 bool has_peaks(const ResponseSettings& response) {
-  const bool is_constant = response.type == ResponseType::mass ||
-                           is_of_modes(response.type) ||
+  const bool is_constant = response.type == ResponseType::mass || is_of_modes(response.type) ||
                            response.type == ResponseType::expression;
   return !is_constant && is_peak(response.over_time);
 }
