@@ -14,16 +14,18 @@ constexpr int most_judged_coordinates = 600;
 /// show it, as it is straight, in a plane, or too short. It is judged in space and with geometric
 /// stiffening, for which a mechanism without them is simulated once more, with twice the steps.
 ///
-/// At an equilibrium that the motion starts from the eigenvalues decide (elastic_stability.hpp). Along a motion
-/// frozen eigenvalues say where to look: where the loads are more than a fifth of those that make the
-/// stiffness singular, at the instants at which beams are pressed most, each of them and all
-/// together, and where all that turns does so alike and fastest. From there on small disturbances are propagated
-/// (disturbance_growth.hpp). Serious where one grows more than tenfold; mentioned where an instant is
-/// not stable, but does not last. Forces that follow, springs, rigid parts and turning damping count
-/// as they are. Not seen is what moments do to a beam that they bend (sideways_buckling.hpp).
+/// At an equilibrium that the motion starts from the eigenvalues decide, rigid motions included. Along
+/// a motion frozen eigenvalues only say whether to look: where the loads are more than a fifth of those that
+/// make the stiffness singular (may_grow()), at the instants at which beams are pressed most, each of
+/// them and all together, and of the fastest turn. Then small disturbances are propagated through all
+/// of it (disturbance_growth.hpp). Serious where one grows more than tenfold; mentioned where an
+/// instant is not stable, but does not last. Forces that follow, springs, rigid parts and turning
+/// damping count as they are. Not seen is what moments do to a beam that they bend
+/// (sideways_buckling.hpp).
 ///
-/// Nothing is looked for below a twentieth of the Euler load of a column as long as all beams together,
-/// unless springs take part; mechanisms of more than most_judged_coordinates are told of.
+/// A mechanism in a plane is judged in space where it may grow in the plane, or where a beam is pressed beyond
+/// a twentieth of the Euler load of a column as long as all beams together, or at all beside springs.
+/// Mechanisms of more than most_judged_coordinates are told of.
 std::vector<Doubt> doubt_stability(const TrustedRun& run);
 
 }  // namespace pleuel
