@@ -55,7 +55,8 @@ std::vector<std::size_t> linear_conflict(const LinearLimits& limits, const Eigen
   Eigen::VectorXd wanted = Eigen::VectorXd::Zero(range.size() + 1);
   wanted(range.size()) = -1.0;
   const Eigen::VectorXd y = nonnegative_least_squares(columns, wanted);
-  if ((columns * y - wanted).norm() > round_off) return {};
+  // Rows have unit length: with all limits wider by 1/Σy there is a point.
+  if ((columns * y - wanted).norm() > round_off || y.sum() * round_off > 1.0) return {};
   std::set<std::size_t> owners;
   for (Eigen::Index k = 0; k < count; ++k) {
     if (y(k) > 0.0 && all.owners[k] >= 0) owners.insert(all.owners[k]);

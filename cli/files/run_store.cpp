@@ -98,8 +98,8 @@ void RunStore::begin_without_record() const {
 }
 
 void RunStore::check_same_run() const {
-  if (!database_->description("begun") && database_->evaluations() == 0)
-    return;  // killed before it
+  const bool is_described = database_->description("begun").has_value();
+  if (!is_described && database_->evaluations() == 0) return;  // killed before it was
   const auto older = [&](const std::string& name) {
     const auto text = database_->description(name);
     if (!text) throw DatabaseError(fmt::format("the table run has no row {}", name));

@@ -50,8 +50,8 @@ void AxialStrains::add_stress_stiffness(const Eigen::VectorXd& c,
   }
 }
 
-void AxialStrains::add_coupling(const Eigen::VectorXd& q,
-                                std::vector<Eigen::Triplet<double>>& entries) const {
+Eigen::SparseMatrix<double> AxialStrains::coupling(const Eigen::VectorXd& q) const {
+  std::vector<Eigen::Triplet<double>> entries;
   for (const QuadraticStrain& strain : strains_) {
     const Eigen::VectorXd gradient = strain.linear + strain.quadratic * q(strain.coordinates);
     add_matrix(strain.coordinates,
@@ -59,6 +59,9 @@ void AxialStrains::add_coupling(const Eigen::VectorXd& q,
                    (gradient * gradient.transpose() - strain.linear * strain.linear.transpose()),
                entries);
   }
+  Eigen::SparseMatrix<double> sum(q.size(), q.size());
+  sum.setFromTriplets(entries.begin(), entries.end());
+  return sum;
 }
 
 }  // namespace pleuel

@@ -31,7 +31,7 @@ class AxialStrains {
                             std::vector<Eigen::Triplet<double>>& entries) const;
 
   /// Σ κ ((b + Gq)(b + Gq)ᵀ − b bᵀ), n × n: how deflection couples bending with stretching.
-  void add_coupling(const Eigen::VectorXd& q, std::vector<Eigen::Triplet<double>>& entries) const;
+  Eigen::SparseMatrix<double> coupling(const Eigen::VectorXd& q) const;
 
  private:
   std::vector<QuadraticStrain> strains_;

@@ -57,14 +57,6 @@ bool grows(const Mechanism& mechanism, const State& state, const Eigen::MatrixXd
   return grows(symmetric_part(reduced({.a = 1.0})), skew_part(reduced({.v = 1.0})), stiffness);
 }
 
-/// What the largest entry of a deformation belongs to.
-std::string owner(const Mechanism& mechanism, const Eigen::VectorXd& deformation) {
-  Eigen::Index largest = 0;
-  deformation.cwiseAbs().maxCoeff(&largest);
-  return largest < std::ssize(mechanism.equation_names) ? mechanism.equation_names[largest]
-                                                        : "a member";
-}
-
 int count_negative(const Eigen::VectorXcd& eigenvalues) {
   const double limit = eigenvalue_round_off * eigenvalues.cwiseAbs().maxCoeff();
   return static_cast<int>(
@@ -211,7 +203,6 @@ bool changes_with_angle(const Mechanism& mechanism, const State& state,
 ElasticStability turning_stability(const Mechanism& mechanism, const State& state,
                                    const Eigen::MatrixXd* shapes,
                                    const std::vector<int>& fixed = {}) {
-  constexpr double round_off_mass = 1e-12;
   constexpr Eigen::Index more_modes = 20;
   const TurningDeformations all = turning_deformations(mechanism, state, shapes, fixed);
   if (all.shapes.cols() == 0) return {};
@@ -221,8 +212,7 @@ ElasticStability turning_stability(const Mechanism& mechanism, const State& stat
   // Not from those below: light bodies vibrate so fast that their round-off hides slow growth.
   result.negative = count_negative(symmetric_eigenvalues(symmetric).cast<std::complex<double>>());
   if (result.negative == 0) return result;
-  Eigen::MatrixXd mass = all.mass;
-  mass.diagonal().array() += round_off_mass * mass.diagonal().maxCoeff();
+  const Eigen::MatrixXd mass = regular_mass(all.mass);
   const SymmetricModes modes = symmetric_modes(symmetric, mass);
   const Eigen::Index size = modes.vectors.cols();
   const Eigen::Index count = std::min<Eigen::Index>(size, 2 * result.negative + more_modes);
@@ -234,7 +224,7 @@ ElasticStability turning_stability(const Mechanism& mechanism, const State& stat
   result.is_stable = !grows(m, c, k) || (is_rotor(mechanism, state) &&
                                          changes_with_angle(mechanism, state, all.shapes, low));
   if (result.is_stable) return result;
-  result.where = owner(mechanism, all.shapes * modes.vectors.col(0));
+  result.where = owner_of(mechanism, all.shapes * modes.vectors.col(0));
   if (!grows(m, skew_part(c), symmetric_part(k))) {
     result.how = "whirls, as its own damping turns with it";
   }
@@ -261,7 +251,7 @@ ElasticStability standing_stability(const Mechanism& mechanism, const State& sta
   result.is_stable =
       result.negative == 0 || (may_be_held && !grows(mechanism, state, z * shapes,
                                                      shapes.transpose() * stiffness * shapes));
-  if (!result.is_stable) result.where = owner(mechanism, z * modes.vectors.col(0));
+  if (!result.is_stable) result.where = owner_of(mechanism, z * modes.vectors.col(0));
   return result;
 }
 
@@ -423,13 +413,8 @@ class MotionAxes {
 
 /// What deflection couples of bending with stretching.
 Eigen::MatrixXd coupling_of_strains(const MechanismState& at, const Eigen::MatrixXd& z) {
-  const Eigen::VectorXd& q = at.state.q;
-  std::vector<Eigen::Triplet<double>> entries;
-  AxialStrains(*at.mechanism.system).add_coupling(q, entries);
-  Eigen::SparseMatrix<double> coupling(q.size(), q.size());
-  coupling.setFromTriplets(entries.begin(), entries.end());
   const Eigen::MatrixXd scaled = at.mechanism.scale.asDiagonal() * z;
-  return scaled.transpose() * (coupling * scaled);
+  return scaled.transpose() * (AxialStrains(*at.mechanism.system).coupling(at.state.q) * scaled);
 }
 
 }  // namespace

@@ -199,4 +199,17 @@ Eigen::MatrixXd free_deformations(const Mechanism& mechanism, const State& state
       phi, motions_without_springs(mechanism, state, rigid_motions(mechanism, phi)));
 }
 
+Eigen::MatrixXd regular_mass(Eigen::MatrixXd mass) {
+  constexpr double round_off = 1e-12;
+  if (mass.size() > 0) mass.diagonal().array() += round_off * mass.diagonal().maxCoeff();
+  return mass;
+}
+
+std::string owner_of(const Mechanism& mechanism, const Eigen::VectorXd& deformation) {
+  Eigen::Index largest = 0;
+  deformation.cwiseAbs().maxCoeff(&largest);
+  return largest < std::ssize(mechanism.equation_names) ? mechanism.equation_names[largest]
+                                                        : "a member";
+}
+
 }  // namespace pleuel

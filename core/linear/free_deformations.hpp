@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -58,5 +59,12 @@ Eigen::MatrixXd free_deformations(const Mechanism& mechanism, const State& state
 /// and multipliers take part.
 Eigen::MatrixXd deformation_stiffness(const Mechanism& mechanism, const State& state,
                                       const Eigen::MatrixXd& deformations);
+
+/// A mass matrix of deformations, of which some may move none: with round-off of its largest entry on the
+/// diagonal it is positive definite.
+Eigen::MatrixXd regular_mass(Eigen::MatrixXd mass);
+
+/// What the largest entry of a deformation belongs to: "the body \"rod\"".
+std::string owner_of(const Mechanism& mechanism, const Eigen::VectorXd& deformation);
 
 }  // namespace pleuel

@@ -19,9 +19,9 @@ constexpr double shift_share = 1e-4;
 constexpr double free_motion = 1e-4;
 
 /// Matrices on the free motions, with unit inertia.
-class FreeMotions {
+class ReducedMotions {
  public:
-  explicit FreeMotions(const Linearization& linearized)
+  explicit ReducedMotions(const Linearization& linearized)
       : linearized_(linearized), n_(linearized.M.rows()) {
     std::vector<Eigen::Index> rows;
     for (int i = 0; i < static_cast<int>(linearized.phi.rows()); ++i) {
@@ -119,7 +119,7 @@ Eigen::VectorXcd gyroscopic_eigenvalues(const Eigen::MatrixXd& flexibility,
 }  // namespace
 
 Eigen::VectorXcd modes_of(const Linearization& linearized) {
-  const FreeMotions motions(linearized);
+  const ReducedMotions motions(linearized);
   if (motions.count() == 0) return {};
   const Eigen::MatrixXd gyroscopic = motions.project(linearized.G),
                         stiffness = motions.project(linearized.K);

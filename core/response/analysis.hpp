@@ -30,7 +30,7 @@ struct Analysis {
   /// The state about which the mechanism vibrates, where its frequencies are asked for.
   std::optional<VibrationState> vibrating;
   /// Natural frequencies of the whole mechanism, where a response asks for one
-  /// (mechanism_modes.hpp).
+  /// (core/linear/modes.hpp).
   Eigen::VectorXd mechanism_frequencies;
   /// Which of them a response asks for, or of the damped modes, one a response; of those that ask for none,
   /// 0.

@@ -31,9 +31,7 @@ constexpr double rigid_ratio = 10.0;
 class Disturbances {
  public:
   explicit Disturbances(const Mechanism& mechanism)
-      : mechanism_(mechanism), strains_(*mechanism.system) {
-    for (const int i : mechanism.elastic) is_elastic_.push_back(i);
-  }
+      : mechanism_(mechanism), strains_(*mechanism.system) {}
 
   /// New ones at a state: each displaced along a mode, without velocity.
   StateSensitivity at_rest(const State& at) {
@@ -42,7 +40,7 @@ class Disturbances {
     const int n = mechanism_.system->coordinates();
     const Eigen::MatrixXd mass = scaled_tangent(mechanism_, at, {.a = 1.0}).topRows(n);
     const Eigen::MatrixXd loaded = symmetric_part(deformation_stiffness(mechanism_, at, z)),
-                          inertia = symmetric_part(z.transpose() * mass * z),
+                          inertia = regular_mass(symmetric_part(z.transpose() * mass * z)),
                           unloaded = symmetric_part(z.transpose() * stiffness_ * z);
     Eigen::MatrixXd shapes = lowest(loaded, inertia);
     if (Cholesky(unloaded).is_positive_definite()) {
@@ -57,10 +55,7 @@ class Disturbances {
   /// The root of the elastic energy in each, of springs, too. Where members are bent, bending stretches them
   /// (axial_strains.hpp).
   Eigen::VectorXd sizes(const State& at, const StateSensitivity& disturbance) const {
-    std::vector<Eigen::Triplet<double>> entries;
-    strains_.add_coupling(at.q, entries);
-    Eigen::SparseMatrix<double> coupling(at.q.size(), at.q.size());
-    coupling.setFromTriplets(entries.begin(), entries.end());
+    const Eigen::SparseMatrix<double> coupling = strains_.coupling(at.q);
     const Eigen::MatrixXd x = mechanism_.scale.cwiseInverse().asDiagonal() * disturbance.q;
     const Eigen::MatrixXd forces = stiffness_ * x;
     Eigen::VectorXd energies(x.cols());
@@ -75,20 +70,18 @@ class Disturbances {
     const Eigen::VectorXd x =
         mechanism_.scale.cwiseInverse().asDiagonal() * disturbance.q.col(column);
     Eigen::VectorXd frames = x;
-    frames(is_elastic_).setZero();
-    const double deformed = Eigen::VectorXd(x(is_elastic_)).lpNorm<Eigen::Infinity>();
+    frames(mechanism_.elastic).setZero();
+    const double deformed = Eigen::VectorXd(x(mechanism_.elastic)).lpNorm<Eigen::Infinity>();
     return frames.lpNorm<Eigen::Infinity>() > rigid_ratio * deformed;
   }
 
-  /// What one moves most.
+  /// What one deforms most.
   std::string owner(const StateSensitivity& disturbance, Eigen::Index column) const {
     const Eigen::VectorXd x =
         mechanism_.scale.cwiseInverse().asDiagonal() * disturbance.q.col(column);
-    Eigen::Index largest = 0;
-    Eigen::VectorXd(x(is_elastic_)).cwiseAbs().maxCoeff(&largest);
-    const int coordinate = is_elastic_[static_cast<std::size_t>(largest)];
-    const auto& names = mechanism_.equation_names;
-    return coordinate < std::ssize(names) ? names[coordinate] : "a member";
+    Eigen::VectorXd deformed = Eigen::VectorXd::Zero(x.size());
+    deformed(mechanism_.elastic) = x(mechanism_.elastic);
+    return owner_of(mechanism_, deformed);
   }
 
  private:
@@ -111,7 +104,6 @@ class Disturbances {
 
   const Mechanism& mechanism_;
   AxialStrains strains_;
-  std::vector<int> is_elastic_;
   Eigen::MatrixXd
       stiffness_;  ///< of coordinates relative to their scales, where the last ones began
 };
@@ -164,10 +156,10 @@ DisturbanceGrowth disturbance_growth(const Mechanism& mechanism, const Trajector
   while (first.q.cols() > 0 && growth.factor < followed_growth && motion.advance()) {
     StateSensitivity now = motion.sensitivity();
     const Eigen::VectorXd sizes = disturbances.sizes(motion.state(), now);
-    Eigen::Index column = 0;
-    if (sizes.maxCoeff(&column) > growth.factor && !disturbances.is_rigid(now, column)) {
-      growth = {sizes(column), groups.begun[static_cast<std::size_t>(column)], motion.state().time,
-                disturbances.owner(now, column)};
+    for (Eigen::Index i = 0; i < sizes.size(); ++i) {
+      if (sizes(i) <= growth.factor || disturbances.is_rigid(now, i)) continue;
+      growth = {sizes(i), groups.begun[static_cast<std::size_t>(i)], motion.state().time,
+                disturbances.owner(now, i)};
     }
     if (motion.step() % stretch != 0 || motion.step() == trajectory.steps()) continue;
     const State here = motion.state();

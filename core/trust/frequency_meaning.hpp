@@ -5,9 +5,10 @@
 
 namespace pleuel {
 
-/// Natural frequencies of the whole mechanism that do not say what they seem to: the stress of members that start undeformed though they are loaded or turn, bent members
-/// whose frequencies depend on their body frames, modes out of the plane that cannot be had, and
-/// those that are not high against the speed of the motion.
+/// Natural frequencies of the whole mechanism that do not say what they seem to: the stress of
+/// members that start undeformed though they are loaded or turn, bent members whose frequencies
+/// depend on their body frames, modes out of the plane that cannot be had, and those that are not
+/// high against the speed of the motion.
 std::vector<Doubt> doubt_frequencies(const TrustedRun& run);
 
 }  // namespace pleuel

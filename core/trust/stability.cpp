@@ -253,6 +253,7 @@ std::optional<int> first_doubtful(const std::set<int>& instants, const Analysis&
 }
 
 /// Of a mechanism whose model shows buckling.
+/// @throws SimulationError where the steps have no derivatives
 std::vector<Doubt> judge_motion(const std::set<int>& instants, const Analysis& analysis) {
   const Mechanism& mechanism = analysis.model.mechanism;
   const Trajectory& trajectory = analysis.trajectory;
@@ -306,6 +307,20 @@ std::vector<Doubt> judge_in_space(const TrustedRun& run) {
     }
   }
   return {not_judged("in space and with geometric stiffening it cannot be simulated: " + failure)};
+}
+
+/// Of the motion, as it is or in space.
+std::vector<Doubt> judge_members(const TrustedRun& run, const CriticalInstants& instants) {
+  const Analysis& analysis = run.analysis;
+  if (shows_buckling(run.problem.scene, analysis.model)) {
+    try {
+      return judge_motion(instants.all, analysis);
+    } catch (const SimulationError& error) {
+      return {not_judged(error.what())};
+    }
+  }
+  if (!instants.may_buckle && !first_doubtful(instants.all, analysis)) return {};
+  return judge_in_space(run);
 }
 
 /// Of the mechanism in space.
@@ -363,19 +378,13 @@ std::vector<Doubt> doubt_stability(const TrustedRun& run) {
   std::vector<Doubt> doubts = judge_start(run);
   if (!doubts.empty() && doubts.front().is_serious) return doubts;
   const CriticalInstants instants = critical_instants(run.problem.scene, run.analysis);
-  const bool is_large = coordinates_in_space(model) > most_judged_coordinates;
-  const bool is_doubtful =
-      instants.may_buckle || (!is_large && first_doubtful(instants.all, run.analysis));
-  if (!is_doubtful) return doubts;
-  if (is_large) {
+  if (coordinates_in_space(model) <= most_judged_coordinates) {
+    const std::vector<Doubt> of_motion = judge_members(run, instants);
+    doubts.insert(doubts.end(), of_motion.begin(), of_motion.end());
+  } else if (instants.may_buckle) {
     doubts.push_back(
         not_judged(fmt::format("it has more than {} coordinates.", most_judged_coordinates)));
-    return doubts;
   }
-  const std::vector<Doubt> of_motion = shows_buckling(run.problem.scene, model)
-                                           ? judge_motion(instants.all, run.analysis)
-                                           : judge_in_space(run);
-  doubts.insert(doubts.end(), of_motion.begin(), of_motion.end());
   return doubts;
 }
 

@@ -2,21 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <optional>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/base/error.hpp"
 #include "core/base/number_text.hpp"
 #include "core/response/describe_tie.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/response_parts.hpp"
 #include "core/trust/nested_runs.hpp"
 #include "optimization/broken_limits.hpp"
+#include "optimization/design/linear_limits.hpp"
 #include "optimization/design/margin_problem.hpp"
 #include "optimization/design/meeting_frequencies.hpp"
 #include "optimization/design/number_judgement.hpp"
@@ -25,7 +23,6 @@
 #include "optimization/designs_to_try.hpp"
 #include "optimization/find_optimum.hpp"
 #include "optimization/kkt_audit.hpp"
-#include "optimization/linear_conflict.hpp"
 #include "optimization/prices.hpp"
 #include "optimization/scaling.hpp"
 #include "optimization/verdict.hpp"
@@ -398,47 +395,10 @@ Result judge_design(DesignProblem& design, const SolveOptions& options, const Ob
   return result;
 }
 
-namespace {
-
-/// @throws InputError where linear limits leave no design
-void refuse_linear_conflict(const ProblemFile& file) {
-  std::vector<const ConstraintSettings*> linear;
-  for (const ConstraintSettings& limit : file.constraints) {
-    if (!limit.linear.empty()) linear.push_back(&limit);
-  }
-  if (linear.empty()) return;
-  constexpr double none = std::numeric_limits<double>::infinity();
-  const Eigen::Index count = std::ssize(linear), variables = std::ssize(file.variables);
-  LinearLimits limits{Eigen::MatrixXd::Zero(count, variables), Eigen::VectorXd(count),
-                      Eigen::VectorXd(count)};
-  for (Eigen::Index i = 0; i < count; ++i) {
-    for (const auto& [variable, factor] : linear[i]->linear) limits.rows(i, variable) += factor;
-    limits.lower(i) = linear[i]->lower.value_or(-none);
-    limits.upper(i) = linear[i]->upper.value_or(none);
-  }
-  Eigen::VectorXd lower(variables), upper(variables);
-  for (Eigen::Index k = 0; k < variables; ++k) {
-    lower(k) = file.variables[k].lower;
-    upper(k) = file.variables[k].upper;
-  }
-  std::vector<std::string> names;
-  for (const std::size_t i : linear_conflict(limits, lower, upper)) {
-    names.push_back(linear[i]->name);
-  }
-  if (names.empty()) return;
-  throw InputError(
-      fmt::format("/constraints: no design within the bounds of the variables keeps the linear "
-                  "limit{} \"{}\"{}",
-                  names.size() == 1 ? "" : "s", fmt::join(names, "\", \""),
-                  names.size() == 1 ? "" : " together"));
-}
-
-}  // namespace
-
 Result solve_design(DesignProblem& design, const SolveOptions& options, const Observer& observer,
                     const Notice& notice) {
   const ProblemFile& file = design.file();
-  refuse_linear_conflict(file);
+  require_linear_limits(file);
   const Observer with_setting = with_setting_of(design, observer);
   SearchedDesign searched(design, notice);
   Result result = find_optimum(searched, options, with_setting, notice);

@@ -58,6 +58,11 @@ TEST(LinearConflict, IsThatOfRandomLimits) {
     Eigen::VectorXd closed_upper = upper;
     closed_upper(limits - 1) = -upper.head(limits - 1).sum() - 1e-3;
     EXPECT_FALSE(conflict_of(closed, -free, closed_upper).empty()) << sample;
+    // Limits that touch leave a point; the round-off with which they do is no conflict.
+    for (const double gap : {0.0, 1e-16, 1e-13, 1e-11}) {
+      closed_upper(limits - 1) = -upper.head(limits - 1).sum() - gap;
+      EXPECT_EQ(conflict_of(closed, -free, closed_upper), Indexes{}) << sample << " " << gap;
+    }
   }
 }
 

@@ -253,6 +253,7 @@ struct FollowedColumn {
   double damping = 0.0;  ///< by stiffness [s]
   std::string value = R"({{"type": "ramp", "to": {}, "end": 0.01}})";
   double end_time = 0.4;
+  std::string bodies = "", joints = "", loads = "";  ///< beside it
 };
 
 std::vector<Doubt> doubts_of_followed(const FollowedColumn& column) {
@@ -263,13 +264,14 @@ std::vector<Doubt> doubts_of_followed(const FollowedColumn& column) {
       "materials": {{"m": {{"young": 7e10, "poisson": 0.3, "density": 2700}}}},
       "bodies": {{"c": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "m",
         "section": {{"type": "rectangle", "width": 0.03, "height": 0.01}}, "elements": 8,
-        "damping": {{"stiffness": {}}}}}}},
-      "joints": {{"wall": {{"type": "fixed", "bodies": ["ground", "c"], "at": [0, 0, 0]}}}},
+        "damping": {{"stiffness": {}}}}}{}}},
+      "joints": {{"wall": {{"type": "fixed", "bodies": ["ground", "c"], "at": [0, 0, 0]}}{}}},
       "loads": {{"P": {{"type": "force", "body": "c", "at": [1, 0, 0], "direction": [-1, 0, 0],
-        "follows": true, "value": {}}}}}}},
+        "follows": true, "value": {}}}{}}}}},
     "simulation": {{"end_time": {}, "step": 1e-3}},
     "responses": {{"mass": {{"type": "mass"}}}}}})",
-                                          column.damping, value, column.end_time)),
+                                          column.damping, column.bodies, column.joints, value,
+                                          column.loads, column.end_time)),
                    doubt_stability);
 }
 
@@ -280,6 +282,30 @@ TEST(Stability, OfBecksColumnIsLostByFlutterOnly) {
   ASSERT_EQ(beyond.size(), 1u);
   EXPECT_TRUE(beyond[0].is_serious);
   EXPECT_NE(beyond[0].text.find("flutter"), std::string::npos) << beyond[0].text;
+}
+
+/// Beside it a rigid pendulum that a dead force presses, and a soft spring holds too weakly: it turns away as
+/// exp(√(F/mL) t) = exp(32 t), faster than the column flutters, and is no matter of elasticity.
+TEST(Stability, OfBecksColumnIsLostBesideWhatFallsFaster) {
+  const auto beside_pendulum = [](double press) {
+    return doubts_of_followed(
+        {.press = press,
+         .bodies = R"(, "p": {"type": "rigid", "at": [5, 0.1, 0], "mass": 1,
+                     "inertia": [1e-4, 1e-4, 1e-4, 0, 0, 0]})",
+         .joints = R"(, "pin": {"type": "revolute", "bodies": ["ground", "p"], "at": [5, 0, 0]})",
+         .loads = R"(, "dead": {"type": "force", "body": "p", "at": [5, 0.1, 0],
+                                "direction": [0, -1, 0], "value": 100},
+                       "soft": {"type": "spring", "bodies": ["ground", "p"],
+                                "at": [[6, 0.1, 0], [5, 0.1, 0]], "stiffness": 1,
+                                "free_length": 1})"});
+  };
+  const std::vector<Doubt> before = beside_pendulum(15.0);
+  ASSERT_EQ(before.size(), 1u);
+  EXPECT_EQ(before[0].text.find("\"c\""), std::string::npos) << before[0].text;
+  const std::vector<Doubt> beyond = beside_pendulum(22.0);
+  ASSERT_EQ(beyond.size(), 1u);
+  EXPECT_TRUE(beyond[0].is_serious);
+  EXPECT_NE(beyond[0].text.find("\"c\""), std::string::npos) << beyond[0].text;
 }
 
 /// A load of 16 EI/L² that comes later; with damping a disturbance grows as exp(4.6 t)
