@@ -147,8 +147,9 @@ class PeriodicSearch {
 
  private:
   Attempt search() {
-    Attempt attempt = first_attempt();
-    double rate = 1.0;
+    Attempt attempt = beside_similar();
+    double rate = map_ ? 0.0 : 1.0;
+    if (!map_) attempt = first_attempt();
     while (attempt.gap > one_.newton_tolerance) {
       const bool is_fresh = rate > slow_search, is_small = attempt.gap <= gap_of_round_off;
       if (is_fresh && !is_small) make_map(attempt.trajectory);
@@ -161,6 +162,21 @@ class PeriodicSearch {
     }
     if (!map_) make_map(attempt.trajectory);
     return attempt;
+  }
+
+  /// From where a similar motion begins, whose map will do; without a map if there is none.
+  Attempt beside_similar() {
+    const Trajectory* similar = one_.similar;
+    if (similar == nullptr || !similar->periodic || similar->recomputed()) return {};
+    const auto& map = similar->periodic->map;
+    if (map->states().units().size() != states_.units().size()) return {};
+    try {
+      Attempt attempt = simulated(end_of(*similar));
+      map_ = map;
+      return attempt;
+    } catch (const SimulationError&) {
+      return {};
+    }
   }
 
   /// From where a period leads that begins as the file says: what it damps is gone.
@@ -205,7 +221,10 @@ class PeriodicSearch {
   /// By Newton's method, with less than its correction where that leads away.
   Attempt corrected(const Attempt& attempt, int halvings) {
     if (!map_) make_map(attempt.trajectory);
-    const Eigen::VectorXd correction = map_->solve(attempt.change);
+    // The map of a similar motion counts in other steps.
+    const Eigen::VectorXd ratio = states_.units().cwiseQuotient(map_->states().units());
+    const Eigen::VectorXd correction =
+        map_->solve(ratio.cwiseProduct(attempt.change)).cwiseQuotient(ratio);
     Attempt next;
     for (int i = 0; i <= halvings; ++i) {
       try {

@@ -9,6 +9,8 @@
 
 namespace pleuel {
 
+struct Trajectory;  // core/integration/trajectory.hpp
+
 /// The steps that are asked for, and what else a simulation has to know.
 struct SimulationOptions : TimeIntegration {
   /// Where something that acts jumps or has a kink [s], in any order: steps end there.
@@ -16,6 +18,9 @@ struct SimulationOptions : TimeIntegration {
   /// What the states of the trajectory may take [byte]. Where they do not fit, some are kept as
   /// checkpoints, and the stretches between are simulated again when they are asked for.
   double memory = std::numeric_limits<double>::infinity();
+  /// A motion of this mechanism, or of one close by, with other steps: what repeats itself is looked
+  /// for beside it. Null: from the start.
+  const Trajectory* similar = nullptr;
 };
 
 /// Sees each instant as it is reached, beginning with step 0 (and again from there, if it turns out

@@ -243,7 +243,8 @@ Eigen::VectorXd values_of(const Analysis& analysis) {
   return values;
 }
 
-std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::VectorXd& x) {
+std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::VectorXd& x,
+                                  const Trajectory* similar) {
   if (problem.has_cases()) throw std::logic_error("load cases are simulated one by one");
   const Eigen::VectorXd start = start_design(problem);
   const Design<double> design(x.begin(), x.end()), start_values(start.begin(), start.end());
@@ -256,7 +257,8 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
   analysis->responses =
       make_responses(problem.responses, analysis->model, model_of_modes(*analysis));
   require_memory(analysis->responses, problem.simulation);
-  const SimulationOptions options = options_of(problem);
+  SimulationOptions options = options_of(problem);
+  options.similar = similar;
   if (!problem.simulation.moves_by_bending) {
     analysis->rigid_path = follow_drives(analysis->model, options.end_time, options.step);
     require_no_lock(analysis->model, analysis->rigid_path);

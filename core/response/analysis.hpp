@@ -55,9 +55,11 @@ void require_memory(const ProblemFile& problem);
 /// Builds and simulates the mechanism of a problem at a design, and reduces its responses.
 /// @param problem  with what its tolerance of effects leaves out (effect_measurement.hpp)
 /// @param x        design variables [SI]
+/// @param similar  a motion of another division, beside which one that repeats itself is looked for
 /// @throws SimulationError
 /// @throws std::logic_error for a problem with load cases, which are simulated one by one
-std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::VectorXd& x);
+std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::VectorXd& x,
+                                  const Trajectory* similar = nullptr);
 
 /// The problem with the steps of a trajectory in place of those that the control of the local error
 /// or the windows of responses would ask for: so that values at neighbouring designs differ smoothly.

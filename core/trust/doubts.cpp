@@ -173,7 +173,7 @@ Trust judge_run(const TrustedRun& run) {
   trust.errors = std::move(resolution.bars);
   trust.evidence = std::move(resolution.evidence);
   trust.bands = std::move(resolution.bands);
-  trust.failed_run = std::move(resolution.failed_run);
+  trust.failed_run = std::move(resolution.failure);
   leave_steps_unresolved(run, too_fast, trust.errors);
   if (complete) add_left_out_effects(run, *complete, trust.errors);
   rank_doubts(doubts);

@@ -10,12 +10,8 @@ namespace pleuel {
 
 namespace {
 
-/// On what the observed order leaves, and on a difference without an order.
-constexpr double safety = 1.5;
 /// Orders from here on say what is left.
 constexpr double least_order = 0.7;
-/// On differences by elements and modes, as for error bars; and by Newton's tolerance.
-constexpr double more_safety = 1.5, fewer_safety = 3.0;
 /// The bound at an instant is the largest within so many instants of twice the step.
 constexpr Eigen::Index reach = 2;
 
@@ -75,12 +71,12 @@ class WidthsInTime {
     const double order = of_four ? observed_order(of_twice, *of_four, promised) : 0.0;
     Eigen::VectorXd difference = envelope(of_twice);
     if (order < least_order) {
-      half_width_ += safety * difference;
+      half_width_ += safety::of_seen * difference;
       return;
     }
     const double growth = std::pow(2.0, order);
     difference = difference.cwiseMax(envelope(*of_four) / growth);
-    half_width_ += safety / (growth - 1.0) * difference;
+    half_width_ += safety::of_seen / (growth - 1.0) * difference;
   }
 
   void add(const Comparison& comparison, const Response& response, std::size_t index,
@@ -129,12 +125,12 @@ std::vector<Eigen::VectorXd> error_bands(const Analysis& analysis, const Judging
     }
     WidthsInTime band(now.time);
     band.add_steps(of_twice, of_four, order);
-    band.add(runs.more_elements, response, i, more_safety);
+    band.add(runs.more_elements, response, i, safety::of_more);
     if (!is_there(runs.more_elements.run)) {
-      band.add(runs.fewer_elements, response, i, fewer_safety);
+      band.add(runs.fewer_elements, response, i, safety::of_fewer);
     }
-    band.add(runs.modes, response, i, more_safety);
-    band.add(runs.newton, response, i, more_safety);
+    band.add(runs.modes, response, i, safety::of_modes);
+    band.add(runs.newton, response, i, safety::of_newton);
     bands[i] = std::move(band).half_width();
   }
   return bands;

@@ -11,23 +11,10 @@ namespace pleuel {
 
 namespace {
 
-/// How far the observed order may be from the promised one.
-constexpr double order_room = 0.5;
-/// On estimates of the promised order, for the terms of higher order and for orders that are seen
-/// by accident; less where a run with a smaller step has seen most of the error already.
-constexpr double order_safety = 2.0, seen_safety = 1.5;
-/// On differences without an order, and on those that fall by two at least: no more is left then.
-constexpr double difference_safety = 2.0, falling_safety = 1.0;
-/// Of Newton's tolerance.
-constexpr double newton_safety = 1.5;
 /// Relative bounds up to this are resolved, whatever the order.
 constexpr double small_share = 0.05;
 /// Relative differences up to this are round-off.
 constexpr double value_round_off = 1e-13;
-/// Errors in space, by more and by fewer elements. Bending has a higher order than two; stress, and
-/// what is asked of a place that is a node of one division only, has an uneven one: of a difference
-/// by fewer elements all of it may be missing, in place of the third of order two.
-constexpr double more_elements_safety = 1.5, fewer_elements_safety = 3.0;
 /// Peaks of stress lie at nodes, so that two divisions can agree by accident. Where differences by
 /// fewer and by more elements do not approach the limit from one side, this share of the larger one
 /// may be missing (order two: a third); where they fall by more than `most_fall` (order four: 16),
@@ -107,7 +94,7 @@ ErrorPart step_by_finer(const Evidence& evidence, double fine, double middle, do
   const double change = fine - evidence.value + found.part.change;
   const double bound = std::abs(fine - evidence.value) + found.part.bound;
   if (!found.has_promised_order) return {change, bound, bound <= small(evidence)};
-  return {change, std::max(seen_safety * std::abs(change), bound), true};
+  return {change, std::max(safety::of_seen * std::abs(change), bound), true};
 }
 
 ErrorPart step_part(const Evidence& runs, std::optional<double>& order) {
@@ -129,29 +116,14 @@ ErrorPart step_part(const Evidence& runs, std::optional<double>& order) {
 }
 
 /// @param share  of the difference of two runs that is missing in the simulation
+/// @param bound  the same of the bound
 ErrorPart part_of(const Evidence& evidence, const std::optional<double>& difference, double share,
-                  double safety) {
+                  double bound) {
   if (!difference) return {};
   if (!std::isfinite(*difference)) return unresolved(any_bound);
   const double change = share * *difference;
   if (std::abs(change) <= value_round_off * evidence.magnitude) return {};
-  return {change, safety * std::abs(change), true};
-}
-
-ErrorPart element_part(const Evidence& runs) {
-  if (!runs.more_elements) {
-    return part_of(runs, runs.fewer_elements, -1.0 / 3.0, fewer_elements_safety);
-  }
-  ErrorPart part = part_of(runs, runs.more_elements, 4.0 / 3.0, more_elements_safety);
-  if (!is_there(runs.more_elements) || !is_there(runs.fewer_elements)) return part;
-  const double more = *runs.more_elements, fewer = *runs.fewer_elements;
-  if (std::abs(fewer) <= value_round_off * runs.magnitude) return part;
-  const bool turns = more * fewer >= 0.0;
-  if (turns || std::abs(fewer) > most_fall * std::abs(more)) {
-    const double share = turns ? share_of_turning : share_of_falling;
-    part.bound = std::max(part.bound, share * std::abs(fewer));
-  }
-  return part;
+  return {change, bound * std::abs(*difference), true};
 }
 
 void add_to(std::optional<double>& sum, const std::optional<double>& value, double factor) {
@@ -179,14 +151,14 @@ Extrapolation extrapolate(double fine, double middle, double coarse, double orde
   if (std::max({std::abs(last), std::abs(before), local}) <= value_round_off * std::abs(fine))
     return {};
   const double share = std::pow(2.0, -order), remaining = share / (1.0 - share);
-  found.has_promised_order = found.order && std::abs(*found.order - order) <= order_room;
+  found.has_promised_order = found.order && std::abs(*found.order - order) <= safety::order_room;
   if (found.has_promised_order) {
     found.part.change = remaining * last;
-    found.part.bound = order_safety * remaining * std::max(std::abs(last), local);
+    found.part.bound = safety::of_order * remaining * std::max(std::abs(last), local);
     return found;
   }
   const bool falls = found.order && *found.order >= 1.0;
-  found.part.bound = (falls ? falling_safety : difference_safety) *
+  found.part.bound = (falls ? safety::of_falling : safety::of_difference) *
                      std::max({std::abs(last), share * std::abs(before), local});
   found.part.is_resolved = found.part.bound <= small;
   return found;
@@ -232,12 +204,36 @@ Evidence evidence_of(const Analysis& analysis, std::size_t response, const Judgi
   return evidence;
 }
 
+ErrorPart element_part(const Evidence& runs) {
+  if (!runs.more_elements) {
+    return part_of(runs, runs.fewer_elements, -1.0 / 3.0, safety::of_fewer);
+  }
+  ErrorPart part = part_of(runs, runs.more_elements, 4.0 / 3.0, safety::of_more);
+  if (!is_there(runs.more_elements) || !is_there(runs.fewer_elements)) return part;
+  const double more = *runs.more_elements, fewer = *runs.fewer_elements;
+  if (std::abs(fewer) <= value_round_off * runs.magnitude) return part;
+  const bool turns = more * fewer >= 0.0;
+  if (turns || std::abs(fewer) > most_fall * std::abs(more)) {
+    const double share = turns ? share_of_turning : share_of_falling;
+    part.bound = std::max(part.bound, share * std::abs(fewer));
+  }
+  return part;
+}
+
+ErrorPart mode_part(const Evidence& runs) {
+  return part_of(runs, runs.modes, 1.0, safety::of_modes);
+}
+
 ErrorBar error_bar(const Evidence& evidence) {
   ErrorBar bar;
   bar.step = step_part(evidence, bar.order);
   bar.elements = element_part(evidence);
-  bar.elements.add(part_of(evidence, evidence.modes, 1.0, more_elements_safety));
-  bar.newton = part_of(evidence, evidence.newton, 1.0, newton_safety);
+  bar.elements.add(mode_part(evidence));
+  bar.newton = part_of(evidence, evidence.newton, 1.0, safety::of_newton);
+  const double size = std::max(std::abs(evidence.value), evidence.magnitude);
+  for (ErrorPart* part : {&bar.step, &bar.elements, &bar.newton}) {
+    part->is_resolved = part->is_resolved && !(part->bound > size);  // all of it may be wrong
+  }
   return bar;
 }
 

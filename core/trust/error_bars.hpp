@@ -9,6 +9,24 @@
 /// How far the responses of a simulation may be from those of an arbitrarily fine one.
 namespace pleuel {
 
+/// What estimates of what is missing are multiplied with, the same for bars, bands and the choice of a
+/// setting: how often bars hold with these, tests/honesty measures (docs/accuracy.md).
+namespace safety {
+/// How far the observed order may be from the promised one.
+inline constexpr double order_room = 0.5;
+/// On estimates of the promised order, for the terms of higher order and for orders that are seen
+/// by accident; less where a run with a smaller step has seen most of the error already.
+inline constexpr double of_order = 2.0, of_seen = 1.5;
+/// On differences without an order, and on those that fall by two at least: no more is left then.
+inline constexpr double of_difference = 2.0, of_falling = 1.0;
+/// On differences by twice and by half the elements, of which 4/3 and 1/3 are missing in order two.
+/// Bending has a higher one; stress, and what is asked of a place that is a node of one division only,
+/// has an uneven one: all of a difference by fewer elements may be missing.
+inline constexpr double of_more = 2.0, of_fewer = 1.0;
+/// On differences by more modes, and by a smaller tolerance of Newton's method.
+inline constexpr double of_modes = 1.5, of_newton = 1.5;
+}  // namespace safety
+
 /// The order in the step that a scheme has: 2, or 1 of those that damp by their truncation error.
 int scheme_order(const SimulationSettings& settings);
 
@@ -68,6 +86,10 @@ struct Evidence {
 /// @param order  of the scheme
 Evidence evidence_of(const Analysis& analysis, std::size_t response, const JudgingRuns& runs,
                      double order);
+
+/// What a bar says of the division of beams, and of the modes of reduced ones, beside each other.
+ErrorPart element_part(const Evidence& evidence);
+ErrorPart mode_part(const Evidence& evidence);
 
 /// The bar of a value. Where a run is missing or failed, what it would tell is not resolved.
 ErrorBar error_bar(const Evidence& evidence);

@@ -8,6 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/model/effect_estimates.hpp"
 #include "core/response/effect_measurement.hpp"
+#include "core/trust/variants.hpp"
 
 namespace pleuel {
 
@@ -26,9 +27,9 @@ bool leaves_out_by_measurement(const Model& model) {
 
 std::optional<CompleteRun> simulate_completely(const TrustedRun& run) {
   if (!leaves_out_by_measurement(run.analysis.model)) return {};
-  CompleteRun complete{with_all_effects(run.problem), nullptr, ""};
+  CompleteRun complete{with_all_effects(problem_of_variants(run)), nullptr, ""};
   try {
-    complete.analysis = analyze(complete.problem, run.x);
+    complete.analysis = analyze_variant(run, complete.problem);
   } catch (const SimulationError& error) {
     complete.failure = error.what();
   }
@@ -43,7 +44,8 @@ std::vector<Doubt> doubt_left_out_effects(const TrustedRun& run, const CompleteR
              true}};
   }
   if (run.x == start_design(run.problem)) return {};
-  const LargestChange change = largest_change(run.problem, *complete.analysis, run.analysis);
+  const LargestChange change =
+      largest_change(run.problem, *complete.analysis, basis_of_variants(run));
   if (change.relative <= run.problem.effects.tolerance) return {};
   return {{fmt::format("effects that were left out at the start design change \"{}\" by {:.2g} "
                        "at this one, more than /effects/tolerance = {:g}. Start from this "
@@ -84,7 +86,8 @@ void add_left_out_effects(const TrustedRun& run, const CompleteRun& complete,
       effects.is_resolved = false;
       continue;
     }
-    effects.change = complete.analysis->reductions[i].value - run.analysis.reductions[i].value;
+    effects.change =
+        complete.analysis->reductions[i].value - basis_of_variants(run).reductions[i].value;
     effects.bound = std::abs(effects.change);
   }
 }

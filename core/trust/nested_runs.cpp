@@ -98,12 +98,12 @@ NestedRun nested_run_of(const Analysis& analysis) {
 }
 
 NestedRun make_nested_run(const ProblemFile& problem, const Eigen::VectorXd& x,
-                          const Refinement& refinement) {
+                          const Refinement& refinement, const Trajectory* similar) {
   NestedRun run;
   try {
     ProblemFile finer = refined(problem, refinement);
     finer.simulation.moves_by_bending = true;  // whether it moves at all was asked before
-    run = nested_run_of(*analyze(finer, x));
+    run = nested_run_of(*analyze(finer, x, similar));
   } catch (const SimulationError& error) {
     run.failure = error.what();
   } catch (const InputError& error) {  // a window without steps, more modes than coordinates …
@@ -113,10 +113,12 @@ NestedRun make_nested_run(const ProblemFile& problem, const Eigen::VectorXd& x,
 }
 
 std::vector<NestedRun> make_nested_runs(const ProblemFile& problem, const Eigen::VectorXd& x,
-                                        const std::vector<Refinement>& refinements) {
+                                        const std::vector<Refinement>& refinements,
+                                        const Trajectory* similar) {
   std::vector<NestedRun> runs(refinements.size());
-  for_each_in_parallel(int_size(runs), available_threads(),
-                       [&](int i) { runs[i] = make_nested_run(problem, x, refinements[i]); });
+  for_each_in_parallel(int_size(runs), available_threads(), [&](int i) {
+    runs[i] = make_nested_run(problem, x, refinements[i], similar);
+  });
   return runs;
 }
 
@@ -154,20 +156,6 @@ std::optional<int> fewest_elements(const Model& model, const ProblemFile& proble
     }
   }
   return fewest;
-}
-
-double largest_difference(const Eigen::VectorXd& time_a, const Eigen::MatrixXd& a,
-                          const Eigen::VectorXd& time_b, const Eigen::MatrixXd& b,
-                          const StepRange& range) {
-  double largest = 0.0;
-  Eigen::Index next = 1;
-  for (Eigen::Index i = range.first; i <= range.last; ++i) {
-    while (next + 1 < time_a.size() && time_a(next) < time_b(i)) ++next;
-    const double share = (time_b(i) - time_a(next - 1)) / (time_a(next) - time_a(next - 1));
-    const auto between = (1.0 - share) * a.col(next - 1) + share * a.col(next);
-    largest = std::max(largest, (between - b.col(i)).cwiseAbs().maxCoeff());
-  }
-  return largest;
 }
 
 }  // namespace pleuel

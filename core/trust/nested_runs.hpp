@@ -41,15 +41,17 @@ struct NestedRun {
 /// Half of an odd number of elements is rounded up.
 ProblemFile refined(ProblemFile problem, const Refinement& refinement);
 
+/// @param similar  see analyze()
 NestedRun make_nested_run(const ProblemFile& problem, const Eigen::VectorXd& x,
-                          const Refinement& refinement);
+                          const Refinement& refinement, const Trajectory* similar = nullptr);
 
 /// What was simulated already.
 NestedRun nested_run_of(const Analysis& analysis);
 
 /// The same of several refinements, on the threads of the machine.
 std::vector<NestedRun> make_nested_runs(const ProblemFile& problem, const Eigen::VectorXd& x,
-                                        const std::vector<Refinement>& refinements);
+                                        const std::vector<Refinement>& refinements,
+                                        const Trajectory* similar = nullptr);
 
 /// Whether an elastic beam is reduced to modes.
 bool has_reduced_beams(const Model& model, const ProblemFile& problem);
@@ -67,11 +69,5 @@ bool can_be_halved(const Model& model, const ProblemFile& problem);
 
 /// The fewest elements of a segment of an elastic beam; none without such a beam.
 std::optional<int> fewest_elements(const Model& model, const ProblemFile& problem);
-
-/// max |a(t) − b(t)| over channels and the instants of b, with straight lines between those of a.
-/// @param range  of b
-double largest_difference(const Eigen::VectorXd& time_a, const Eigen::MatrixXd& a,
-                          const Eigen::VectorXd& time_b, const Eigen::MatrixXd& b,
-                          const StepRange& range);
 
 }  // namespace pleuel

@@ -1,6 +1,7 @@
 #include "core/trust/round_off.hpp"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -9,6 +10,7 @@
 #include "core/response/make_responses.hpp"
 #include "core/response/recorder.hpp"
 #include "core/scene/magnitude_direction.hpp"
+#include "core/scene/packed_problem.hpp"
 #include "core/scene/response_kind.hpp"
 #include "core/scene/response_parts.hpp"
 #include "core/scene/response_quantity.hpp"
@@ -217,8 +219,16 @@ class RoundOff {
   /// The largest magnitudes over the simulation, in order.
   std::vector<double> measure(const std::vector<std::vector<Measure>>& measures) const {
     std::vector<ResponseSettings> settings;
+    std::map<std::string, std::size_t> places;  // many responses have one measure
+    std::vector<std::size_t> place_of;
     for (const auto& of_one : measures) {
-      for (const Measure& one : of_one) settings.push_back(one.settings);
+      for (Measure one : of_one) {
+        one.settings.name.clear();
+        one.settings.unit.clear();
+        const auto [place, is_new] = places.try_emplace(packed(one.settings), settings.size());
+        if (is_new) settings.push_back(one.settings);
+        place_of.push_back(place->second);
+      }
     }
     if (settings.empty()) return {};
     const std::vector<Response> responses = make_responses(settings, model_);
@@ -230,10 +240,12 @@ class RoundOff {
       recorder.see(step, state);
     }
     std::vector<Eigen::MatrixXd> observed = recorder.take(trajectory.steps() + 1);
-    std::vector<double> all;
+    std::vector<double> largest_of, all;
     for (std::size_t i = 0; i < responses.size(); ++i) {
-      all.push_back(largest(mapped_history(responses[i], trajectory.time, std::move(observed[i]))));
+      largest_of.push_back(
+          largest(mapped_history(responses[i], trajectory.time, std::move(observed[i]))));
     }
+    for (const std::size_t place : place_of) all.push_back(largest_of[place]);
     return all;
   }
 
@@ -245,7 +257,9 @@ class RoundOff {
 }  // namespace
 
 std::vector<bool> find_round_off(const TrustedRun& run) {
-  return RoundOff(run).find();
+  std::optional<std::vector<bool>>& found = run.shared->is_round_off;
+  if (!found) found = RoundOff(run).find();
+  return *found;
 }
 
 }  // namespace pleuel

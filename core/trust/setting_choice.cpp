@@ -19,6 +19,7 @@
 #include "core/trust/error_bars.hpp"
 #include "core/trust/fast_turning.hpp"
 #include "core/trust/laws_over_coordinates.hpp"
+#include "core/trust/refinement_set.hpp"
 
 namespace pleuel {
 
@@ -43,10 +44,6 @@ constexpr double most_growth = 8.0;
 /// Of the target: what comparisons may find of a setting on the way back. Bars by coarser runs,
 /// which judge it later, are wider.
 constexpr double share_of_bars = 0.35;
-/// The error of the finer run over its difference from the one that it confirms, with the order
-/// that is promised (twice Richardson's 1 / (4ᵖ − 1), rounded up), and without one.
-constexpr double left_of_order_2 = 0.15, left_of_order_1 = 0.7, left_without_order = 1.0;
-
 /// Of steps that are doubted for another reason than errors. Where these do not help, as of undamped
 /// vibrations after jumps, more would not.
 constexpr int most_halvings = 3;
@@ -244,30 +241,7 @@ class Search {
   }
 
   void judge(const ProblemFile& divided, const Analysis& analysis, Trial& trial) const {
-    const bool has_modes = has_reduced_beams(analysis.model, divided);
-    const bool has_tolerance = divided.simulation.newton_tolerance > small_newton_tolerance;
-    std::vector<Refinement> refinements = {{2.0, 1.0}, {4.0, 1.0}};
-    const auto add = [&](bool is_asked, const Refinement& one) {
-      if (is_asked) refinements.push_back(one);
-      return is_asked ? refinements.size() - 1 : 0;
-    };
-    const bool has_fewer =
-        trial.fewest_elements.value_or(1) > 1 && can_be_halved(analysis.model, divided);
-    const std::size_t elements = add(trial.fewest_elements.has_value(), {.step = 2.0, .pieces = 2});
-    const std::size_t fewer = add(has_fewer, {.step = 2.0, .elements = 0.5});
-    // With twice the elements, of which there may be too few for more modes.
-    const std::size_t modes =
-        add(has_modes, {.step = 2.0, .more_modes = judging_modes, .pieces = 2});
-    const std::size_t newton = add(has_tolerance, {4.0, 1.0, 0, judging_newton});
-    const std::vector<NestedRun> runs = make_nested_runs(divided, x_, refinements);
-    JudgingRuns judging;
-    judging.twice_step = &runs[0];
-    judging.four_steps = &runs[1];
-    if (elements > 0) judging.more_elements = {&runs[elements], &runs[0]};
-    if (fewer > 0) judging.fewer_elements = {&runs[fewer], &runs[0]};
-    if (modes > 0) judging.modes = {&runs[modes], &runs[elements]};
-    if (newton > 0) judging.newton = {&runs[newton], &runs[1]};
-    keep_errors(analysis, judging, trial);
+    keep_errors(analysis, RefinementSet(divided, x_, analysis, Divisions::both).runs(), trial);
   }
 
   void keep_errors(const Analysis& analysis, const JudgingRuns& judging, Trial& trial) const {
@@ -279,9 +253,7 @@ class Search {
           evidence_of(analysis, i, judging, scheme_order(problem_.simulation));
       trial.magnitudes(i) = evidence.magnitude;
       trial.bars[i] = error_bar(evidence);
-      Evidence without_modes = evidence;
-      without_modes.modes.reset();
-      const ErrorPart elements = error_bar(without_modes).elements;
+      const ErrorPart elements = element_part(evidence);
       ErrorPart others = trial.bars[i]->newton;
       if (elements.is_resolved) {  // else nothing is known of modes
         others.bound += trial.bars[i]->elements.bound - elements.bound;
@@ -329,10 +301,11 @@ class Search {
     rate(trial);
   }
 
+  /// The error of a run with a quarter of the step over its difference from the one that it confirms.
   double left_of(const ErrorBar& bar) const {
     const int order = scheme_order(problem_.simulation);
-    if (!bar.order || std::abs(*bar.order - order) > 0.5) return left_without_order;
-    return order == 2 ? left_of_order_2 : left_of_order_1;
+    if (!bar.order || std::abs(*bar.order - order) > safety::order_room) return 1.0;
+    return safety::of_order / (std::pow(4.0, order) - 1.0);
   }
 
   const ProblemFile& problem_;

@@ -17,6 +17,7 @@
 #include "core/trust/response_changes.hpp"
 #include "core/trust/round_off.hpp"
 #include "core/trust/stubby_beams.hpp"
+#include "core/trust/variants.hpp"
 
 namespace pleuel {
 
@@ -59,12 +60,12 @@ class ShearDoubts {
  private:
   /// @throws SimulationError
   std::unique_ptr<Analysis> with_shear(const std::vector<std::string>& beams) const {
-    ProblemFile problem = with_steps_of(run_.analysis.trajectory, run_.problem);
+    ProblemFile problem = problem_of_variants(run_);
     for (Body& body : problem.scene.bodies) {
       if (std::find(beams.begin(), beams.end(), body.name) == beams.end()) continue;
       std::get<BeamBody>(body.shape).has_shear = true;
     }
-    return analyze(problem, run_.x);
+    return analyze_variant(run_, problem);
   }
 
   void measure() {
@@ -102,7 +103,7 @@ class ShearDoubts {
 
   /// What shear changes of each response.
   std::vector<ResponseChange> changes_of(const Analysis& sheared) const {
-    return response_changes(run_.problem, sheared, run_.analysis);
+    return response_changes(run_.problem, sheared, basis_of_variants(run_));
   }
 
   /// Of the responses whose change is alarming, or of the others that are worth a word.

@@ -8,7 +8,7 @@
 namespace pleuel {
 
 /// Responses that shear of beams that leave it out would change. Where a beam is stubby
-/// (stubby_beams.hpp), the mechanism is simulated once more, with the steps of the run and with
+/// (stubby_beams.hpp), the mechanism is simulated once more, at twice the step (variants.hpp), with
 /// shear in all of these beams (where that is serious, with each alone, to know which it is):
 /// stubby beams pass loads on to others and to springs, change frequencies and reactions that are
 /// shared. Told from 1 % of what a response is with shear, serious from 10 % of that or

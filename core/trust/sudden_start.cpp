@@ -9,6 +9,7 @@
 #include "core/base/number_text.hpp"
 #include "core/trust/asked_responses.hpp"
 #include "core/trust/round_off.hpp"
+#include "core/trust/variants.hpp"
 
 namespace pleuel {
 
@@ -52,10 +53,10 @@ bool begins_with_a_shock(const Analysis& analysis) {
 
 /// The peaks of a start in equilibrium; none where there is no stable one.
 std::unique_ptr<Analysis> from_equilibrium(const TrustedRun& run) {
-  ProblemFile problem = run.problem;
+  ProblemFile problem = problem_of_variants(run);
   problem.simulation.quasi_static_start = true;
   try {
-    return analyze(problem, run.x);
+    return analyze_variant(run, problem);
   } catch (const SimulationError&) {
     return nullptr;
   } catch (const InputError&) {  // of what does not go with such a start
@@ -73,12 +74,13 @@ std::vector<Doubt> doubt_sudden_start(const TrustedRun& run) {
   if (!can_be_sudden(run) || !begins_with_a_shock(run.analysis)) return {};
   const std::unique_ptr<Analysis> settled = from_equilibrium(run);
   if (!settled) return {};
+  const Analysis& sudden = basis_of_variants(run);
   Doubt doubt;
   double worst = 0.0, worst_value = 0.0;
   const std::vector<bool> is_round_off = find_round_off(run);
   for (const std::size_t i : asked_responses(run.problem)) {
     const Response& response = run.analysis.responses[i];
-    const double value = run.analysis.reductions[i].value, other = settled->reductions[i].value;
+    const double value = sudden.reductions[i].value, other = settled->reductions[i].value;
     const double change = std::abs(value - other);
     if (!is_compared(response) || is_round_off[i]) continue;
     if (!(change > small_addition * std::max(std::abs(value), std::abs(other)))) continue;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -18,6 +19,14 @@ enum class Scrutiny {
   close   ///< three times as much more: with half the step and twice the elements
 };
 
+/// What several doubts ask for, each made when the first of them does.
+struct SharedFindings {
+  /// What variants are compared with (variants.hpp): null is the run that is judged.
+  std::optional<ProblemFile> problem{};
+  std::unique_ptr<Analysis> analysis{};
+  std::optional<std::vector<bool>> is_round_off{};  ///< round_off.hpp
+};
+
 /// A simulated design, and what its doubts are made from.
 struct TrustedRun {
   const ProblemFile& problem;
@@ -28,6 +37,7 @@ struct TrustedRun {
   /// Error bars that are known otherwise, as a choice of the setting knows them: one a response, or
   /// null. They hold where they are narrower, without what is due to effects.
   const std::vector<std::optional<ErrorBar>>* known = nullptr;
+  std::shared_ptr<SharedFindings> shared = std::make_shared<SharedFindings>();
 };
 
 }  // namespace pleuel

@@ -279,7 +279,7 @@ class UnseenOvershoots {
     // Whose multipliers have no transient where the size of steps changes.
     ConstraintForm& form = fine.simulation.formulation.constraints;
     if (form == ConstraintForm::index_3) form = ConstraintForm::stabilized_index_2;
-    NestedRun run = make_nested_run(fine, run_.x, {});
+    NestedRun run = make_nested_run(fine, run_.x, {}, &trajectory_);
     if (run.has_failed()) return std::nullopt;
     return run;
   }
