@@ -1,5 +1,6 @@
 #include "cli/reports/error_report.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -14,6 +15,19 @@ Json part_document(const ErrorPart& part) {
   return part.is_resolved && std::isfinite(part.bound) ? Json(part.bound) : Json(nullptr);
 }
 
+/// "; with shear +0.8": what the model leaves out, where that is more than what is uncertain of the rest.
+std::string left_out_text(const ErrorBar& bar, const ShownUnit& unit) {
+  std::string text;
+  for (const auto& [name, change] : bar.left_out) {
+    if (!(std::abs(change) > bar.bound())) continue;
+    std::string words = name;
+    std::ranges::replace(words, '_', ' ');
+    text += fmt::format("; with {} {}{}", words, change > 0.0 ? "+" : "−",
+                        significant(unit.shown(std::abs(change)), 2));
+  }
+  return text;
+}
+
 }  // namespace
 
 Json error_document(const std::optional<ErrorBar>& bar) {
@@ -26,13 +40,16 @@ Json error_document(const std::optional<ErrorBar>& bar) {
                    {"effects", part_document(bar->effects)},
                    {"change", is_known ? Json(bar->change()) : Json(nullptr)}};
   if (bar->order && std::isfinite(*bar->order)) document["order"] = *bar->order;
+  if (!bar->left_out.empty()) document["left_out"] = bar->left_out;
   return document;
 }
 
 std::string error_text(const std::optional<ErrorBar>& bar, const ShownUnit& unit) {
   if (!bar) return "–";
   if (!bar->is_resolved()) return "not resolved";
-  return bar->bound() == 0.0 ? "exact" : "± " + significant(unit.shown(bar->bound()), 2);
+  const std::string text =
+      bar->bound() == 0.0 ? "exact" : "± " + significant(unit.shown(bar->bound()), 2);
+  return text + left_out_text(*bar, unit);
 }
 
 std::string error_sentence(const ErrorBar& bar, double value, const ShownUnit& unit) {
@@ -47,7 +64,7 @@ std::string error_sentence(const ErrorBar& bar, double value, const ShownUnit& u
   text += fmt::format(": step {}, elements {}", shown(bar.step.bound), shown(bar.elements.bound));
   if (bar.newton.bound > 0.0) text += fmt::format(", Newton {}", shown(bar.newton.bound));
   if (bar.effects.bound > 0.0) text += fmt::format(", effects {}", shown(bar.effects.bound));
-  return text;
+  return text + left_out_text(bar, unit);
 }
 
 }  // namespace pleuel

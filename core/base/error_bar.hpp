@@ -1,6 +1,8 @@
 #pragma once
 
+#include <map>
 #include <optional>
+#include <string>
 
 /// How far a computed number may be from the one that is meant.
 namespace pleuel {
@@ -27,11 +29,17 @@ struct ErrorBar {
   ErrorPart newton;             ///< by the tolerance of Newton's method
   ErrorPart effects;            ///< that were left out by a tolerance
   std::optional<double> order;  ///< observed, in the step; of a single response
+  /// What the model leaves out would change, by its name (core/trust/model_variants.hpp): beside the bound.
+  std::map<std::string, double> left_out;
 
   double change() const { return step.change + elements.change + newton.change + effects.change; }
   double bound() const { return step.bound + elements.bound + newton.bound + effects.bound; }
   bool is_resolved() const {
     return step.is_resolved && elements.is_resolved && newton.is_resolved && effects.is_resolved;
+  }
+
+  void add_left_out(const ErrorBar& bar, double factor) {
+    for (const auto& [name, change] : bar.left_out) left_out[name] += factor * change;
   }
 
   /// That of `factor` times the number on top.
@@ -40,6 +48,7 @@ struct ErrorBar {
     elements.add(bar.elements, factor);
     newton.add(bar.newton, factor);
     effects.add(bar.effects, factor);
+    add_left_out(bar, factor);
     order.reset();
   }
 };

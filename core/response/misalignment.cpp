@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/base/eager_matrices.hpp"
+#include "core/base/quoted.hpp"
 #include "core/model/drive_rows.hpp"
 #include "core/start/redundancy.hpp"
 
@@ -38,10 +38,6 @@ std::vector<std::string> bodies_of(const NearRedundancy& near, const Model& mode
     if (names.empty() || names.back() != body.name) names.push_back(body.name);
   }
   return names;
-}
-
-std::string quoted(const std::vector<std::string>& names) {
-  return fmt::format("\"{}\"", fmt::join(names, "\", \""));
 }
 
 }  // namespace

@@ -5,11 +5,11 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/response_parts.hpp"
-#include "core/trust/bending_range.hpp"
 #include "core/trust/blocked_drives.hpp"
 #include "core/trust/case_doubts.hpp"
 #include "core/trust/energy_balance.hpp"
 #include "core/trust/extrapolation.hpp"
+#include "core/trust/far_bending.hpp"
 #include "core/trust/far_bounds.hpp"
 #include "core/trust/far_limits.hpp"
 #include "core/trust/fast_laws.hpp"
@@ -24,6 +24,7 @@
 #include "core/trust/lost_places.hpp"
 #include "core/trust/misaligned_joints.hpp"
 #include "core/trust/modal_damping.hpp"
+#include "core/trust/model_variants.hpp"
 #include "core/trust/open_positions.hpp"
 #include "core/trust/other_side.hpp"
 #include "core/trust/promised_buckling.hpp"
@@ -31,13 +32,11 @@
 #include "core/trust/ranking.hpp"
 #include "core/trust/resolution.hpp"
 #include "core/trust/section_axes.hpp"
-#include "core/trust/shear_range.hpp"
 #include "core/trust/sideways_buckling.hpp"
 #include "core/trust/sliding_contact.hpp"
 #include "core/trust/stability.hpp"
 #include "core/trust/sudden_start.hpp"
 #include "core/trust/taut_members.hpp"
-#include "core/trust/turned_sections.hpp"
 #include "core/trust/undetermined_reactions.hpp"
 #include "core/trust/unseen_overshoot.hpp"
 
@@ -98,6 +97,15 @@ void leave_steps_unresolved(const TrustedRun& run, const std::vector<Doubt>& dou
   }
 }
 
+/// To the bars of all responses that have one.
+void add_left_out(const LeftOut& left_out, std::vector<std::optional<ErrorBar>>& errors) {
+  for (const VariantChange& variant : left_out.changes) {
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      if (errors[i]) errors[i]->left_out[variant.name] = variant.change(static_cast<int>(i));
+    }
+  }
+}
+
 /// Members that buckle leave no trace in a motion without their elasticity: what a tolerance leaves
 /// out takes part here.
 std::vector<Doubt> doubt_buckling(const TrustedRun& run,
@@ -130,8 +138,8 @@ constexpr Judge judges[] = {
     {Cause::mobility, doubt_rest},
     {Cause::mobility, doubt_unconnected_bodies},
     {Cause::mobility, doubt_undetermined_reactions},
-    {Cause::not_modelled, doubt_bending_range},
     {Cause::not_modelled, doubt_extrapolation},
+    {Cause::not_modelled, doubt_linear_elasticity},
     {Cause::not_modelled, doubt_lost_places},
     {Cause::not_modelled, doubt_sliding_contacts},
     {Cause::unstable, doubt_frequencies},
@@ -141,10 +149,8 @@ constexpr Judge judges[] = {
     {Cause::left_out, doubt_modal_damping},
     {Cause::left_out, doubt_other_side},
     {Cause::left_out, doubt_section_axes},
-    {Cause::left_out, doubt_shear_range},
     {Cause::left_out, doubt_sudden_start},
     {Cause::left_out, doubt_taut_members},
-    {Cause::left_out, doubt_turned_sections},
 };
 
 }  // namespace
@@ -175,6 +181,9 @@ Trust judge_run(const TrustedRun& run) {
   trust.bands = std::move(resolution.bands);
   trust.failed_run = std::move(resolution.failure);
   leave_steps_unresolved(run, too_fast, trust.errors);
+  const LeftOut left_out = compare_variants(run);
+  doubts.insert(doubts.end(), left_out.doubts.begin(), left_out.doubts.end());
+  add_left_out(left_out, trust.errors);
   if (complete) add_left_out_effects(run, *complete, trust.errors);
   rank_doubts(doubts);
   return trust;

@@ -6,10 +6,10 @@
 #include <set>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/find_named.hpp"
+#include "core/base/quoted.hpp"
 #include "core/model/body_energy.hpp"
 #include "core/model/drive_rows.hpp"
 #include "core/scene/joint_kind.hpp"
@@ -28,10 +28,6 @@ constexpr double visible = 1e-6;
 constexpr int instants = 200;
 /// Of the scale of a coordinate.
 constexpr double idle_speed = 1e-9;
-
-std::string quoted(const std::vector<std::string>& names) {
-  return fmt::format("\"{}\"", fmt::join(names, "\", \""));
-}
 
 /// Rows of the motions of a body's frame.
 auto rows_of(const BodyModel& body, const Eigen::MatrixXd& motions) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numbers>
 #include <utility>
@@ -124,7 +125,7 @@ double shear_share(const ProblemFile& problem, const Eigen::VectorXd& x, const M
   return largest;
 }
 
-std::vector<StubbyBeam> find_stubby_beams(const TrustedRun& run) {
+std::vector<ConcernedBeam> find_stubby_beams(const TrustedRun& run) {
   const Model& model = run.analysis.model;
   const int half_waves = most_half_waves(run.problem);
   const auto largest = largest_deformations(model, run.analysis.trajectory);
@@ -143,13 +144,11 @@ std::vector<StubbyBeam> find_stubby_beams(const TrustedRun& run) {
     run.analysis.trajectory.states->load(largest[i].bending_step, state);
     share = std::max(share, shear_share(run.problem, run.x, model, body.name, state));
   }
-  std::vector<StubbyBeam> found;
+  std::vector<ConcernedBeam> found;
   for (const auto& [name, share] : shares) {
     if (share > small_shear_share) found.push_back({name, share});
   }
-  std::stable_sort(found.begin(), found.end(), [](const StubbyBeam& one, const StubbyBeam& other) {
-    return one.share > other.share;
-  });
+  std::ranges::stable_sort(found, std::ranges::greater(), &ConcernedBeam::indicator);
   return found;
 }
 

@@ -3,14 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "core/trust/trusted_run.hpp"
+#include "core/trust/concerned_beam.hpp"
 
 namespace pleuel {
-
-struct StubbyBeam {
-  std::string name;
-  double share = 0.0;  ///< of shear [–]
-};
 
 /// Finds elastic beams without shear in which it may count: those in which it would store more than
 /// a small share of the energy of bending, in one of both planes, where they bend most; and, where
@@ -19,8 +14,8 @@ struct StubbyBeam {
 /// run: V²/(κ G A) over M²/(EI), both integrated; 3EI/(κ G A L²) of a cantilever with a force at
 /// its tip, 12EI/(κ G A L²) of a beam on two pins with one in the middle. κ is that of the
 /// sections, or of a rectangle where they do not say.
-/// @returns the largest share first
-std::vector<StubbyBeam> find_stubby_beams(const TrustedRun& run);
+/// @returns the largest share first, which is the indicator [–]
+std::vector<ConcernedBeam> find_stubby_beams(const TrustedRun& run);
 
 /// The share of one beam in a state, of the plane in which it is larger. [–]
 /// @param x  design variables [SI]

@@ -47,7 +47,7 @@ void add_errors_over_cases(DesignProblem& design, const Eigen::VectorXd& x, Trus
 std::optional<ErrorBar> error_of_sum(const ProblemFile& joined, const Trust& trust,
                                      const std::vector<WeightedResponse>& parts, double magnitude) {
   std::map<std::size_t, Evidence> sums;
-  ErrorPart effects;
+  ErrorBar model;  // of what is left out
   // A sum may cancel: what is small of it is small beside its terms.
   for (const WeightedResponse& part : parts) {
     if (!trust.evidence[part.response]) continue;
@@ -55,7 +55,8 @@ std::optional<ErrorBar> error_of_sum(const ProblemFile& joined, const Trust& tru
   }
   for (const WeightedResponse& part : parts) {
     if (!trust.errors[part.response] || part.weight == 0.0) continue;
-    effects.add(trust.errors[part.response]->effects, part.weight);
+    model.effects.add(trust.errors[part.response]->effects, part.weight);
+    model.add_left_out(*trust.errors[part.response], part.weight);
     const Evidence& evidence = *trust.evidence[part.response];
     const std::size_t load_case = case_of_response(joined, part.response).load_case;
     auto& sum = sums.try_emplace(load_case, nothing_beside(evidence)).first->second;
@@ -72,7 +73,8 @@ std::optional<ErrorBar> error_of_sum(const ProblemFile& joined, const Trust& tru
       all.add(bar);
     }
   }
-  all.effects = effects;
+  all.effects = model.effects;
+  all.left_out = std::move(model.left_out);
   return all;
 }
 

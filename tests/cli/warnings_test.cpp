@@ -26,7 +26,8 @@ void expect_warned(const std::string& command, const std::vector<std::string>& m
   const std::vector<std::string> line = joined(words(command, more), {"-o", "run"});
   const bool has_folder = command != "check" && command != "gradient";
   const ProgramRun run = run_program(folder.path(), has_folder ? line : words(command, more));
-  EXPECT_THAT(unwrapped(run.out), AllOf(HasSubstr("Warning: "), HasSubstr("rad against its")))
+  EXPECT_THAT(unwrapped(run.out),
+              AllOf(HasSubstr("Warning: "), HasSubstr("too far for linear elasticity")))
       << command << run.err;
 }
 

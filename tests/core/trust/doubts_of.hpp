@@ -6,6 +6,7 @@
 #include "core/response/analysis.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/trust/doubts.hpp"
+#include "core/trust/model_variants.hpp"
 
 namespace pleuel::test {
 
@@ -17,6 +18,11 @@ inline std::vector<Doubt> doubts_of(const ProblemFile& problem, FindDoubts find)
   const auto analysis = analyze(problem, x);
   const Monitors monitors = monitor(analysis->model, analysis->trajectory);
   return find(TrustedRun{problem, x, *analysis, monitors});
+}
+
+/// What variants of the model say, as one kind of doubt.
+inline std::vector<Doubt> doubt_variants(const TrustedRun& run) {
+  return compare_variants(run).doubts;
 }
 
 /// What all kinds of doubts say of it.

@@ -4,7 +4,6 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/trust/initial_motion.hpp"
-#include "core/trust/shear_range.hpp"
 #include "tests/core/trust/doubts_of.hpp"
 
 /// What stands beside a mechanism, tied to the ground only, changes nothing of it.
@@ -127,7 +126,7 @@ TEST(SeparateGroups, ShareNoDoubtsOfShear) {
                              "over_time": "max"},
                   "of_block": {"type": "position", "body": "block", "at": 1, "direction": "y",
                                "over_time": "max"}}})");
-  const auto doubts = doubts_of(problem, doubt_shear_range);
+  const auto doubts = doubts_of(problem, doubt_variants);
   ASSERT_THAT(doubts, SizeIs(1));
   EXPECT_THAT(doubts[0].responses, testing::ElementsAre("of_block"));
 }

@@ -33,7 +33,7 @@ TEST(ShearOfSeveralBeams, AddsUp) {
       "responses": {{"tip": {{"type": "position", "body": "second", "at": 1, "direction": "y",
                               "over_time": "min"}}}}}})j",
                                             shear)),
-                     doubt_shear_range);
+                     doubt_variants);
   };
   const std::vector<Doubt> found = doubts(R"("shear": false)");
   ASSERT_EQ(found.size(), 1U);
@@ -75,13 +75,13 @@ TEST(ShearRange, OfABlockIsToldOfWhatStandsBesideIt) {
   const double block = 0.01 * 0.001 / 0.001, of_beam = 0.3 * 0.000125 / 0.125;
   const double with = of_beam / (of_beam + block / (1.0 + share)),
                without = of_beam / (of_beam + block);
-  const std::vector<Doubt> found = doubts_of(problem(false), doubt_shear_range);
+  const std::vector<Doubt> found = doubts_of(problem(false), doubt_variants);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_TRUE(found[0].is_serious);
   EXPECT_THAT(found[0].responses, testing::ElementsAre("stress", "of_bar"));
   EXPECT_THAT(found[0].text, HasSubstr("\"block\" is stubby"));
   EXPECT_NEAR(told_percent(found[0].text), 100.0 * (1.0 - without / with), 0.6);
-  EXPECT_TRUE(doubts_of(problem(true), doubt_shear_range).empty());
+  EXPECT_TRUE(doubts_of(problem(true), doubt_variants).empty());
 }
 
 /// A spring at the tip of a stubby cantilever, as stiff as that without shear, takes half of the
@@ -99,7 +99,7 @@ TEST(ShearRange, OfASpringIsThatOfItsLoad) {
                              "at": [[0.1, 0, 0], [0.1, -5, 0]], "stiffness": 5.25e8}}},
       "simulation": {"end_time": 0.002, "step": 0.001, "initial_state": "quasi-static"},
       "responses": {"force": {"type": "spring-force", "load": "spring", "over_time": "min"}}})"),
-                                             doubt_shear_range);
+                                             doubt_variants);
   ASSERT_EQ(found.size(), 1u);
   const double with = (1.0 + share) / (2.0 + share);
   EXPECT_NEAR(told_percent(found[0].text), 100.0 * (1.0 - 0.5 / with), 0.6);
@@ -127,7 +127,7 @@ TEST(ShearRange, OfAPositionIsThatOfItsOwnMotion) {
         "sag": {"type": "expression", "value": "0.5 m - y"},
         "of_reed": {"type": "position", "body": "reed", "at": 1, "direction": "y",
                     "over_time": "min"}}})"),
-                                             doubt_shear_range);
+                                             doubt_variants);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_THAT(found[0].responses, testing::ElementsAre("y", "sag"));
   const double share = 0.5 * (1 + nu) / rectangle_shear_coefficient(nu) * 0.25;
@@ -161,7 +161,7 @@ TEST(ShearRange, OfASmallDamageIsThatOfTheDamage) {
   const double with = values_of(*analyze(other, start_design(other)))(0);
   ASSERT_GT(with, 0.0);
   ASSERT_LT(with, 1e-3);
-  const std::vector<Doubt> found = doubts_of(problem, doubt_shear_range);
+  const std::vector<Doubt> found = doubts_of(problem, doubt_variants);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NEAR(told_percent(found[0].text), 100.0 * std::abs(without / with - 1.0),
               0.06 * 100.0 * std::abs(without / with - 1.0));

@@ -1,4 +1,3 @@
-#include "core/trust/shear_range.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -139,7 +138,7 @@ TEST(ShearRange, OfAFrequencyCountsModesThatPassOthers) {
   const double with_shear = values_of(*analyze(sheared, x))(0);
   const double lost = values_of(*analysis)(0) / with_shear - 1.0;
   ASSERT_GT(lost, 0.1);
-  const std::vector<Doubt> found = doubt_shear_range({problem, x, *analysis, Monitors{}});
+  const std::vector<Doubt> found = doubt_variants({problem, x, *analysis, Monitors{}});
   ASSERT_EQ(found.size(), 1u);
   EXPECT_TRUE(found[0].is_serious);
   EXPECT_NEAR(told_percent(found[0].text), 100.0 * lost, 0.6);
@@ -193,7 +192,7 @@ TEST(ShearRange, DoesNotConcernTheForcesOfAPlanarLoopInSpace) {
                        "/simulation/end_time=60 ms", "/simulation/resolution_check=false"});
   const Eigen::VectorXd x = start_design(problem);
   const auto analysis = analyze(problem, x);
-  const std::vector<Doubt> found = doubt_shear_range({problem, x, *analysis, Monitors{}});
+  const std::vector<Doubt> found = doubt_variants({problem, x, *analysis, Monitors{}});
   ASSERT_FALSE(found.empty());
   for (const Doubt& doubt : found) {
     EXPECT_THAT(doubt.responses, testing::Not(testing::Contains("torque_peak"))) << doubt.text;
@@ -220,7 +219,7 @@ TEST(ShearRange, ConcernsTheForcesOfWhatIsHeldMoreThanItNeeds) {
             .complete();
     const Eigen::VectorXd x = start_design(problem);
     const auto analysis = analyze(problem, x);
-    return doubt_shear_range({problem, x, *analysis, Monitors{}});
+    return doubt_variants({problem, x, *analysis, Monitors{}});
   };
   const double phi = 12 * 2.6 * 0.25 / 12 / rectangle_shear_coefficient(nu);
   for (const char* response : {R"({"type": "stress", "body": "b", "over_time": "max"})",
@@ -301,7 +300,7 @@ TEST(ShearRange, IsSeriousBesideLimitsOnly) {
     limit.name = limit.response = "asked";
     limit.upper = times * values_of(*analyze(problem, start_design(problem)))(0);
     problem.constraints.push_back(limit);
-    return doubts_of(problem, doubt_shear_range);
+    return doubts_of(problem, doubt_variants);
   };
   for (const auto& [times, is_serious] : {std::pair(1.5, true), std::pair(1000.0, false)}) {
     const std::vector<Doubt> found = with_limit(times);
@@ -315,7 +314,7 @@ TEST(ShearRange, IsSeriousBesideLimitsOnly) {
 TEST(ShearRange, IsNotAskedWithoutResponses) {
   ProblemFile problem = LoadedBeam{rectangle(0.5)}.problem();
   problem.responses.clear();
-  EXPECT_TRUE(doubts_of(problem, doubt_shear_range).empty());
+  EXPECT_TRUE(doubts_of(problem, doubt_variants).empty());
 }
 
 /// A column that stands, and does not bend, has no deflection that shear could change.

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "core/trust/shear_range.hpp"
 #include "core/trust/stubby_beams.hpp"
 #include "tests/core/trust/doubts_of.hpp"
 #include "tests/support/bent_cantilever.hpp"
@@ -64,7 +63,7 @@ struct ShearedBeam {
     analysis->trajectory.states->load(0, state);
     return shear_share(problem, x, analysis->model, "beam", state);
   }
-  std::vector<Doubt> doubts() const { return doubt_shear_range({problem, x, *analysis, monitors}); }
+  std::vector<Doubt> doubts() const { return doubt_variants({problem, x, *analysis, monitors}); }
 };
 
 inline std::string rectangle(double height) {

@@ -1,0 +1,100 @@
+#include "core/trust/far_bending.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "core/base/find_named.hpp"
+#include "core/base/number_text.hpp"
+#include "core/trust/beam_state.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Errors that are as good as none, relative.
+constexpr double tolerable_error = 0.01;
+/// Rotations that cannot change anything by that [rad]: errors grow as the square of bending, but as
+/// the first power of twist, which turns the axes of bending where there is any.
+constexpr double small_bending = 0.05, small_twist = 0.004, no_bending = 1e-3;
+/// Of the deflection of a cantilever under a force at its tip, 0.45 θ² is missed; of others less.
+constexpr double error_per_square = 0.45;
+
+/// The same body of the scene, of all of its frames what deforms most.
+std::map<std::string, LargestDeformation> largest_of_bodies(const TrustedRun& run) {
+  const Model& model = run.analysis.model;
+  const auto largest = largest_deformations(model, run.analysis.trajectory);
+  std::map<std::string, LargestDeformation> of_bodies;
+  for (std::size_t i = 0; i < largest.size(); ++i) {
+    const BodyModel& body = model.bodies[i];
+    if (!body.is_elastic || body.elastic_size() == 0) continue;
+    LargestDeformation& most = of_bodies[body.name];
+    most.bending = std::max(most.bending, largest[i].bending);
+    most.twist = std::max(most.twist, largest[i].twist);
+    most.strain = std::max(most.strain, largest[i].strain);
+  }
+  return of_bodies;
+}
+
+double indicator_of(const LargestDeformation& most) {
+  const double by_twist = most.bending > no_bending ? most.twist / small_twist : 0.0;
+  return std::max(most.bending / small_bending, by_twist);
+}
+
+bool can_be_divided(const ProblemFile& problem, const std::string& name) {
+  const auto is_none = [](const Number& number) {
+    return !number.is_bound() && number.constant == 0.0;
+  };
+  const auto* beam = std::get_if<BeamBody>(&find_named(problem.scene.bodies, name)->shape);
+  return beam != nullptr && is_none(beam->damping.mass) && is_none(beam->damping.modal);
+}
+
+Doubt stretched(const std::string& body, double strain) {
+  return {fmt::format(
+              "\"{}\" is stretched by {:.2g} %: linear elasticity is for small strains, and is off "
+              "by as much. Do not trust these numbers; a stiffer member or smaller loads keep "
+              "within it.",
+              body, 100.0 * strain),
+          true};
+}
+
+Doubt bent(const TrustedRun& run, const std::string& body, double rotation, double error) {
+  const bool is_beam =
+      std::holds_alternative<BeamBody>(find_named(run.problem.scene.bodies, body)->shape);
+  return {fmt::format(
+              "\"{}\" deforms until it has turned by {:.3g} rad against its frame: too far for "
+              "linear elasticity, which is off by some {} there. Do not trust these numbers; {}.",
+              body, rotation, rough_percent(error),
+              is_beam ? "damp it by \"stiffness\" only, and divide it: \"frames\""
+                      : "import it in several bodies, joined by fixed joints"),
+          true};
+}
+
+}  // namespace
+
+std::vector<ConcernedBeam> find_far_bending(const TrustedRun& run) {
+  std::vector<ConcernedBeam> found;
+  for (const auto& [name, most] : largest_of_bodies(run)) {
+    const double indicator = indicator_of(most);
+    if (indicator > 1.0 && can_be_divided(run.problem, name)) found.push_back({name, indicator});
+  }
+  std::ranges::stable_sort(found, std::ranges::greater(), &ConcernedBeam::indicator);
+  return found;
+}
+
+std::vector<Doubt> doubt_linear_elasticity(const TrustedRun& run) {
+  std::vector<Doubt> doubts;
+  for (const auto& [name, most] : largest_of_bodies(run)) {
+    const double error = error_per_square * most.bending * most.bending;
+    if (most.strain > tolerable_error) {
+      doubts.push_back(stretched(name, most.strain));
+    } else if (error > tolerable_error && !can_be_divided(run.problem, name)) {
+      doubts.push_back(bent(run, name, most.bending, error));
+    }
+  }
+  return doubts;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,268 @@
+#include "core/trust/model_variants.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/base/eager_matrices.hpp"
+#include "core/base/error.hpp"
+#include "core/base/find_named.hpp"
+#include "core/base/int_size.hpp"
+#include "core/base/parallel.hpp"
+#include "core/base/quoted.hpp"
+#include "core/scene/body_groups.hpp"
+#include "core/trust/far_bending.hpp"
+#include "core/trust/response_changes.hpp"
+#include "core/trust/round_off.hpp"
+#include "core/trust/stubby_beams.hpp"
+#include "core/trust/variants.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Changes that are as good as none, and those from which on numbers are those of another
+/// mechanism, relative. Between them what is missing is a property of the theory that is used.
+constexpr double tolerable_change = 0.01, alarming_change = 0.1;
+/// So many beams are told apart, each of which is simulated alone.
+constexpr std::size_t most_told_apart = 8;
+/// Beams that make less of a change, or have less of an indicator than others, are not named.
+constexpr double told_part = 0.1;
+
+using Names = std::vector<std::string>;
+
+BeamBody& beam_of(ProblemFile& problem, const std::string& name) {
+  return std::get<BeamBody>(find_named(problem.scene.bodies, name)->shape);
+}
+
+const BeamBody& beam_of(const ProblemFile& problem, const std::string& name) {
+  return std::get<BeamBody>(find_named(problem.scene.bodies, name)->shape);
+}
+
+/// One thing that beams may leave out.
+struct Variant {
+  std::string_view name;
+  Cause cause;
+  double missing;  ///< of what it changes: all that is missing
+  std::vector<ConcernedBeam> (*find)(const TrustedRun&);
+  void (*put_in)(BeamBody&);
+  std::string_view one, several;  ///< "is stubby: shear, which it leaves out,"
+  /// @param change  the largest that is told, relative
+  std::string (*advice)(const ProblemFile&, const Names& beams, double change);
+};
+
+/// Whether the sections of a beam say how stiff in shear they are.
+bool is_shear_known(const BeamBody& beam) {
+  return std::ranges::all_of(beam.segments, [](const Segment& segment) {
+    const auto* general = std::get_if<GeneralSection>(&segment.section);
+    return general == nullptr || general->shear_area_y;
+  });
+}
+
+std::string advice_of_shear(const ProblemFile& problem, const Names& beams, double /*change*/) {
+  Names unknown;
+  for (const std::string& beam : beams) {
+    if (!is_shear_known(beam_of(problem, beam))) unknown.push_back(beam);
+  }
+  const std::string key =
+      beams.size() == 1 ? fmt::format("/scene/bodies/{}/shear", beams.front()) : "their \"shear\"";
+  if (unknown.empty()) return fmt::format("set {} to true", key);
+  return fmt::format(
+      "set {} to true, and give the section of {} \"shear_area_y\" and "
+      "\"shear_area_z\" (those of a rectangle are taken here)",
+      key, quoted(unknown));
+}
+
+/// Errors fall as the square of the number of frames.
+std::string advice_of_frames(const ProblemFile& problem, const Names& beams, double change) {
+  constexpr double reserve = 1.1, most = 10.0;
+  const double factor = reserve * std::sqrt(std::min(change, most) / tolerable_change);
+  Names frames;
+  for (const std::string& beam : beams) {
+    frames.push_back(fmt::format("/scene/bodies/{}/frames to {:.0f}", beam,
+                                 std::ceil(beam_of(problem, beam).frames * factor)));
+  }
+  return fmt::format("set {}", fmt::join(frames, ", "));
+}
+
+constexpr Variant variants[] = {
+    {"shear", Cause::left_out, 1.0, find_stubby_beams,
+     [](BeamBody& beam) { beam.has_shear = true; }, "is stubby: shear, which it leaves out,",
+     "are stubby: shear, which they leave out,", advice_of_shear},
+    {"more_frames", Cause::not_modelled, 4.0 / 3.0, find_far_bending,
+     [](BeamBody& beam) { beam.frames *= 2; },
+     "bends too far for linear elasticity in its frame: more frames",
+     "bend too far for linear elasticity in their frames: more frames", advice_of_frames},
+};
+
+/// One variant of a run.
+class VariantRun {
+ public:
+  VariantRun(const TrustedRun& run, const Variant& variant, const std::vector<ConcernedBeam>& beams)
+      : run_(run), variant_(variant), groups_(run.problem.scene) {
+    for (const auto& [name, indicator] : beams) {
+      beams_.push_back(name);
+      indicators_.push_back(indicator);
+    }
+  }
+
+  void find(LeftOut& found) {
+    std::unique_ptr<Analysis> changed;
+    const ProblemFile problem = with(beams_);
+    try {
+      changed = analyze_variant(run_, problem);
+    } catch (const SimulationError& error) {
+      found.doubts.push_back(failed(error.what(), true));
+      return;
+    } catch (const InputError& error) {  // of what cannot be asked of it
+      found.doubts.push_back(failed(error.what(), false));
+      return;
+    }
+    measure({problem, run_.x, *changed, run_.monitors});
+    const Eigen::VectorXd change = values_of(*changed) - values_of(basis_of_variants(run_));
+    found.changes.push_back({std::string(variant_.name), variant_.missing * change});
+    for (const bool is_serious : {true, false}) add_doubt(is_serious, found.doubts);
+  }
+
+ private:
+  /// The problem with these beams changed.
+  ProblemFile with(const Names& beams) const {
+    ProblemFile problem = problem_of_variants(run_);
+    for (const std::string& beam : beams) variant_.put_in(beam_of(problem, beam));
+    return problem;
+  }
+
+  Doubt failed(const std::string& why, bool is_serious) const {
+    return {fmt::format("{} {} would change what cannot be told: {}", quoted(beams_), words(beams_),
+                        why),
+            is_serious,
+            {},
+            {},
+            variant_.cause};
+  }
+
+  std::string_view words(const Names& beams) const {
+    return beams.size() == 1 ? variant_.one : variant_.several;
+  }
+
+  void measure(const TrustedRun& changed) {
+    changes_ = changes_of(changed.analysis);
+    if (!is_any_told()) return;
+    const std::vector<bool> was_nothing = find_round_off(run_),
+                            is_nothing = find_round_off(changed);
+    for (std::size_t i = 0; i < changes_.size(); ++i) {
+      if (was_nothing[i] && is_nothing[i]) changes_[i] = {};
+    }
+    share_out();
+  }
+
+  bool is_any_told() const {
+    return std::ranges::any_of(
+        changes_, [](const ResponseChange& change) { return change.of_value > tolerable_change; });
+  }
+
+  /// Which beams the changes are due to: by a simulation with each alone; of very many those whose
+  /// own indicator is not far below the largest.
+  void share_out() {
+    by_beam_.assign(beams_.size(), changes_);
+    if (beams_.size() == 1 || !is_any_told()) return;
+    if (beams_.size() > most_told_apart) {
+      for (std::size_t k = 0; k < beams_.size(); ++k) {
+        if (indicators_[k] <= told_part * indicators_.front())
+          by_beam_[k].assign(changes_.size(), {});
+      }
+      return;
+    }
+    for_each_in_parallel(int_size(beams_), available_threads(), [&](int i) {
+      try {
+        by_beam_[i] = changes_of(*analyze_variant(run_, with({beams_[i]})));
+      } catch (const SimulationError&) {
+        by_beam_[i] = changes_;  // this one has a part in all
+      }
+    });
+  }
+
+  /// What is missing of each response.
+  std::vector<ResponseChange> changes_of(const Analysis& changed) const {
+    std::vector<ResponseChange> changes =
+        response_changes(run_.problem, changed, basis_of_variants(run_));
+    for (ResponseChange& change : changes) {
+      change.of_value *= variant_.missing;
+      change.beside_limits *= variant_.missing;
+    }
+    return changes;
+  }
+
+  /// Of the responses whose change is alarming, or of the others that are worth a word.
+  void add_doubt(bool is_serious, std::vector<Doubt>& doubts) const {
+    Names names, changed;
+    std::vector<bool> has_part(beams_.size(), false);
+    double largest = 0.0;
+    for (std::size_t i = 0; i < changes_.size(); ++i) {
+      const double change = changes_[i].of_value;
+      const bool is_alarming = changes_[i].beside_limits > alarming_change;
+      if (change <= tolerable_change || is_alarming != is_serious) continue;
+      const ResponseSettings& response = run_.problem.responses[i];
+      names.push_back(response.name);
+      changed.push_back(fmt::format("\"{}\" by {:.2g} %", response.name, 100.0 * change));
+      largest = std::max(largest, change);
+      for (std::size_t k = 0; k < beams_.size(); ++k) {
+        const bool is_told = by_beam_[k][i].of_value > told_part * change;
+        if (is_told && depends_on(response, beams_[k])) has_part[k] = true;
+      }
+    }
+    if (names.empty()) return;
+    Names beams;
+    for (std::size_t k = 0; k < beams_.size(); ++k) {
+      if (has_part[k]) beams.push_back(beams_[k]);
+    }
+    if (beams.empty()) beams = beams_;  // they do it together
+    doubts.push_back({fmt::format("{} {} would change {} (of what {} then). {}: {}.", quoted(beams),
+                                  words(beams), fmt::join(changed, ", "),
+                                  names.size() == 1 ? "it is" : "they are",
+                                  is_serious ? "Do not trust that" : "Where that matters",
+                                  variant_.advice(run_.problem, beams, largest)),
+                      is_serious,
+                      names,
+                      {},
+                      variant_.cause});
+  }
+
+  /// Whether a beam is tied to what a response is about.
+  bool depends_on(const ResponseSettings& response, const std::string& beam) const {
+    Names about = response.bodies;
+    const Joint* joint = find_named(run_.problem.scene.joints, response.joint);
+    if (joint != nullptr) about.insert(about.end(), joint->bodies.begin(), joint->bodies.end());
+    std::erase(about, ground_name);
+    return about.empty() || std::ranges::any_of(about, [&](const std::string& other) {
+             return groups_.of(other) == groups_.of(beam);
+           });
+  }
+
+  const TrustedRun& run_;
+  const Variant& variant_;
+  Names beams_;                     ///< that get what they leave out
+  std::vector<double> indicators_;  ///< of each
+  BodyGroups groups_;
+  std::vector<ResponseChange> changes_;               ///< one a response
+  std::vector<std::vector<ResponseChange>> by_beam_;  ///< by each beam alone
+};
+
+}  // namespace
+
+LeftOut compare_variants(const TrustedRun& run) {
+  LeftOut found;
+  if (run.problem.responses.empty()) return found;
+  for (const Variant& variant : variants) {
+    const std::vector<ConcernedBeam> beams = variant.find(run);
+    if (!beams.empty()) VariantRun(run, variant, beams).find(found);
+  }
+  return found;
+}
+
+}  // namespace pleuel

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/trust/doubt.hpp"
+#include "core/trust/trusted_run.hpp"
+
+/// What the model leaves out: the mechanism is simulated once more with it, and the difference is what
+/// it would change.
+namespace pleuel {
+
+/// What one variant makes of all responses.
+struct VariantChange {
+  std::string name;        ///< of what is left out: "shear"
+  Eigen::VectorXd change;  ///< what is missing of each response [its unit]
+};
+
+struct LeftOut {
+  std::vector<VariantChange> changes;
+  std::vector<Doubt> doubts;
+};
+
+/// Runs the variants whose indicators speak, at twice the step (variants.hpp):
+/// - `shear` in beams that leave it out and are stubby (stubby_beams.hpp),
+/// - `more_frames`, by twice as many, in beams that bend or twist far against those they have: linear elasticity in
+///   a frame is off by the square of rotations, which twice the frames leave a quarter of.
+///
+/// Told from 1 % of what a response is with it, serious from 10 % of that or of a tenth of its
+/// limits (response_changes.hpp), with the beams that make it: where there are several, each is
+/// simulated alone. Beams that cannot be divided, and imported bodies, are judged by 0.45 θ², what is
+/// missed of the deflection of a cantilever whose tip turns by θ.
+LeftOut compare_variants(const TrustedRun& run);
+
+}  // namespace pleuel

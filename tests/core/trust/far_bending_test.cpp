@@ -1,0 +1,185 @@
+#include "core/trust/far_bending.hpp"
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/base/eager_matrices.hpp"
+#include "tests/core/trust/doubts_of.hpp"
+#include "tests/support/bent_cantilever.hpp"
+#include "tests/support/problem_runs.hpp"
+
+namespace pleuel::test::far_bending_test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::SizeIs;
+
+struct BentBeam {
+  ProblemFile problem;
+  Eigen::VectorXd x;
+  std::unique_ptr<Analysis> analysis;
+  Monitors monitors;
+
+  explicit BentBeam(const BentCantilever& cantilever)
+      : problem(cantilever.problem()), x(start_design(problem)), analysis(analyze(problem, x)) {}
+
+  TrustedRun run() const { return {problem, x, *analysis, monitors}; }
+  double value(const std::string& response) const {
+    return analysis->reductions[response_index(problem, response)].value;
+  }
+  /// What more frames are told to change of a response; 0: nothing is told.
+  double missing(const std::string& response) const {
+    for (const VariantChange& variant : compare_variants(run()).changes) {
+      if (variant.name != "more_frames") continue;
+      return variant.change(static_cast<int>(response_index(problem, response)));
+    }
+    return 0.0;
+  }
+  std::vector<Doubt> doubts() const { return doubt_variants(run()); }
+};
+
+BentCantilever pushed(double alpha) {
+  return {.force_y = alpha * BentCantilever::bending_stiffness};
+}
+
+double relative(double found, double exact) {
+  return std::abs(found - exact) / std::abs(exact);
+}
+
+/// What is missing of deflection and shortening, against the elastica, from one and from two frames.
+TEST(MoreFrames, ForetellWhatIsMissingOfTheElastica) {
+  for (const int frames : {1, 2}) {
+    for (const ElasticaTip& exact : {elastica_tips[0], elastica_tips[1]}) {
+      BentCantilever cantilever = pushed(exact.load);
+      cantilever.frames = frames;
+      const BentBeam run(cantilever);
+      const double deflection = exact.deflection - run.value("y"),
+                   shortening = 1.0 - exact.shortening - run.value("x");
+      EXPECT_NEAR(run.missing("y"), deflection, 0.2 * std::abs(deflection))
+          << exact.load << " " << frames;
+      EXPECT_NEAR(run.missing("x"), shortening, 0.2 * std::abs(shortening))
+          << exact.load << " " << frames;
+    }
+  }
+}
+
+/// In space, and of a beam that twists beside bending in both planes: what sixteen frames change.
+TEST(MoreFrames, ForetellWhatManyFramesChangeInSpace) {
+  BentCantilever oblique;
+  oblique.force_y = 40.0;
+  oblique.force_z = 8.0;
+  oblique.section = R"({"type": "rectangle", "width": 0.005, "height": 0.02})";
+  oblique.frames = 2;
+  oblique.elements = 32;
+  const BentBeam run(oblique);
+  oblique.frames = 32;
+  const BentBeam many(oblique);
+  for (const char* response : {"y", "z"}) {
+    const double expected = many.value(response) - run.value(response);
+    EXPECT_NEAR(run.missing(response), expected, 0.3 * std::abs(expected)) << response;
+  }
+}
+
+/// Nothing is run below a rotation of 0.05 rad, nor told below 1 %; beyond 10 % it is serious.
+TEST(MoreFrames, AreToldFromOnePercentAndSeriousFromTen) {
+  EXPECT_THAT(compare_variants(BentBeam(pushed(0.08)).run()).changes, IsEmpty());
+  EXPECT_THAT(compare_variants(BentBeam(pushed(0.12)).run()).changes, SizeIs(1));
+  EXPECT_THAT(BentBeam(pushed(0.12)).doubts(), IsEmpty());
+  const std::vector<Doubt> some = BentBeam(pushed(0.5)).doubts();
+  ASSERT_THAT(some, SizeIs(1));
+  EXPECT_FALSE(some[0].is_serious);
+  EXPECT_EQ(some[0].cause, Cause::not_modelled);
+  BentCantilever far = pushed(2.0);
+  far.stiffening = "off";
+  EXPECT_TRUE(BentBeam(far).doubts().front().is_serious);
+}
+
+/// As many frames as are asked for leave an error below 1 %, and no doubt.
+TEST(MoreFrames, AreAsManyAsCure) {
+  for (const ElasticaTip& exact : {elastica_tips[1], elastica_tips[2], elastica_tips[3]}) {
+    BentCantilever cantilever = pushed(exact.load);
+    cantilever.stiffening = "off";  // in one frame it finds no equilibrium that far
+    const std::vector<Doubt> doubts = BentBeam(cantilever).doubts();
+    ASSERT_FALSE(doubts.empty());
+    const std::string& text = doubts.front().text;
+    const std::string key = "/scene/bodies/beam/frames to ";
+    ASSERT_THAT(text, HasSubstr(key));
+    cantilever.frames = std::stoi(text.substr(text.find(key) + key.size()));
+    EXPECT_LE(cantilever.frames, 16);
+    cantilever.stiffening = "on";
+    const BentBeam cured(cantilever);
+    EXPECT_LE(relative(cured.value("y"), exact.deflection), 0.01) << exact.load;
+    EXPECT_TRUE(cured.doubts().empty()) << cured.doubts().front().text;
+  }
+}
+
+/// One element a frame: the elastica is met, and nothing is said.
+TEST(MoreFrames, AreNotToldOfElementsWithFramesOfTheirOwn) {
+  for (const int frames : {6, 12}) {
+    BentCantilever cantilever = pushed(1.0);
+    cantilever.frames = cantilever.elements = frames;
+    const BentBeam run(cantilever);
+    EXPECT_TRUE(run.doubts().empty()) << run.doubts().front().text;
+  }
+}
+
+/// A leaf of 1 m × 20 mm × 5 mm with a force of 8 N across its tip, which bends it by 61 mm, and one
+/// along it.
+std::vector<Doubt> doubts_of_leaf(double along, double place, int frames) {
+  return doubts_of(
+      read_scene(fmt::format(
+          R"j({{"scene": {{"bodies": {{"leaf": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0],
+              "material": "steel", "section": {{"type": "rectangle", "width": "20 mm", "height": "5 mm"}},
+              "elements": 8, "frame": "tangent", "frames": {}}}}},
+            "joints": {{"clamp": {{"type": "fixed", "bodies": ["ground", "leaf"], "at": [0, 0, 0]}}}},
+            "loads": {{"across": {{"type": "force", "body": "leaf", "at": [1, 0, 0],
+                                   "direction": [0, 1, 0], "value": 8}},
+                       "along": {{"type": "force", "body": "leaf", "at": [1, 0, 0],
+                                  "direction": [1, 0, 0], "value": {}}}}}}},
+          "simulation": {{"end_time": 1e-3, "step": 1e-4, "initial_state": "quasi-static"}},
+          "responses": {{"pull": {{"type": "section-force", "body": "leaf", "at": {}, "part": "axial",
+                                   "over_time": "max"}}}}}})j",
+          frames, along, place)),
+      doubt_variants);
+}
+
+/// In its middle the section is turned by ¾ · P L²/(2 EI) = 0.07 rad, which makes 0.55 N of 8 N an axial
+/// force where there is none else; 1 N of 100 N is none.
+TEST(MoreFrames, AreToldOfAxialForcesInTurnedSections) {
+  const std::vector<Doubt> found = doubts_of_leaf(0.0, 0.5, 1);
+  ASSERT_THAT(found, SizeIs(1));
+  EXPECT_TRUE(found[0].is_serious);
+  EXPECT_THAT(found[0].responses, ElementsAre("pull"));
+  EXPECT_THAT(doubts_of_leaf(100.0, 0.5, 1), IsEmpty());
+  EXPECT_THAT(doubts_of_leaf(0.0, 0.5, 8), IsEmpty());
+}
+
+/// Pulled by 2 % in its length.
+TEST(LinearElasticity, IsLeftByLargeStretching) {
+  BentCantilever cantilever;
+  cantilever.force_x = 0.02 * 1.2e11 * 1e-4;  // ε E A
+  const auto doubts = [&] { return doubt_linear_elasticity(BentBeam(cantilever).run()); };
+  ASSERT_THAT(doubts(), SizeIs(1));
+  EXPECT_THAT(doubts()[0].text, HasSubstr("stretched by 2 %"));
+  cantilever.force_x *= 0.49;
+  EXPECT_THAT(doubts(), IsEmpty());
+}
+
+/// A beam with damping of modes cannot be divided: 0.45 θ² at θ = 0.24 rad are 2.7 %.
+TEST(LinearElasticity, IsLeftByFarBendingThatCannotBeDivided) {
+  BentCantilever cantilever = pushed(0.5);
+  cantilever.more = R"(, "reduction": {"modes": 4}, "damping": {"modal": 0.01})";
+  const BentBeam run(cantilever);
+  EXPECT_THAT(find_far_bending(run.run()), IsEmpty());
+  const std::vector<Doubt> doubts = doubt_linear_elasticity(run.run());
+  ASSERT_THAT(doubts, SizeIs(1));
+  EXPECT_TRUE(doubts[0].is_serious);
+  EXPECT_THAT(doubts[0].text, HasSubstr("which is off by some 2.8 %"));
+}
+
+}  // namespace
+}  // namespace pleuel::test::far_bending_test
