@@ -24,9 +24,9 @@ namespace pleuel {
 /// But for the variation, which the file says.
 template <class Archive>
 void transfer(Archive& archive, VariedRun& varied) {
-  auto& [variation, run, time_change, influence] = varied;
+  auto& [variation, run, time, influence] = varied;
   (void)variation;
-  archive(run, time_change, influence);
+  archive(run, time.seconds, time.change, time.spread, influence);
 }
 
 namespace {
@@ -241,7 +241,7 @@ class Variations {
   bool is_hopeless(const Variation& variation) const {
     if (variation.knob != "local_error" || study_.knobs.empty()) return false;
     const VariedRun& last = study_.knobs.back();
-    const bool is_too_long = last.run.has_failed() || last.time_change > too_long;
+    const bool is_too_long = last.run.has_failed() || last.time.change > too_long;
     return last.variation.knob == variation.knob && is_too_long;
   }
 
@@ -254,15 +254,19 @@ class Variations {
     if (run.has_failed()) return varied;
     compare(study_.reference, x_, run);
     raise_to_errors_of(study_.reference, run);
-    if (run.simulation_seconds > clearly_more * base_.simulation_seconds) {
-      varied.time_change = run.simulation_seconds / base_.simulation_seconds - 1.0;
-      return varied;
-    }
-    const ComparedSeconds seconds =
-        compare_seconds([&] { analyze(changed, x_); }, [&] { analyze(discrete_, x_); });
-    run.simulation_seconds = seconds.one;
-    if (seconds.other > 0.0) varied.time_change = seconds.one / seconds.other - 1.0;
+    varied.time = time_of(run, changed);
+    run.simulation_seconds = base_.simulation_seconds * (1.0 + varied.time.change);
     return varied;
+  }
+
+  /// Beside the base: one baseline for all.
+  ComparedTime time_of(const AccuracyRun& run, const ProblemFile& changed) const {
+    const double once = run.simulation_seconds;
+    if (is_same_work(run, base_)) return {once, 0.0, 0.0};
+    if (once > clearly_more * base_.simulation_seconds) {
+      return {once, once / base_.simulation_seconds - 1.0, 0.0};
+    }
+    return compare_times({[&] { analyze(discrete_, x_); }, [&] { analyze(changed, x_); }}).back();
   }
 
   /// With the steps and elements of the file: those of an optimum at the design.

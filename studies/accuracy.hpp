@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "core/base/compared_times.hpp"
 #include "core/base/part_store.hpp"
 #include "core/scene/problem_file.hpp"
 #include "studies/accuracy_grid.hpp"
@@ -27,7 +28,8 @@ struct Recommendation {
 struct VariedRun {
   Variation variation;
   AccuracyRun run;
-  double time_change = 0.0;  ///< of a simulation, relative to the setting without the change
+  /// Of a simulation, beside the setting without the change; of the same work 0 ± 0.
+  ComparedTime time = {};
   /// Of an effect: changes of the values with it [SI], and of the optimum in `run`, with the steps
   /// and elements of the file.
   Eigen::VectorXd influence = {};

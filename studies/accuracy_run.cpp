@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <ctime>
 #include <memory>
+#include <tuple>
 #include <utility>
 
 #include "core/base/eager_matrices.hpp"
@@ -32,7 +33,9 @@ void keep_values(const Analysis& analysis, AccuracyRun& run) {
     const Eigen::MatrixXd& history = analysis.histories[i];
     if (history.size() > 0) run.magnitudes(i) = history.cwiseAbs().maxCoeff();
   }
+  const System& system = *analysis.model.mechanism.system;
   run.steps = analysis.trajectory.steps();
+  run.unknowns = system.coordinates() + system.multipliers();
   run.newton_iterations = analysis.trajectory.newton_iterations;
   run.factorizations = analysis.trajectory.factorizations;
 }
@@ -56,17 +59,11 @@ double least_seconds(const std::function<void()>& work) {
   return least;
 }
 
-ComparedSeconds compare_seconds(const std::function<void()>& one,
-                                const std::function<void()>& other) {
-  ComparedSeconds least{processor_seconds(one), processor_seconds(other)};
-  double spent = least.one + least.other;
-  for (int i = 1; !is_enough(i, 0.5 * spent); ++i) {
-    const double of_one = processor_seconds(one), of_other = processor_seconds(other);
-    spent += of_one + of_other;
-    least.one = std::min(least.one, of_one);
-    least.other = std::min(least.other, of_other);
-  }
-  return least;
+bool is_same_work(const AccuracyRun& one, const AccuracyRun& other) {
+  const auto work = [](const AccuracyRun& run) {
+    return std::tuple(run.steps, run.unknowns, run.newton_iterations, run.factorizations);
+  };
+  return work(one) == work(other);
 }
 
 AccuracyRun measure_run(ProblemFile problem, const Eigen::VectorXd& x, Timing timing) {

@@ -28,12 +28,16 @@ struct AccuracyRun {
   std::optional<double> optimum_change;
   double simulation_seconds = 0.0;  ///< the fastest of a few, one thread
   double gradient_seconds = 0.0;    ///< direct differentiation of all responses, on top
-  int steps = 0, newton_iterations = 0, factorizations = 0;
+  int steps = 0, unknowns = 0, newton_iterations = 0, factorizations = 0;
   std::vector<Doubt> doubts;  ///< about the values
 
   bool has_failed() const { return !failure.empty(); }
   double seconds() const { return simulation_seconds + gradient_seconds; }
 };
+
+/// Whether simulations have the same steps, iterations and factorizations of as many unknowns: then their
+/// times are equal, whatever a clock says.
+bool is_same_work(const AccuracyRun& one, const AccuracyRun& other);
 
 /// How its times are taken: of a single run, or as the least of several after a first one.
 enum class Timing { once, least };
@@ -44,13 +48,6 @@ double processor_seconds(const std::function<void()>& work);
 /// The least of several, up to a quarter of a second in total: caches that others filled only add
 /// time.
 double least_seconds(const std::function<void()>& work);
-
-/// Processor times of two works, in turns, the least of several of each [s].
-struct ComparedSeconds {
-  double one = 0.0, other = 0.0;
-};
-ComparedSeconds compare_seconds(const std::function<void()>& one,
-                                const std::function<void()>& other);
 
 /// Runs a problem at a design. The checks of its resolution are left out.
 /// @throws SimulationError, InputError where a window of time has no steps

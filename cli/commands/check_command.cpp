@@ -70,7 +70,8 @@ Examination examine(const ProblemFile& problem, const Eigen::VectorXd& x,
   if (!arguments.wants_all_warnings) findings.consequences = count_consequences(doubts);
   ProgressLine progress(arguments, "measuring effects");
   try {
-    findings.influences = effect_influences(problem, x);
+    findings.influences = effect_influences(
+        problem, x, arguments.wants_effects ? InfluenceTimes::measured : InfluenceTimes::none);
   } catch (const Stopped&) {
     findings.is_interrupted = true;
     return findings;

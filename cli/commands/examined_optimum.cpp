@@ -205,26 +205,23 @@ Examined examine_designs(RunRecord& record, Optimum& optimum) {
 }
 
 /// What each effect brings and costs at an optimum with prices.
-std::vector<EffectInfluence> influences_at(const Optimum& optimum) {
+std::vector<EffectInfluence> influences_at(const Optimum& optimum, InfluenceTimes times) {
   if (optimum.problem.has_cases()) return {};  // of one case: `pleuel simulate --effects`
   if (!has_prices(optimum.result) || !optimum.problem.simulation.checks_resolution) return {};
   constexpr double factor = 2.0;  // of the step: effects change little of the errors by it
-  std::vector<EffectInfluence> influences;
   try {
-    influences = effect_influences(refined(optimum.problem, {factor, 1.0}), optimum.result.x);
+    return effect_influences(refined(optimum.problem, {factor, 1.0}), optimum.result.x, times);
   } catch (const Stopped&) {
     return {};
   }
-  for (EffectInfluence& one : influences) one.seconds *= factor;
-  return influences;
 }
 
 }  // namespace
 
-Examined examine_optimum(RunRecord& record, Optimum& optimum) {
+Examined examine_optimum(RunRecord& record, Optimum& optimum, InfluenceTimes times) {
   try {
     record.begin_phase("effects");
-    optimum.influences = influences_at(optimum);
+    optimum.influences = influences_at(optimum, times);
     record.begin_phase("trajectories");
     return examine_designs(record, optimum);
   } catch (const Stopped&) {

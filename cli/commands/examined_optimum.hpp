@@ -17,6 +17,6 @@ struct Examined {
 
 /// Simulates both designs in every load case, for their trajectory files, the picture of the page, and
 /// what else is told of the optimum. An interrupt ends that, but not what was found.
-Examined examine_optimum(RunRecord& record, Optimum& optimum);
+Examined examine_optimum(RunRecord& record, Optimum& optimum, InfluenceTimes times);
 
 }  // namespace pleuel

@@ -238,7 +238,10 @@ Outcome run_optimize(const Arguments& arguments) {
   record.write("result.json", result_document());
   Examined examined;
   solution.problem->forget_analyses();
-  if (optimum.has_design()) examined = examine_optimum(record, optimum);
+  if (optimum.has_design()) {
+    examined = examine_optimum(
+        record, optimum, arguments.wants_effects ? InfluenceTimes::measured : InfluenceTimes::none);
+  }
   is_whole = examined.is_whole;
   if (optimum.has_design() && is_whole) {
     effects = std::move(examined.effects);

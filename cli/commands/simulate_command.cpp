@@ -178,7 +178,7 @@ Outcome run_simulate(const Arguments& arguments) {
   if (arguments.wants_all_warnings) run.consequences = 0;
   if (arguments.wants_effects && run.is_checked) {
     try {
-      run.influences = effect_influences(input.problem, input.design);
+      run.influences = effect_influences(input.problem, input.design, InfluenceTimes::measured);
     } catch (const Stopped&) {
       run.is_checked = false;
     }

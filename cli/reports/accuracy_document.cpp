@@ -6,6 +6,7 @@
 
 #include "cli/reports/outcome.hpp"
 #include "cli/reports/setting_report.hpp"
+#include "cli/reports/time_text.hpp"
 #include "cli/reports/warnings.hpp"
 #include "core/trust/doubts.hpp"
 
@@ -69,11 +70,18 @@ Json variation_document(const char* key, const ProblemInput& input, const Accura
   return document;
 }
 
+/// `time_change` is null where nothing can be said of it.
+void add_time(const ComparedTime& time, Json& document) {
+  const bool is_known = is_same(time) || time.is_measurable();
+  document["time_change"] = is_known ? Json(time.change) : Json(nullptr);
+  document["time"] = time_change_document(time);
+}
+
 Json knob_document(const ProblemInput& input, const AccuracyRun& base, const VariedRun& varied) {
   Json document = variation_document("knob", input, base, varied);
   if (varied.run.has_failed()) return document;
   add_measures(input.problem, varied.run, document);
-  document["time_change"] = varied.time_change;
+  add_time(varied.time, document);
   return document;
 }
 
@@ -83,7 +91,7 @@ Json effect_document(const ProblemInput& input, const AccuracyRun& base, const V
   document["influence"] = of_responses(input.problem, varied.influence);
   document["optimum_change"] = number_or_null(varied.run.optimum_change);
   document["seconds"] = varied.run.simulation_seconds;
-  document["time_change"] = varied.time_change;
+  add_time(varied.time, document);
   return document;
 }
 

@@ -7,6 +7,7 @@
 
 #include "cli/reports/accuracy_document.hpp"
 #include "cli/reports/outcome.hpp"
+#include "cli/reports/time_text.hpp"
 #include "cli/reports/warnings.hpp"
 #include "cli/text/table.hpp"
 #include "cli/text/wrapped_text.hpp"
@@ -22,8 +23,6 @@ namespace {
 constexpr double no_change = 1e-9;
 /// Share of the time below which nothing is said to be saved.
 constexpr double least_saving = 0.05;
-/// What processor times differ by from run to run.
-constexpr double time_noise = 0.03;
 /// How many knobs are recommended.
 constexpr std::size_t most_knobs = 2;
 
@@ -120,10 +119,11 @@ std::string recommendations_text(const AccuracyStudy& study) {
   return text + "\n";
 }
 
-/// "13 % less time", "the same time"
-std::string time_text(double change) {
-  if (std::abs(change) < time_noise) return "the same time";
-  return fmt::format("{:.0f} % {} time", 100.0 * std::abs(change), change < 0.0 ? "less" : "more");
+/// "13 ± 2 % less time", "the same work"
+std::string time_text(const ComparedTime& time) {
+  if (is_same(time)) return "the same work";
+  if (!time.is_measurable()) return "no measurable difference of time";
+  return percent_with_spread(time) + (time.change < 0.0 ? " less time" : " more time");
 }
 
 std::string signed_share(double share) {
@@ -174,8 +174,7 @@ std::string effects_text(const ProblemFile& problem, const AccuracyStudy& study)
     if (one.run.has_failed()) {
       text += "the simulation fails. ";
     } else {
-      text +=
-          fmt::format("{}, {}. ", time_text(one.time_change), influence_text(problem, study, one));
+      text += fmt::format("{}, {}. ", time_text(one.time), influence_text(problem, study, one));
     }
   }
   return text.empty() ? text : text + "\n";
@@ -188,10 +187,10 @@ std::vector<const VariedRun*> knobs_that_pay(const AccuracyStudy& study) {
   const double target = study.recommendations.front().target;
   for (const VariedRun& one : study.knobs) {
     if (one.run.has_failed() || study.counted_error(one.run.errors) > target) continue;
-    if (one.time_change < -least_saving) all.push_back(&one);
+    if (one.time.is_measurable() && one.time.change < -least_saving) all.push_back(&one);
   }
   std::stable_sort(all.begin(), all.end(), [](const VariedRun* one, const VariedRun* other) {
-    return one->time_change < other->time_change;
+    return one->time.change < other->time.change;
   });
   if (all.size() > most_knobs) all.resize(most_knobs);
   return all;
@@ -201,9 +200,8 @@ std::vector<const VariedRun*> knobs_that_pay(const AccuracyStudy& study) {
 std::string knobs_text(const AccuracyStudy& study) {
   std::string text;
   for (const VariedRun* one : knobs_that_pay(study)) {
-    text +=
-        fmt::format("With {}: {}, and still within {}. ", variation_text(one->variation),
-                    time_text(one->time_change), target_text(study.recommendations.front().target));
+    text += fmt::format("With {}: {}, and still within {}. ", variation_text(one->variation),
+                        time_text(one->time), target_text(study.recommendations.front().target));
   }
   return text.empty() ? text : text + "\n";
 }
@@ -220,8 +218,7 @@ std::string variations_text(const ProblemFile& problem, const AccuracyStudy& stu
     if (one.run.has_failed()) {
       cells.insert(cells.end(), {"–", "–", "failed"});
     } else {
-      cells.insert(cells.end(), {fmt::format("{}{:.0f} %", one.time_change < 0.0 ? "−" : "+",
-                                             100.0 * std::abs(one.time_change)),
+      cells.insert(cells.end(), {time_change_text(one.time),
                                  fmt::format("{:.1f}", 1e3 * one.run.simulation_seconds),
                                  worst(problem, study, one.run, &AccuracyRun::errors),
                                  worst(problem, study, one.run, &AccuracyRun::gradient_errors)});

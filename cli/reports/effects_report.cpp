@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "cli/reports/influence_report.hpp"
+#include "cli/reports/time_text.hpp"
 #include "cli/text/table.hpp"
 #include "cli/text/wrapped_text.hpp"
 
@@ -38,7 +39,9 @@ void add_influence(const ProblemFile& problem, const EffectInfluence& influence,
     const double change = influence.changes(i);
     entry["influence"][problem.responses[i].name] = change;
   }
-  entry["seconds"] = influence.seconds;
+  entry["unknowns"] = influence.unknowns;
+  entry["iterations"] = influence.iterations;
+  if (influence.time) entry["time"] = time_change_document(*influence.time);
 }
 
 bool are_alike(const EffectRecord& one, const EffectRecord& other) {

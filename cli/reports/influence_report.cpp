@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/reports/time_text.hpp"
 #include "cli/text/table.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/find_named.hpp"
@@ -22,11 +23,9 @@ constexpr double round_off = 1e-8;
 /// What counts where the file gives no tolerance of effects.
 constexpr double usual_tolerance = 1e-3;
 
-/// Whole percents: times of single runs are not known better.
-std::string percent_text(double share) {
-  const double percents = std::round(100.0 * share);
-  return percents == 0.0 ? "0 %"
-                         : fmt::format("{}{} %", percents < 0.0 ? "−" : "+", std::abs(percents));
+/// "+3", "−2", "0"
+std::string count_text(int count) {
+  return count == 0 ? "0" : fmt::format("{}{}", count < 0 ? "−" : "+", std::abs(count));
 }
 
 struct Change {
@@ -73,16 +72,21 @@ bool does_matter(const MeasuredEffects& effects, const EffectInfluence& influenc
   return most_changed(effects, influence) > (asked > 0.0 ? asked : usual_tolerance);
 }
 
+bool has_times(const MeasuredEffects& effects) {
+  return std::ranges::any_of(effects.influences,
+                             [](const EffectInfluence& one) { return one.time.has_value(); });
+}
+
 std::vector<std::string> row_of(const MeasuredEffects& effects, const EffectInfluence& one) {
   const PriceOfChanges& price = effects.price;
   std::vector<std::string> row = {one.effect, one.body};
   if (!one.failure.empty()) {
-    row.push_back("–");
-    if (price) row.push_back("–");
+    row.insert(row.end(), 2 + (has_times(effects) ? 1 : 0) + (price ? 1 : 0), "–");
     row.push_back(one.failure);
     return row;
   }
-  row.push_back(percent_text(-one.share));
+  row.insert(row.end(), {count_text(one.unknowns), count_text(one.iterations)});
+  if (one.time) row.push_back(time_change_text(*one.time));
   if (price) {
     const std::string& objective = effects.problem.objective->response;
     const ShownUnit unit = unit_of(find_response(effects.problem, objective));
@@ -163,7 +167,8 @@ void mark_effects(const MeasuredEffects& effects, Json& document) {
 std::string influences_text(const MeasuredEffects& effects, bool shows_all) {
   if (effects.influences.empty()) return "";
   std::vector<Table::Column> columns = {
-      {"without", Table::Align::left}, {"of", Table::Align::left}, {"time"}};
+      {"without", Table::Align::left}, {"of", Table::Align::left}, {"unknowns"}, {"iterations"}};
+  if (has_times(effects)) columns.push_back({"time"});
   if (effects.price) columns.push_back({"optimum"});
   columns.push_back({"largest change of a response", Table::Align::left});
   Table table(columns);

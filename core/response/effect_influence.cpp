@@ -1,6 +1,7 @@
 #include "core/response/effect_influence.hpp"
 
-#include <algorithm>
+#include <functional>
+#include <memory>
 #include <utility>
 
 #include "core/base/eager_matrices.hpp"
@@ -8,33 +9,34 @@
 #include "core/base/find_named.hpp"
 #include "core/base/int_size.hpp"
 #include "core/base/parallel.hpp"
-#include "core/base/stopwatch.hpp"
 #include "core/model/effect_decisions.hpp"
 
 namespace pleuel {
 
 namespace {
 
-/// Runs up to this time [s] are timed twice.
-constexpr double short_run = 0.3;
+/// What the simulations whose times are compared may take [s].
+constexpr double timing_budget = 2.0;
 
-struct Timed {
+struct Run {
   Eigen::VectorXd values;
   std::string failure;
-  double seconds = 0.0;
+  int unknowns = 0, iterations = 0;
 };
 
-Timed simulate(const ProblemFile& problem, const Eigen::VectorXd& x) {
-  const ThreadStopwatch stopwatch;
-  Timed run;
+Run simulate(const ProblemFile& problem, const Eigen::VectorXd& x) {
+  Run run;
   try {
-    run.values = values_of(*analyze(problem, x));
+    const std::unique_ptr<Analysis> analysis = analyze(problem, x);
+    run.values = values_of(*analysis);
+    const System& system = *analysis->model.mechanism.system;
+    run.unknowns = system.coordinates() + system.multipliers();
+    run.iterations = analysis->trajectory.newton_iterations;
   } catch (const SimulationError& error) {
     run.failure = error.what();
   } catch (const InputError& error) {  // a response needs the effect
     run.failure = error.what();
   }
-  run.seconds = stopwatch.seconds();
   return run;
 }
 
@@ -83,41 +85,62 @@ std::vector<Turned> turned_problems(const ProblemFile& fixed, const Model& model
   return turned;
 }
 
+/// What a simulation takes without an effect beside one with it.
+/// @param turned  beside the run as it is, with the effect turned round
+ComparedTime without(ComparedTime turned, bool is_built) {
+  if (is_built) return turned;
+  const double ratio = 1.0 + turned.change;
+  turned.change = 1.0 / ratio - 1.0;
+  turned.spread /= ratio * ratio;
+  return turned;
+}
+
+/// @param turned  those that can be simulated
+void measure_times(const ProblemFile& as_it_is, const std::vector<Turned>& turned,
+                   const Eigen::VectorXd& x, std::vector<EffectInfluence>& influences) {
+  std::vector<std::function<void()>> works = {[&] { analyze(as_it_is, x); }};
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < turned.size(); ++i) {
+    if (!influences[i].failure.empty()) continue;
+    works.push_back([&, i] { analyze(turned[i].problem, x); });
+    places.push_back(i);
+  }
+  const std::vector<ComparedTime> times = compare_times(works, {timing_budget, {}});
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const std::size_t i = places[k];
+    influences[i].time = without(times[k + 1], turned[i].record->is_built);
+  }
+}
+
 }  // namespace
 
-std::vector<EffectInfluence> effect_influences(const ProblemFile& problem,
-                                               const Eigen::VectorXd& x) {
+std::vector<EffectInfluence> effect_influences(const ProblemFile& problem, const Eigen::VectorXd& x,
+                                               InfluenceTimes times) {
   const Eigen::VectorXd start = start_design(problem);
   const Model model =
       build_model(problem.scene, problem.effects, Design<double>(start.begin(), start.end()),
                   Design<double>(x.begin(), x.end()));
   const ProblemFile fixed = with_fixed_effects(problem, model);
   const std::vector<Turned> turned = turned_problems(fixed, model);
-  std::vector<Timed> runs(turned.size() + 1);  // the last as it is
-  const auto run_all = [&] {
-    for_each_in_parallel(int_size(runs), available_threads(), [&](int i) {
-      Timed run = simulate(i < std::ssize(turned) ? turned[i].problem : fixed, x);
-      if (runs[i].seconds > 0.0) run.seconds = std::min(run.seconds, runs[i].seconds);
-      runs[i] = std::move(run);
-    });
-  };
-  run_all();
-  if (runs.back().seconds < short_run) run_all();  // the first time was a warm-up
-  const Timed& as_it_is = runs.back();
-  const double seconds = as_it_is.seconds;
+  std::vector<Run> runs(turned.size() + 1);  // the last as it is
+  for_each_in_parallel(int_size(runs), available_threads(), [&](int i) {
+    runs[i] = simulate(i < std::ssize(turned) ? turned[i].problem : fixed, x);
+  });
+  const Run& as_it_is = runs.back();
   std::vector<EffectInfluence> influences;
   for (std::size_t i = 0; i < turned.size(); ++i) {
     const EffectRecord& record = *turned[i].record;
-    EffectInfluence one{record.body, record.name, runs[i].failure, {}, 0.0, 0.0};
+    EffectInfluence one{record.body, record.name, runs[i].failure, {}};
     if (!as_it_is.failure.empty()) one.failure = as_it_is.failure;
     if (one.failure.empty()) {
-      const double sign = record.is_built ? 1.0 : -1.0;
+      const int sign = record.is_built ? 1 : -1;
       one.changes = sign * (runs[i].values - as_it_is.values);
-      one.seconds = sign * (seconds - runs[i].seconds);
-      one.share = seconds > 0.0 ? one.seconds / seconds : 0.0;
+      one.unknowns = sign * (runs[i].unknowns - as_it_is.unknowns);
+      one.iterations = sign * (runs[i].iterations - as_it_is.iterations);
     }
     influences.push_back(std::move(one));
   }
+  if (times == InfluenceTimes::measured) measure_times(fixed, turned, x, influences);
   return influences;
 }
 

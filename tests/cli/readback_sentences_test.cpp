@@ -96,7 +96,9 @@ TEST(ReadBackSentences, OfWhatEffectsBring) {
       continue;
     }
     EXPECT_EQ(effect.at("influence").size(), responses.size());
-    EXPECT_TRUE(effect.at("seconds").is_number());
+    EXPECT_EQ(number_in(table.text(row - 1, "iterations")), effect.at("iterations"));
+    const bool is_measurable = effect.at("time").at("is_measurable");
+    EXPECT_EQ(table.text(row - 1, "time") == "not measurable", !is_measurable);
     // "rod_bow +4.1e-05 mm (+0.14 %)", which stands for all others.
     const std::string name = largest.substr(0, largest.find(' '));
     const auto share = [&](const std::string& of) {
@@ -170,7 +172,7 @@ TEST(ReadBackSentences, OfWhichEffectsMatter) {
   ASSERT_EQ(measured, 4u);  // two of the crank, two of the rod; elasticity cannot be left out
   EXPECT_THAT(text, testing::HasSubstr("elasticity (crank, rod) cannot be left out"));
   EXPECT_THAT(text, testing::HasSubstr("--effects shows all."));
-  const bool has_table = text.find(" without of time optimum ") != std::string::npos;
+  const bool has_table = text.find(" without of unknowns iterations optimum ") != std::string::npos;
   EXPECT_EQ(has_table, listed > 0);
   if (has_table) {
     EXPECT_EQ(TextTable(report.text, "without").rows(), listed);

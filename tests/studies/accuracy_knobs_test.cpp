@@ -143,7 +143,7 @@ TEST(AccuracyKnobs, TimesAreComparedWithTheSettingThatIsChanged) {
     return one.variation.value == "index-1 with projection";
   });
   ASSERT_NE(found, study.knobs.end());
-  EXPECT_GT(found->time_change, 0.5);
+  EXPECT_GT(found->time.change, 0.5);
 }
 
 TEST(Accuracy, ComparesTheReferenceWithAnotherFormulation) {

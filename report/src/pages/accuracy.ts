@@ -162,7 +162,8 @@ function allRuns(result: Document, counted: string[]): HTMLElement {
 }
 
 function changeOfTime(one: Document): string {
-  return Number.isFinite(one.time_change) ? percent(one.time_change, 2) : "–";
+  if (Number.isFinite(one.time_change)) return one.time_change === 0 ? "the same work" : percent(one.time_change, 2);
+  return one.time ? "not measurable" : "–";
 }
 
 function knobs(result: Document, counted: string[]): HTMLElement | null {
