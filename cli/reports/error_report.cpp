@@ -41,11 +41,13 @@ Json error_document(const std::optional<ErrorBar>& bar) {
                    {"change", is_known ? Json(bar->change()) : Json(nullptr)}};
   if (bar->order && std::isfinite(*bar->order)) document["order"] = *bar->order;
   if (!bar->left_out.empty()) document["left_out"] = bar->left_out;
+  if (!bar->is_modelled) document["is_modelled"] = false;
   return document;
 }
 
 std::string error_text(const std::optional<ErrorBar>& bar, const ShownUnit& unit) {
   if (!bar) return "–";
+  if (!bar->is_modelled) return "not modelled";
   if (!bar->is_resolved()) return "not resolved";
   const std::string text =
       bar->bound() == 0.0 ? "exact" : "± " + significant(unit.shown(bar->bound()), 2);
@@ -53,6 +55,7 @@ std::string error_text(const std::optional<ErrorBar>& bar, const ShownUnit& unit
 }
 
 std::string error_sentence(const ErrorBar& bar, double value, const ShownUnit& unit) {
+  if (!bar.is_modelled) return "not modelled";
   if (!bar.is_resolved()) return "not resolved by steps and elements";
   const auto shown = [&](double bound) {
     return bound == 0.0 ? "0" : significant(unit.shown(bound), 2);

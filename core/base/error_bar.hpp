@@ -29,13 +29,16 @@ struct ErrorBar {
   ErrorPart newton;             ///< by the tolerance of Newton's method
   ErrorPart effects;            ///< that were left out by a tolerance
   std::optional<double> order;  ///< observed, in the step; of a single response
+  bool is_modelled =
+      true;  ///< false: what it is about is not in the equations, and no bar says how far it is off
   /// What the model leaves out would change, by its name (core/trust/model_variants.hpp): beside the bound.
   std::map<std::string, double> left_out;
 
   double change() const { return step.change + elements.change + newton.change + effects.change; }
   double bound() const { return step.bound + elements.bound + newton.bound + effects.bound; }
   bool is_resolved() const {
-    return step.is_resolved && elements.is_resolved && newton.is_resolved && effects.is_resolved;
+    return is_modelled && step.is_resolved && elements.is_resolved && newton.is_resolved &&
+           effects.is_resolved;
   }
 
   void add_left_out(const ErrorBar& bar, double factor) {
@@ -49,6 +52,7 @@ struct ErrorBar {
     newton.add(bar.newton, factor);
     effects.add(bar.effects, factor);
     add_left_out(bar, factor);
+    is_modelled = is_modelled && bar.is_modelled;
     order.reset();
   }
 };

@@ -97,6 +97,19 @@ void leave_steps_unresolved(const TrustedRun& run, const std::vector<Doubt>& dou
   }
 }
 
+/// No bar knows how far numbers are off that leave what the equations are for.
+void leave_unmodelled(const TrustedRun& run, const std::vector<Doubt>& doubts,
+                      std::vector<std::optional<ErrorBar>>& errors) {
+  for (const Doubt& doubt : doubts) {
+    if (doubt.cause != Cause::not_modelled || !doubt.is_serious) continue;
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+      if (errors[i] && moves(run, i) && concerns(doubt, run.problem, i)) {
+        errors[i]->is_modelled = false;
+      }
+    }
+  }
+}
+
 /// To the bars of all responses that have one.
 void add_left_out(const LeftOut& left_out, std::vector<std::optional<ErrorBar>>& errors) {
   for (const VariantChange& variant : left_out.changes) {
@@ -181,6 +194,7 @@ Trust judge_run(const TrustedRun& run) {
   trust.bands = std::move(resolution.bands);
   trust.failed_run = std::move(resolution.failure);
   leave_steps_unresolved(run, too_fast, trust.errors);
+  leave_unmodelled(run, doubts, trust.errors);
   const LeftOut left_out = compare_variants(run);
   doubts.insert(doubts.end(), left_out.doubts.begin(), left_out.doubts.end());
   add_left_out(left_out, trust.errors);

@@ -57,6 +57,7 @@ std::optional<ErrorBar> error_of_sum(const ProblemFile& joined, const Trust& tru
     if (!trust.errors[part.response] || part.weight == 0.0) continue;
     model.effects.add(trust.errors[part.response]->effects, part.weight);
     model.add_left_out(*trust.errors[part.response], part.weight);
+    model.is_modelled = model.is_modelled && trust.errors[part.response]->is_modelled;
     const Evidence& evidence = *trust.evidence[part.response];
     const std::size_t load_case = case_of_response(joined, part.response).load_case;
     auto& sum = sums.try_emplace(load_case, nothing_beside(evidence)).first->second;
@@ -75,6 +76,7 @@ std::optional<ErrorBar> error_of_sum(const ProblemFile& joined, const Trust& tru
   }
   all.effects = model.effects;
   all.left_out = std::move(model.left_out);
+  all.is_modelled = model.is_modelled;
   return all;
 }
 

@@ -157,6 +157,8 @@ export interface ErrorBar {
   elements?: number | null;
   newton?: number | null;
   effects?: number | null;
+  left_out?: Record<string, number>;
+  is_modelled?: boolean;
 }
 
 // Documents of the program are looked at key by key: what is missing is not shown.

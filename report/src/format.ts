@@ -82,7 +82,9 @@ export function words(name: string): string {
 export function errorText(error: ErrorBar | null | undefined, unit: Unit): string {
   if (!error || error.total === null || error.total === undefined) return "";
   if (error.total === 0) return "";
-  return `± ${withUnit(error.total, unit, 2)}`;
+  const leftOut = Object.entries(error.left_out ?? {}).filter(([, change]) => Math.abs(change) > error.total!);
+  const changes = leftOut.map(([name, change]) => `; with ${words(name)} ${change > 0 ? "+" : "−"}${withUnit(Math.abs(change), unit, 2)}`);
+  return `± ${withUnit(error.total, unit, 2)}${changes.join("")}`;
 }
 
 /** As people see SI units: m → mm, Pa → MPa. */

@@ -71,7 +71,7 @@ export function responsesTable(data: ReportData): HTMLElement | null {
         one.error === null || one.error === undefined
           ? "–"
           : total === null
-            ? h("span.bad", {}, "not resolved")
+            ? h("span.bad", {}, one.error.is_modelled === false ? "not modelled" : "not resolved")
             : total === 0
               ? "exact"
               : errorText(one.error, { ...unit, name: "1" }),

@@ -16,18 +16,23 @@ using testing::IsEmpty;
 using testing::SizeIs;
 
 /// A mass that is moved along a horizontal arm of 1 m, or beyond its end.
-ProblemFile trolley(double from, double way, const std::string& arm) {
-  return read_scene(fmt::format(
-      R"({{"scene": {{"gravity": [0, -9.81, 0], "bodies": {{
+std::string scene_of_trolley(double from, double way, const std::string& arm) {
+  return fmt::format(
+      R"({{"gravity": [0, -9.81, 0], "bodies": {{
             "arm": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
                      "section": {{"type": "circle", "diameter": 0.03}}, "elements": 5{}}},
             "trolley": {{"type": "point-mass", "at": [{}, 0, 0], "mass": 1}}}},
           "joints": {{"clamp": {{"type": "fixed", "bodies": ["ground", "arm"], "at": [0, 0, 0]}},
                       "rail": {{"type": "point-on-line", "bodies": ["arm", "trolley"], "at": [{}, 0, 0],
                                 "axis": [1, 0, 0], "drive": {{"type": "table", "times": [0, 0.2],
-                                                              "values": [0, {}]}}}}}}}},
-          "simulation": {{"end_time": 0.2, "step": 0.01}}}})",
-      arm, from, from, way));
+                                                              "values": [0, {}]}}}}}}}})",
+      arm, from, from, way);
+}
+
+ProblemFile trolley(double from, double way, const std::string& arm) {
+  return read_scene(
+      fmt::format(R"({{"scene": {}, "simulation": {{"end_time": 0.2, "step": 0.01}}}})",
+                  scene_of_trolley(from, way, arm)));
 }
 
 /// A carriage whose line goes past the tip of the arm: its force stays at the tip.
@@ -46,6 +51,24 @@ TEST(SlidingContact, IsNoneWhereTheLineBelongsToTheOtherBody) {
                               "at": [1, 0, 0], "axis": [1, 0, 0]}}},
           "simulation": {"end_time": 0.2, "step": 0.01}})");
   EXPECT_THAT(doubts_of(problem, doubt_sliding_contacts), IsEmpty());
+}
+
+/// What moves has no bar then; the mass has.
+TEST(SlidingContact, LeavesNumbersWithoutABar) {
+  for (const bool is_elastic : {true, false}) {
+    const ProblemFile problem =
+        read_scene(fmt::format(R"({{"scene": {}, "simulation": {{"end_time": 0.2, "step": 0.01}},
+                        "responses": {{"mass": {{"type": "mass"}},
+                                       "force": {{"type": "drive-force", "joint": "rail", "over_time": "max"}}}}}})",
+                               scene_of_trolley(0.2, 0.6, is_elastic ? "" : R"(, "rigid": true)")));
+    const Eigen::VectorXd x = start_design(problem);
+    const auto analysis = analyze(problem, x);
+    const Monitors monitors = monitor(analysis->model, analysis->trajectory);
+    const Trust trust = judge_run({problem, x, *analysis, monitors});
+    EXPECT_TRUE(trust.errors[0]->is_modelled);
+    EXPECT_EQ(trust.errors[1]->is_modelled, !is_elastic);
+    EXPECT_FALSE(is_elastic && trust.errors[1]->is_resolved());
+  }
 }
 
 TEST(SlidingContact, IsADoubtWhereItTravelsOverAnElasticBeam) {
