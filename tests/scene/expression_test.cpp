@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <mpParser.h>
 
 #include "core/scene/reading/expression_parser.hpp"
 #include "tests/support/parameter_name.hpp"
@@ -158,27 +157,22 @@ TEST(Expression, KnowsWhatIsFixed) {
   EXPECT_FALSE(read_expression("2*p", symbols(), units()).constant.has_value());
 }
 
-/// The same formula for the complex step; functions of angles take plain numbers there.
+using C = std::complex<double>;
+
+/// The same formula in C++ for the complex step; functions of angles take plain numbers there.
 struct Formula {
   const char* text;
-  const char* complex_text;
+  C (*by_hand)(C a, C b, C c);
 };
 
-/// By i·h with h = 1e-30: exact to round-off, and computed by the library's own operations.
-std::vector<double> complex_step_gradient(const char* text) {
+/// By i·h with h = 1e-30: exact to round-off, and computed by the standard library.
+std::vector<double> complex_step_gradient(const Formula& formula) {
   constexpr double h = 1e-30;
-  std::vector<double> gradient;
-  for (int j = 0; j < 3; ++j) {
-    mup::ParserX parser(mup::pckALL_COMPLEX);
-    std::vector<mup::Value> variables;
-    for (int i = 0; i < 3; ++i) variables.emplace_back(mup::cmplx_type(values[i], i == j ? h : 0));
-    for (int i = 0; i < 3; ++i) {
-      parser.DefineVar(std::string(1, static_cast<char>('a' + i)), mup::Variable(&variables[i]));
-    }
-    parser.SetExpr(text);
-    gradient.push_back(parser.Eval().GetImag() / h);
-  }
-  return gradient;
+  const auto part = [&](int j) {
+    const auto moved = [&](int i) { return C(values[i], i == j ? h : 0.0); };
+    return formula.by_hand(moved(0), moved(1), moved(2)).imag() / h;
+  };
+  return {part(0), part(1), part(2)};
 }
 
 class ExpressionDerivative : public testing::TestWithParam<Formula> {};
@@ -186,7 +180,7 @@ class ExpressionDerivative : public testing::TestWithParam<Formula> {};
 TEST_P(ExpressionDerivative, EqualsTheComplexStep) {
   const ReadExpression read = read_expression(GetParam().text, symbols(), units());
   const ExpressionValue found = evaluate(*read.expression, arguments_of(*read.expression));
-  const std::vector<double> expected = complex_step_gradient(GetParam().complex_text);
+  const std::vector<double> expected = complex_step_gradient(GetParam());
   std::vector<double> derivatives(3, 0.0);
   for (std::size_t i = 0; i < found.derivatives.size(); ++i) {
     derivatives[read.expression->arguments[i].index] = found.derivatives[i];
@@ -196,16 +190,23 @@ TEST_P(ExpressionDerivative, EqualsTheComplexStep) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Formulas, ExpressionDerivative,
-                         testing::Values(Formula{"a*b + c^2/a - sqrt(a*b)",
-                                                 "a*b + c^2/a - sqrt(a*b)"},
-                                         Formula{"a^b", "a^b"}, Formula{"2^-a*b", "2^(-a)*b"},
-                                         Formula{"-a^2 + b*-c", "-(a^2) - b*c"},
-                                         Formula{"a/(b + c/(1 + a))", "a/(b + c/(1 + a))"},
-                                         Formula{"(a + b)^3*(a - c)^-2", "(a + b)^3/(a - c)^2"},
-                                         Formula{"sin(a*1 rad)*cos(b*2 rad) + tan(a*c*1 rad)",
-                                                 "sin(a)*cos(2*b) + tan(a*c)"}),
-                         named_by(&Formula::text));
+INSTANTIATE_TEST_SUITE_P(
+    Formulas, ExpressionDerivative,
+    testing::Values(
+        Formula{"a*b + c^2/a - sqrt(a*b)",
+                [](C a, C b, C c) { return a * b + c * c / a - std::sqrt(a * b); }},
+        Formula{"a^b", [](C a, C b, C) { return std::pow(a, b); }},
+        Formula{"2^-a*b", [](C a, C b, C) { return std::pow(2.0, -a) * b; }},
+        Formula{"-a^2 + b*-c", [](C a, C b, C c) { return -(a * a) - b * c; }},
+        Formula{"a/(b + c/(1 + a))", [](C a, C b, C c) { return a / (b + c / (1.0 + a)); }},
+        Formula{"(a + b)^3*(a - c)^-2",
+                [](C a, C b, C c) { return std::pow(a + b, 3) / ((a - c) * (a - c)); }},
+        Formula{"exp(-a*b)*log(c) + tanh(a - b)",
+                [](C a, C b, C c) { return std::exp(-a * b) * std::log(c) + std::tanh(a - b); }},
+        Formula{"a^b^c/2/b", [](C a, C b, C c) { return std::pow(a, std::pow(b, c)) / 2.0 / b; }},
+        Formula{"sin(a*1 rad)*cos(b*2 rad) + tan(a*c*1 rad)",
+                [](C a, C b, C c) { return std::sin(a) * std::cos(2.0 * b) + std::tan(a * c); }}),
+    named_by(&Formula::text));
 
 /// Of functions that are not analytic; differences of second order with 1e-5, whose error is
 /// below 1e-9 for numbers near 1.
@@ -300,9 +301,26 @@ INSTANTIATE_TEST_SUITE_P(
                     WrongFormula{"1/0", 2, "no finite number"},
                     WrongFormula{"max(p)", 1, "two numbers at least"},
                     WrongFormula{"atan2(1, 2, 3)", 14, "too many arguments"},
+                    WrongFormula{"atan2(1)", 8, "too few arguments"},
+                    WrongFormula{"2*)", 3, "a number or a name is missing"},
+                    WrongFormula{"p*/q", 3, "a number or a name is missing"},
+                    WrongFormula{"sin()", 5, "a number or a name is missing"},
+                    WrongFormula{"(a) (b)", 5, "a sign + - * / ^ is missing"},
+                    WrongFormula{"(1,5)", 3, "decimals have a point"},
+                    WrongFormula{"a + $", 5, "\"$\" is not understood here"},
                     WrongFormula{"p == 3 m", 3, "means nothing"},
                     WrongFormula{"p × q", 3, "is no sign of a formula"}),
     named_by(&WrongFormula::text));
+
+/// The stack of the program has an end.
+TEST(Expression, NestedTooDeeplyIsRefused) {
+  EXPECT_DOUBLE_EQ(value_of(std::string(100, '(') + "a" + std::string(100, ')')), 0.7);
+  for (const char* part : {"(", "-", "2^", "sin("}) {
+    std::string text;
+    for (int i = 0; i < 100000; ++i) text += part;
+    EXPECT_NE(complaint(text).find("nested deeper than 200"), std::string::npos) << part;
+  }
+}
 
 TEST(Expression, RefusesAUnitThatMayBeAName) {
   std::vector<Symbol> all = symbols();

@@ -89,9 +89,7 @@ bool ExpressionBuilder::is_unit(const std::string& name) const {
   }
 }
 
-ReadExpression ExpressionBuilder::take(int last) {
-  expression_.steps.resize(static_cast<std::size_t>(last) + 1);
-  facts_.resize(static_cast<std::size_t>(last) + 1);
+ReadExpression ExpressionBuilder::take() {
   expression_.text = std::string(text_);
   const auto quantity = find_quantity(facts_.back().dimension, units_);
   expression_.quantity = quantity ? quantity->name : "a quantity";
@@ -126,11 +124,12 @@ int ExpressionBuilder::add_symbol(const Symbol& symbol) {
 }
 
 void ExpressionBuilder::fold(std::size_t position, int step) {
-  Expression whole;
-  whole.steps = expression_.steps;
-  // Steps before it may depend on arguments; what counts does not.
-  const double value =
-      evaluate(whole, std::vector<double>(expression_.arguments.size(), 1.0)).value;
+  const auto& [operation, unused, first, second] = expression_.steps[step];
+  Expression alone;
+  alone.steps = {{Operation::constant, *fact(first).constant},
+                 {Operation::constant, second < 0 ? 0.0 : *fact(second).constant},
+                 {operation, 0.0, 0, second < 0 ? -1 : 1}};
+  const double value = evaluate(alone, {}).value;
   if (!std::isfinite(value)) fail(position, "the result is no finite number");
   facts_[step].constant = value;
 }

@@ -36,8 +36,8 @@ class ExpressionBuilder {
   const Symbol* find(const std::string& name) const;
   bool is_unit(const std::string& name) const;
 
-  /// The expression whose result is that of the step. Ends the building.
-  ReadExpression take(int last);
+  /// The expression whose result is that of the last step. Ends the building.
+  ReadExpression take();
 
  private:
   /// What is known of the result of a step while the text is read.

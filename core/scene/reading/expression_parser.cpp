@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
-#include <mpParser.h>
 
+#include "core/base/int_size.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/reading/case_suffix.hpp"
 #include "core/scene/reading/expression_builder.hpp"
@@ -38,208 +42,212 @@ constexpr Function functions[] = {{"sqrt", Operation::square_root, 1},
                                   {"max", Operation::larger, -1},
                                   {"abs", Operation::magnitude, 1}};
 
-// The parser calls these while it goes through the text; its values are indices of steps.
+struct Sign {
+  char character;
+  Operation operation;
+  int rank;  ///< the higher, the more strongly it binds
+};
+constexpr int sign_rank = 3;  ///< of "-" before a number: -2^2 = -4, and -2*3 = (-2)*3
+constexpr Sign signs[] = {{'+', Operation::plus, 1},
+                          {'-', Operation::minus, 1},
+                          {'*', Operation::times, 2},
+                          {'/', Operation::over, 2},
+                          {'^', Operation::power, 4}};
 
-int index_of(const mup::ptr_val_type& value) {
-  return static_cast<int>(value->GetInteger());
-}
-mup::int_type value_of_step(int step) {
-  return step;
-}
+/// Brackets, signs and powers inside each other; more is no formula of a person.
+constexpr int deepest = 200;
 
-class BinaryOperator : public mup::IOprtBin {
+/// Goes through a formula once, by precedence climbing (Clarke 1986):
+///
+///     chain(r)  = operand { sign of rank ≥ r  chain(above) }     ^ goes from the right: 2^3^2 = 512
+///     operand   = ("-" | "+") chain(3) | "(" chain(1) ")" | number [unit] | name
+///               | function "(" chain(1) { "," chain(1) } ")"
+///
+/// Each of these leaves `at_` behind what it took, and returns the step with its result.
+class FormulaParser {
  public:
-  BinaryOperator(ExpressionBuilder& builder, const char* name, Operation operation, int precedence,
-                 mup::EOprtAsct associativity)
-      : IOprtBin(name, precedence, associativity), builder_(&builder), operation_(operation) {}
+  FormulaParser(std::string_view text, ExpressionBuilder& builder)
+      : text_(text), builder_(builder) {}
 
-  void Eval(mup::ptr_val_type& result, const mup::ptr_val_type* operands, int) override {
-    *result = value_of_step(
-        builder_->apply(GetExprPos(), operation_, index_of(operands[0]), index_of(operands[1])));
+  void read() {
+    chain(1);
+    if (next() != end_of_text) fail_behind_operand();
   }
-  const mup::char_type* GetDesc() const override { return ""; }
-  mup::IToken* Clone() const override { return new BinaryOperator(*this); }
 
  private:
-  ExpressionBuilder* builder_;
-  Operation operation_;
-};
+  static constexpr char end_of_text = '\0';
 
-class SignOperator : public mup::IOprtInfix {
- public:
-  SignOperator(ExpressionBuilder& builder, const char* name)
-      : IOprtInfix(name, mup::prINFIX), builder_(&builder), is_minus_(name[0] == '-') {}
-
-  void Eval(mup::ptr_val_type& result, const mup::ptr_val_type* operands, int) override {
-    const int of = index_of(operands[0]);
-    const std::size_t position = GetExprPos();
-    *result = value_of_step(is_minus_ ? builder_->apply(position, Operation::negated, of) : of);
+  /// The next character that is no blank.
+  char next() {
+    while (at_ < text_.size() && text_[at_] == ' ') ++at_;
+    return at_ < text_.size() ? text_[at_] : end_of_text;
   }
-  const mup::char_type* GetDesc() const override { return ""; }
-  mup::IToken* Clone() const override { return new SignOperator(*this); }
-
- private:
-  ExpressionBuilder* builder_;
-  bool is_minus_;
-};
-
-class FunctionCall : public mup::ICallback {
- public:
-  FunctionCall(ExpressionBuilder& builder, const Function& function)
-      : ICallback(mup::cmFUNC, function.name, function.arguments),
-        builder_(&builder),
-        function_(&function) {}
-
-  void Eval(mup::ptr_val_type& result, const mup::ptr_val_type* operands, int count) override {
-    const std::size_t position = GetExprPos();
-    if (function_->arguments < 0 && count < 2) {
-      builder_->fail(position, fmt::format("{} needs two numbers at least", function_->name));
-    }
-    int step = index_of(operands[0]);
-    if (count == 1) {
-      step = builder_->apply(position, function_->operation, step);
-    }
-    for (int i = 1; i < count; ++i) {
-      step = builder_->apply(position, function_->operation, step, index_of(operands[i]));
-    }
-    *result = value_of_step(step);
-  }
-  const mup::char_type* GetDesc() const override { return ""; }
-  mup::IToken* Clone() const override { return new FunctionCall(*this); }
-
- private:
-  ExpressionBuilder* builder_;
-  const Function* function_;
-};
-
-/// Numbers with units, and names.
-class OperandReader : public mup::IValueReader {
- public:
-  OperandReader(ExpressionBuilder& builder) : builder_(&builder) {}
-
-  bool IsValue(const mup::char_type* whole, int& position, mup::Value& value) override {
-    const std::string_view text(whole);
-    std::size_t end = position;
-    const std::optional<int> step = read(text, position, end);
-    if (!step) return false;
-    value = value_of_step(*step);
-    position = static_cast<int>(end);
+  bool takes(char wanted) {
+    if (next() != wanted) return false;
+    ++at_;
     return true;
   }
-  mup::IValueReader* Clone(mup::TokenReader* parent) const override {
-    auto* copy = new OperandReader(*this);
-    copy->SetParent(parent);
-    return copy;
+  const Sign* next_sign() {
+    const char c = next();
+    const auto* found = std::find_if(std::begin(signs), std::end(signs),
+                                     [&](const Sign& sign) { return sign.character == c; });
+    return found == std::end(signs) ? nullptr : found;
   }
 
- private:
-  std::optional<int> read(std::string_view text, std::size_t at, std::size_t& end) {
-    const char c = text[at];
-    const bool is_fraction = c == '.' && at + 1 < text.size() && is_digit_character(text[at + 1]);
-    if (is_digit_character(c) || is_fraction) return read_number(text, at, end);
-    if (c == '\'') return read_quoted(text, at, end);
-    if (is_name_character(c)) return read_name(text, at, end);
-    return std::nullopt;
-  }
-
-  int read_number(std::string_view text, std::size_t at, std::size_t& end) {
-    double value = 0.0;
-    const auto [rest, status] = std::from_chars(text.data() + at, text.data() + text.size(), value);
-    if (status != std::errc() || !std::isfinite(value)) {
-      builder_->fail(at, "the number is out of range");
+  int chain(int lowest_rank) {
+    if (++depth_ > deepest) {
+      builder_.fail(at_, fmt::format("brackets and signs are nested deeper than {}", deepest));
     }
-    return read_unit(text, rest - text.data(), value, end);
+    int result = operand();
+    for (const Sign* sign = next_sign(); sign != nullptr && sign->rank >= lowest_rank;
+         sign = next_sign()) {
+      const std::size_t position = at_++;
+      const bool is_from_right = sign->operation == Operation::power;
+      const int second = chain(is_from_right ? sign->rank : sign->rank + 1);
+      result = builder_.apply(position, sign->operation, result, second);
+    }
+    --depth_;
+    return result;
   }
 
-  int read_unit(std::string_view text, std::size_t at, double value, std::size_t& end) {
-    const std::string_view rest = text.substr(at);
-    const std::size_t length = unit_length(rest, [&](const std::string& word) {
-      const bool is_unit = builder_->is_unit(word);
-      if (is_unit && builder_->find(word) != nullptr) {
-        builder_->fail(at, fmt::format("\"/{}\" may be a unit or the name \"{}\"; put the number "
-                                       "with its unit in brackets, or write the power \"{}^-1\"",
-                                       word, word, word));
+  int operand() {
+    const char c = next();
+    const std::size_t position = at_;
+    if (takes('+')) return chain(sign_rank);
+    if (takes('-')) return builder_.apply(position, Operation::negated, chain(sign_rank));
+    if (takes('(')) {
+      const int inside = chain(1);
+      close();
+      return inside;
+    }
+    const bool is_fraction =
+        c == '.' && at_ + 1 < text_.size() && is_digit_character(text_[at_ + 1]);
+    if (is_digit_character(c) || is_fraction) return read_number();
+    if (c == '\'') return read_quoted();
+    if (is_name_character(c)) return read_name();
+    fail_before_operand();
+  }
+
+  void close() {
+    if (next() == end_of_text) builder_.fail(at_, "a bracket is not closed");
+    if (!takes(')')) fail_behind_operand();
+  }
+
+  [[noreturn]] void fail_before_operand() {
+    if (next() == end_of_text) builder_.fail(at_, "the formula ends too early");
+    if (next_sign() != nullptr || next() == ')' || next() == ',') {
+      builder_.fail(at_, "a number or a name is missing before this");
+    }
+    builder_.fail(at_, fmt::format("\"{}\" is not understood here", next()));
+  }
+
+  [[noreturn]] void fail_behind_operand() {
+    switch (next()) {
+      case ')':
+        builder_.fail(at_, "there is a bracket too many");
+      case ',':
+        builder_.fail(at_, "there is a comma outside a function; decimals have a point");
+      default:
+        builder_.fail(at_, "a sign + - * / ^ is missing before this");
+    }
+  }
+
+  int read_number() {
+    double value = 0.0;
+    const auto [rest, status] =
+        std::from_chars(text_.data() + at_, text_.data() + text_.size(), value);
+    if (status != std::errc() || !std::isfinite(value)) {
+      builder_.fail(at_, "the number is out of range");
+    }
+    at_ = rest - text_.data();
+    return read_unit(value);
+  }
+
+  int read_unit(double value) {
+    const std::size_t begin = at_;
+    at_ += unit_length(text_.substr(begin), [&](const std::string& word) {
+      const bool is_unit = builder_.is_unit(word);
+      if (is_unit && builder_.find(word) != nullptr) {
+        builder_.fail(begin, fmt::format("\"/{}\" may be a unit or the name \"{}\"; put the number "
+                                         "with its unit in brackets, or write the power \"{}^-1\"",
+                                         word, word, word));
       }
       return is_unit;
     });
-    end = at + length;
-    const std::size_t first = std::min(text.find_first_not_of(' ', at), end);
-    const std::size_t next = text.find_first_not_of(' ', end);
-    if (end > first && next != std::string_view::npos && text[next] == '^') {
-      builder_->fail(next,
-                     "the power of a unit is a whole number, as in \"mm^2\"; to raise a number "
-                     "with its unit put both in brackets, as in \"(2 mm)^0.5\"");
+    const std::size_t end = at_, first = std::min(text_.find_first_not_of(' ', begin), end);
+    if (end > first && next() == '^') {
+      builder_.fail(at_,
+                    "the power of a unit is a whole number, as in \"mm^2\"; to raise a number "
+                    "with its unit put both in brackets, as in \"(2 mm)^0.5\"");
     }
-    return builder_->add_quantity(first, value, std::string(text.substr(first, end - first)));
+    return builder_.add_quantity(first, value, std::string(text_.substr(first, end - first)));
   }
 
-  int read_quoted(std::string_view text, std::size_t at, std::size_t& end) {
-    const std::size_t close = text.find('\'', at + 1);
-    if (close == std::string_view::npos) builder_->fail(at, "a quote is not closed");
-    end = close + 1;
-    return add_name(text, at, std::string(text.substr(at + 1, close - at - 1)), end);
+  int read_name() {
+    const std::size_t begin = at_;
+    while (at_ < text_.size() && is_name_character(text_[at_])) ++at_;
+    const std::string name(text_.substr(begin, at_ - begin));
+    if (takes('(')) return read_call(begin, function_called(begin, name));
+    if (name == "pi" && builder_.find(name) == nullptr) return read_unit(std::numbers::pi);
+    return add_name(begin, name);
   }
 
-  /// @param end  behind the name; moved behind its case, if it has one
-  int add_name(std::string_view text, std::size_t at, std::string name, std::size_t& end) {
-    if (const auto suffix = case_suffix(text, end)) {
-      end = suffix->end;
+  int read_quoted() {
+    const std::size_t begin = at_, close = text_.find('\'', begin + 1);
+    if (close == std::string_view::npos) builder_.fail(begin, "a quote is not closed");
+    at_ = close + 1;
+    return add_name(begin, std::string(text_.substr(begin + 1, close - begin - 1)));
+  }
+
+  /// With the case behind it, if it has one.
+  int add_name(std::size_t begin, std::string name) {
+    if (const auto suffix = case_suffix(text_, at_)) {
+      at_ = suffix->end;
       name = name_in_case(name, suffix->load_case);
     }
-    return builder_->add_name(at, name);
+    return builder_.add_name(begin, name);
   }
 
-  std::optional<int> read_name(std::string_view text, std::size_t at, std::size_t& end) {
-    std::size_t stop = at;
-    while (stop < text.size() && is_name_character(text[stop])) ++stop;
-    const std::size_t next = text.find_first_not_of(' ', stop);
-    const std::string name(text.substr(at, stop - at));
-    if (next != std::string_view::npos && text[next] == '(') {
-      check_function(at, name);
-      return std::nullopt;
+  int read_call(std::size_t begin, const Function& function) {
+    std::vector<int> arguments = {chain(1)};
+    while (takes(',')) arguments.push_back(chain(1));
+    const std::size_t end = at_;
+    close();
+    const int count = int_size(arguments), needed = function.arguments;
+    if (needed < 0 && count < 2) {
+      builder_.fail(begin, fmt::format("{} needs two numbers at least", function.name));
     }
-    end = stop;
-    if (name == "pi" && builder_->find(name) == nullptr) {
-      return read_unit(text, stop, std::numbers::pi, end);
+    if (needed > 0 && count != needed) {
+      builder_.fail(end, fmt::format("too {} arguments of {}", count > needed ? "many" : "few",
+                                     function.name));
     }
-    return add_name(text, at, name, end);
+    if (count == 1) return builder_.apply(begin, function.operation, arguments[0]);
+    int result = arguments[0];
+    for (int i = 1; i < count; ++i) {
+      result = builder_.apply(begin, function.operation, result, arguments[i]);
+    }
+    return result;
   }
 
-  void check_function(std::size_t at, const std::string& name) const {
+  const Function& function_called(std::size_t begin, const std::string& name) const {
     std::vector<std::string> known;
     for (const Function& function : functions) {
-      if (name == function.name) return;
+      if (name == function.name) return function;
       known.emplace_back(function.name);
     }
-    if (builder_->find(name) != nullptr || name == "pi") {
-      builder_->fail(at, fmt::format("\"{}\" is no function; a product needs its *", name));
+    if (builder_.find(name) != nullptr || name == "pi") {
+      builder_.fail(begin, fmt::format("\"{}\" is no function; a product needs its *", name));
     }
-    builder_->fail(at, fmt::format("unknown function \"{}\"{}", name, hint(name, known)));
+    builder_.fail(begin, fmt::format("unknown function \"{}\"{}", name, hint(name, known)));
   }
 
-  ExpressionBuilder* builder_;
+  std::string_view text_;
+  ExpressionBuilder& builder_;
+  std::size_t at_ = 0;
+  int depth_ = 0;
 };
 
-/// The parser without anything it would know by itself.
-mup::ParserX make_parser(ExpressionBuilder& builder) {
-  mup::ParserX parser(0U);
-  const auto define = [&](const char* name, Operation operation, int precedence,
-                          mup::EOprtAsct associativity) {
-    parser.DefineOprt(new BinaryOperator(builder, name, operation, precedence, associativity));
-  };
-  define("+", Operation::plus, mup::prADD_SUB, mup::oaLEFT);
-  define("-", Operation::minus, mup::prADD_SUB, mup::oaLEFT);
-  define("*", Operation::times, mup::prMUL_DIV, mup::oaLEFT);
-  define("/", Operation::over, mup::prMUL_DIV, mup::oaLEFT);
-  define("^", Operation::power, mup::prPOW, mup::oaRIGHT);
-  parser.DefineInfixOprt(new SignOperator(builder, "-"));
-  parser.DefineInfixOprt(new SignOperator(builder, "+"));
-  for (const Function& function : functions) parser.DefineFun(new FunctionCall(builder, function));
-  parser.AddValueReader(new OperandReader(builder));
-  return parser;
-}
-
-/// Characters that mean something to the parser, or to other people, but nothing here.
+/// Characters that mean something to other people, but nothing here.
 void check_characters(const ExpressionBuilder& builder, std::string_view text) {
   bool is_quoted = false, is_behind_name = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -268,29 +276,6 @@ void check_characters(const ExpressionBuilder& builder, std::string_view text) {
   }
 }
 
-/// What the parser says of the grammar, in our words.
-std::string grammar_error(const mup::ParserError& error) {
-  switch (error.GetCode()) {
-    case mup::ecUNEXPECTED_EOF:
-      return "the formula ends too early";
-    case mup::ecMISSING_PARENS:
-      return "a bracket is not closed";
-    case mup::ecUNEXPECTED_PARENS:
-      return "there is a bracket too many";
-    case mup::ecTOO_MANY_PARAMS:
-      return fmt::format("too many arguments of {}", error.GetToken());
-    case mup::ecTOO_FEW_PARAMS:
-      return fmt::format("too few arguments of {}", error.GetToken());
-    case mup::ecUNEXPECTED_COMMA:
-      return "there is a comma outside a function; decimals have a point";
-    case mup::ecUNEXPECTED_VAL:
-      return "a sign + - * / ^ is missing before this";
-    default:
-      return fmt::format("{} is not understood here",
-                         error.GetToken().empty() ? "this" : "\"" + error.GetToken() + "\"");
-  }
-}
-
 }  // namespace
 
 ReadExpression read_expression(const std::string& text, const std::vector<Symbol>& symbols,
@@ -302,15 +287,8 @@ ReadExpression read_expression(const std::string& text, const std::vector<Symbol
   ExpressionBuilder builder(formula, symbols, units);
   if (formula.find_first_not_of(' ') == std::string::npos) builder.fail(0, "there is no formula");
   check_characters(builder, formula);
-  try {
-    mup::ParserX parser = make_parser(builder);
-    parser.SetExpr(formula);
-    return builder.take(index_of(mup::ptr_val_type(parser.Eval().Clone()->AsIValue())));
-  } catch (const mup::ParserError& error) {
-    const int position = error.GetPos();
-    builder.fail(position < 0 ? formula.size() : static_cast<std::size_t>(position),
-                 grammar_error(error));
-  }
+  FormulaParser(formula, builder).read();
+  return builder.take();
 }
 
 }  // namespace pleuel
