@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/scene/reading/control_characters.hpp"
 #include "core/scene/reading/syntax_error.hpp"
 
 namespace pleuel {
@@ -15,42 +16,6 @@ namespace {
 
 /// A remark of the author. Objects may have one, and nobody else sees it.
 constexpr const char* comment_key = "$comment";
-
-/// What the library says, in plain words where it is known.
-std::string plain_reason(const std::string& what) {
-  if (what.find("UTF-8") != std::string::npos) {
-    return "a byte that is no UTF-8; save the file with that encoding";
-  }
-  const std::size_t overflow = what.find("number overflow parsing ");
-  if (overflow != std::string::npos) {
-    return what.substr(overflow + 24) + " is a larger number than there is";
-  }
-  return "this is no JSON";
-}
-
-/// U+2028 … U+202E, U+2066 … U+2069 in UTF-8: separators of lines, and what turns the direction of
-/// the writing that follows, so that a name reads as another one.
-bool turns_writing(unsigned char first, unsigned char second, unsigned char third) {
-  if (first != 0xE2) return false;
-  return (second == 0x80 && third >= 0xA8 && third <= 0xAE) ||
-         (second == 0x81 && third >= 0xA6 && third <= 0xA9);
-}
-
-/// What a terminal or a page would obey instead of showing it: C0, DEL, C1 and the controls of the
-/// direction of writing, in UTF-8.
-/// @param allowed  of these
-bool has_control_character(const std::string& text, std::string_view allowed = "") {
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto at = [&](std::size_t k) {
-      return static_cast<unsigned char>(k < text.size() ? text[k] : 'x');
-    };
-    const unsigned char byte = at(i), next = at(i + 1);
-    if (allowed.find(text[i]) != std::string_view::npos) continue;
-    if (byte < 0x20 || byte == 0x7F || (byte == 0xC2 && next >= 0x80 && next < 0xA0)) return true;
-    if (turns_writing(byte, next, at(i + 2))) return true;
-  }
-  return false;
-}
 
 /// Builds the document event by event; `open_` holds the objects and lists not yet closed.
 class DocumentBuilder : public nlohmann::json_sax<Json> {
@@ -96,8 +61,8 @@ class DocumentBuilder : public nlohmann::json_sax<Json> {
 
   bool parse_error(std::size_t position, const std::string&,
                    const nlohmann::json::exception& error) override {
-    throw InputError(fmt::format(
-        "{}: {}", file_, describe_syntax_error(text_, position, plain_reason(error.what()))));
+    throw InputError(
+        fmt::format("{}: {}", file_, describe_syntax_error(text_, position, error.what())));
   }
 
  private:

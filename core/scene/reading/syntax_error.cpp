@@ -1,13 +1,14 @@
 #include "core/scene/reading/syntax_error.hpp"
 
 #include <algorithm>
-#include <cctype>
-#include <cstdint>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
+
+#include "core/scene/reading/control_characters.hpp"
+#include "core/scene/reading/unit_scanner.hpp"
 
 namespace pleuel {
 
@@ -18,302 +19,205 @@ struct Complaint {
   std::string cause;
 };
 
-bool is_digit(char c) {
-  return std::isdigit(static_cast<unsigned char>(c)) != 0;
-}
 bool is_letter(char c) {
-  return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_';
+  return is_name_character(c) && !is_digit_character(c);
+}
+bool is_of_number(char c) {
+  return is_digit_character(c) || c == '.' || c == '-' || c == '+';
 }
 
-/// Reads a text as JSON and stops where it is none. It knows more of what people write in its place
-/// than a parser does.
-class SyntaxCheck {
+/// Brackets that are open at the end of a text, and where its last string begins.
+struct Outline {
+  std::vector<std::size_t> open = {};
+  std::size_t last_string = 0;
+
+  explicit Outline(std::string_view text) {
+    bool is_in_string = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      const char c = text[i];
+      if (c == '"') is_in_string = !is_in_string;
+      if (is_in_string) {
+        if (c == '"') last_string = i;
+        if (c == '\\') ++i;
+      } else if (c == '{' || c == '[') {
+        open.push_back(i);
+      } else if ((c == '}' || c == ']') && !open.empty()) {
+        open.pop_back();
+      }
+    }
+  }
+};
+
+/// What the parser could not take, what stands before it, and what the author most likely meant.
+class Slip {
  public:
-  explicit SyntaxCheck(const std::string& text) : text_(text) {
-    if (text.starts_with("\xEF\xBB\xBF")) at_ = 3;  // byte order mark
+  Slip(std::string_view text, std::size_t position, std::string_view said)
+      : text_(text), said_(said), end_(std::min(position, text.size())) {
+    begin_ = is_said("unexpected end of input") ? text.size() : token_begin();
+    behind_ = text.find_last_not_of(" \t\r\n", begin_ - 1) + 1;
+    if (begin_ == 0) behind_ = 0;
   }
 
-  /// Nothing, if the text is JSON as far as this sees.
-  std::optional<Complaint> find() {
-    while (!complaint_) {
-      skip_space();
-      if (at_ >= text_.size()) {
-        if (expected_ != Expected::end) complain(at_, end_text());
-        break;
-      }
-      if (!finds_foreign()) step();
+  Complaint found() const {
+    if (const auto error = foreign()) return *error;
+    if (const auto error = inside_token()) return *error;
+    if (is_said("unexpected end of input")) return {begin_, end_cause()};
+    if (is_said("expected end of input")) return at_end();
+    if (const auto error = around_comma()) return *error;
+    if (is_said("object separator")) {
+      return {here() == '=' ? begin_ : behind_,
+              "a colon is missing between name and value: \"name\": value"};
     }
-    return complaint_;
+    if (is_said("object key")) return {begin_, key_cause()};
+    return is_said("parsing value") ? Complaint{begin_, value_cause()} : between_values();
   }
 
  private:
-  enum class Expected { value, first_item, key, first_key, colon, comma, end };
-  struct Open {
-    char bracket;
-    std::size_t place;
-  };
+  using Found = std::optional<Complaint>;
 
-  void complain(std::size_t place, std::string cause) { complaint_ = {place, std::move(cause)}; }
-
-  char here() const { return at_ < text_.size() ? text_[at_] : '\0'; }
-  bool begins(std::string_view word) const {
-    return std::string_view(text_).substr(at_).starts_with(word);
+  bool is_said(std::string_view words) const { return said_.find(words) != std::string::npos; }
+  char at(std::size_t place) const { return place < text_.size() ? text_[place] : '\0'; }
+  char here() const { return at(begin_); }
+  char before() const { return behind_ > 0 ? text_[behind_ - 1] : '\0'; }
+  bool closes() const { return here() == '}' || here() == ']'; }
+  bool begins(std::string_view word) const { return text_.substr(begin_).starts_with(word); }
+  auto line_of(std::size_t place) const {
+    return 1 + std::count(text_.begin(), text_.begin() + static_cast<long>(place), '\n');
   }
-  void skip_space() {
-    while (at_ < text_.size() &&
-           std::string_view(" \t\r\n").find(text_[at_]) != std::string::npos) {
-      ++at_;
+
+  template <class Is>
+  std::size_t run_begin(std::size_t end, const Is& is_part) const {
+    while (end > 0 && is_part(text_[end - 1])) --end;
+    return end;
+  }
+  /// The parser has read the token up to what is wrong with it.
+  std::size_t token_begin() const {
+    if (is_said("invalid string") || is_said("unexpected string")) {
+      return Outline(text_.substr(0, end_)).last_string;
     }
-  }
-  std::size_t line_of(std::size_t place) const {
-    const auto end = text_.begin() + static_cast<std::ptrdiff_t>(std::min(place, text_.size()));
-    return 1 + static_cast<std::size_t>(std::count(text_.begin(), end, '\n'));
+    const std::size_t last = end_ > 0 ? end_ - 1 : 0;
+    const bool is_cut_word = last > 0 && is_letter(text_[last - 1]) && !is_name_character(at(last));
+    return is_name_character(at(last)) || is_cut_word ? run_begin(last, is_name_character) : last;
   }
 
-  std::string end_text() const {
-    if (open_.empty()) return "the text ends before the value that was announced";
-    const Open& last = open_.back();
+  /// What no JSON has anywhere outside of strings.
+  Found foreign() const {
+    if (begins("//") || begins("/*") || here() == '#') {
+      return {{begin_,
+               "JSON has no comments; objects of a problem may have a text \"$comment\" instead"}};
+    }
+    if (here() == '\'') {
+      return {{begin_, "names and texts stand in double quotes \"…\", not in single ones"}};
+    }
+    for (const char* quote : {"“", "”", "„", "‘", "’"}) {
+      if (begins(quote)) {
+        return {
+            {begin_, "names and texts stand in straight quotes \"…\", not in typographic ones"}};
+      }
+    }
+    return std::nullopt;
+  }
+
+  Found inside_token() const {
+    if (is_said("UTF-8")) {
+      return {{end_ - 1, "a byte that is no UTF-8; save the file with that encoding"}};
+    }
+    if (is_said("number overflow")) {
+      const std::size_t number = said_.find("parsing ") + 8;
+      return {{end_ - 1, fmt::format("{} is a larger number than there is", said_.substr(number))}};
+    }
+    if (is_said("after backslash")) {
+      return {{end_ - 2, "\"\\\" has a meaning in texts; write \"\\\\\" for a backslash"}};
+    }
+    if (is_said("closing quote") || is_said("control character")) {
+      return {{begin_, "this text is not closed: a double quote \" is missing in its line"}};
+    }
+    if (is_said("invalid string")) {
+      return {{end_ - 1, "\"\\u\" stands before the four digits, 0-9 or a-f, of a character"}};
+    }
+    if (!is_said("invalid number")) return std::nullopt;
+    const std::size_t point = text_.rfind('.', end_ - 1);
+    if (is_said("after '.'")) return {{point, "a number has a digit behind the point: 5.0 or 5"}};
+    if (is_said("after '-'")) {
+      return {{text_.rfind('-', end_ - 1), "a number has a digit before the point: 0.5"}};
+    }
+    return {{begin_, "the exponent of this number has no digit"}};
+  }
+
+  std::string end_cause() const {
+    const Outline outline(text_);
+    if (outline.open.empty()) return "the text ends before the value that was announced";
+    const std::size_t last = outline.open.back();
     return fmt::format(
         "the text ends here, but the \"{}\" of line {} is not closed: \"{}\" is missing",
-        last.bracket, line_of(last.place), closing(last.bracket));
+        text_[last], line_of(last), closing(last));
   }
-  static char closing(char bracket) { return bracket == '{' ? '}' : ']'; }
+  char closing(std::size_t bracket) const { return text_[bracket] == '{' ? '}' : ']'; }
 
-  /// What no JSON has anywhere outside of texts.
-  bool finds_foreign() {
-    if (begins("//") || begins("/*") || here() == '#') {
-      complain(at_,
-               "JSON has no comments; objects of a problem may have a text \"$comment\" instead");
-    } else if (here() == '\'') {
-      complain(at_, "names and texts stand in double quotes \"…\", not in single ones");
-    } else if (begins("“") || begins("”") || begins("„") || begins("‘") || begins("’")) {
-      complain(at_, "names and texts stand in straight quotes \"…\", not in typographic ones");
+  Complaint at_end() const {
+    return {begin_, closes() ? fmt::format("this \"{}\" closes nothing: one too many", here())
+                             : "the document has ended before; nothing may follow it"};
+  }
+
+  Found around_comma() const {
+    const bool is_behind_comma = before() == ',';
+    if (is_behind_comma && closes()) {
+      return {{behind_ - 1, fmt::format("the comma before this \"{}\" is too many", here())}};
     }
-    return complaint_.has_value();
+    const bool is_decimal = is_behind_comma && is_said("object key") && behind_ == begin_ &&
+                            is_digit_character(here()) && is_digit_character(at(behind_ - 2));
+    if (is_decimal) return {{behind_ - 1, "numbers have a decimal point, no comma: 0.5"}};
+    if (here() == ',' && !is_said("parsing value")) return {{begin_, "this comma is too many"}};
+    return std::nullopt;
   }
 
-  void step() {
-    switch (expected_) {
-      case Expected::first_item:
-        if (here() == ']') return close();
-        return read_value();
-      case Expected::value:
-        return read_value();
-      case Expected::first_key:
-        if (here() == '}') return close();
-        return read_key();
-      case Expected::key:
-        return read_key();
-      case Expected::colon:
-        return read_colon();
-      case Expected::comma:
-        return read_comma();
-      case Expected::end:
-        return complain(at_, here() == '}' || here() == ']'
-                                 ? fmt::format("this \"{}\" closes nothing: one too many", here())
-                                 : "the document has ended before; nothing may follow it");
+  std::string closing_cause() const {
+    const std::size_t open = Outline(text_.substr(0, begin_)).open.back();
+    return fmt::format("this \"{}\" stands where the \"{}\" of line {} has to be closed by \"{}\"",
+                       here(), text_[open], line_of(open), closing(open));
+  }
+
+  std::string key_cause() const {
+    if (closes()) return closing_cause();
+    return is_letter(here()) ? "names stand in double quotes: \"name\": value"
+                             : "a name in double quotes is expected: \"name\": value";
+  }
+
+  std::string value_cause() const {
+    if (closes() || here() == ',') {
+      return fmt::format("a value is missing before this \"{}\"", here());
     }
+    if (here() == '+') return "numbers have no plus sign";
+    if (here() == '.') return "a number has a digit before the point: 0.5";
+    return is_letter(here())
+               ? "this is no value: texts stand in double quotes \"…\"; true, false and null are "
+                 "written like that; numbers are finite"
+               : "this is no value: a number, \"a text\", {…}, […], true, false or null is "
+                 "expected";
   }
 
-  // ---- values
-
-  void read_value() {
-    const char c = here();
-    value_begin_ = at_;
-    if (c == '{' || c == '[') {
-      open_.push_back({c, at_++});
-      expected_ = c == '{' ? Expected::first_key : Expected::first_item;
-    } else if (c == '"') {
-      if (read_text()) finish_value();
-    } else if (is_digit(c) || c == '-' || c == '+' || c == '.') {
-      if (read_number()) finish_value();
-    } else if (begins("true") || begins("null")) {
-      at_ += 4, finish_value();
-    } else if (begins("false")) {
-      at_ += 5, finish_value();
-    } else {
-      complain_of_no_value();
+  Complaint between_values() const {
+    if (closes()) return {begin_, closing_cause()};
+    if (here() == '0' && begin_ + 1 < end_) {
+      return {begin_, "numbers do not begin with zeros: 7, not 007"};
     }
-  }
-
-  void finish_value() {
-    value_end_ = at_;
-    expected_ = open_.empty() ? Expected::end : Expected::comma;
-  }
-
-  void complain_of_no_value() {
-    const char c = here();
-    const bool closes = c == '}' || c == ']';
-    if (closes && last_comma_) {
-      complain(*last_comma_, fmt::format("the comma before this \"{}\" is too many", c));
-    } else if (closes || c == ',') {
-      complain(at_, fmt::format("a value is missing before this \"{}\"", c));
-    } else if (is_letter(c)) {
-      complain(at_,
-               "this is no value: texts stand in double quotes \"…\"; true, false and null are "
-               "written like that; numbers are finite");
-    } else {
-      complain(at_,
-               "this is no value: a number, \"a text\", {…}, […], true, false or null is "
-               "expected");
+    const bool is_unit = is_letter(here()) || here() == '.' || here() == '%';
+    if (is_said("invalid literal") &&
+        (is_digit_character(here()) || (is_digit_character(before()) && is_unit))) {
+      return {is_digit_character(here()) ? begin_ : run_begin(behind_, is_of_number),
+              "a number with a unit stands in double quotes: \"10 mm\""};
     }
+    if (here() != ':') return {behind_, "a comma is missing here"};
+    const bool is_in_list = text_[Outline(text_.substr(0, begin_)).open.back()] == '[';
+    return {begin_, is_in_list ? "a list […] has values only; \"name\": value stands in an "
+                                 "object {…}"
+                               : "this colon is too many"};
   }
 
-  bool read_number() {
-    const std::size_t begin = at_;
-    const auto digits = [&] {
-      const std::size_t first = at_;
-      while (is_digit(here())) ++at_;
-      return at_ - first;
-    };
-    if (here() == '+') return complain(begin, "numbers have no plus sign"), false;
-    if (here() == '-') ++at_;
-    const bool has_zero = here() == '0';
-    const std::size_t whole = digits();
-    if (whole == 0) return complain(begin, "a number has a digit before the point: 0.5"), false;
-    if (has_zero && whole > 1)
-      return complain(begin, "numbers do not begin with zeros: 7, not 007"), false;
-    if (here() == '.' && (++at_, digits() == 0)) {
-      return complain(at_ - 1, "a number has a digit behind the point: 5.0 or 5"), false;
-    }
-    if (here() == 'e' || here() == 'E') {
-      ++at_;
-      if (here() == '+' || here() == '-') ++at_;
-      if (digits() == 0) return complain(begin, "the exponent of this number has no digit"), false;
-    }
-    was_number_ = true;
-    return true;
-  }
-
-  bool read_text() {
-    const std::size_t begin = at_++;
-    while (at_ < text_.size() && here() != '"') {
-      if (here() == '\n') break;
-      if (here() == '\\') {
-        ++at_;
-        if (std::string_view("\"\\/bfnrtu").find(here()) == std::string_view::npos) {
-          return complain(at_ - 1, "\"\\\" has a meaning in texts; write \"\\\\\" for a backslash"),
-                 false;
-        }
-      }
-      ++at_;
-    }
-    if (here() != '"') {
-      return complain(begin, "this text is not closed: a double quote \" is missing in its line"),
-             false;
-    }
-    ++at_;
-    was_number_ = false;
-    return true;
-  }
-
-  // ---- what stands between values
-
-  void read_key() {
-    const char c = here();
-    if (c == '"') {
-      key_end_ = 0;
-      if (!read_text()) return;
-      key_end_ = at_;
-      expected_ = Expected::colon;
-    } else if (last_comma_ && (c == '}' || c == ']')) {
-      complain(*last_comma_, fmt::format("the comma before this \"{}\" is too many", c));
-    } else if (is_decimal_comma()) {
-      complain(*last_comma_, "numbers have a decimal point, no comma: 0.5");
-    } else if (c == ',') {
-      complain(at_, "this comma is too many");
-    } else if (c == ']') {
-      complain(at_, fmt::format(
-                        "this \"]\" stands where the \"{{\" of line {} has to be closed by \"}}\"",
-                        line_of(open_.back().place)));
-    } else if (is_letter(c)) {
-      complain(at_, "names stand in double quotes: \"name\": value");
-    } else {
-      complain(at_, "a name in double quotes is expected: \"name\": value");
-    }
-  }
-
-  /// 0,5: the comma stands between digits.
-  bool is_decimal_comma() const {
-    return last_comma_ && was_number_ && *last_comma_ > 0 && is_digit(here()) &&
-           *last_comma_ + 1 == at_ && is_digit(text_[*last_comma_ - 1]);
-  }
-
-  void read_colon() {
-    if (here() == ':') {
-      ++at_;
-      last_comma_.reset();
-      expected_ = Expected::value;
-    } else {
-      complain(here() == '=' ? at_ : key_end_,
-               "a colon is missing between name and value: \"name\": value");
-    }
-  }
-
-  void read_comma() {
-    const char c = here();
-    if (c == ',') {
-      last_comma_ = at_++;
-      expected_ = open_.back().bracket == '{' ? Expected::key : Expected::value;
-    } else if (c == '}' || c == ']') {
-      close();
-    } else if (was_number_ && value_end_ == at_ && (is_letter(c) || c == '.' || c == '%')) {
-      complain(value_begin_,
-               "this is no number; with a unit it stands in double quotes: \"10 mm\"");
-    } else if (was_number_ && is_letter(c)) {
-      complain(value_begin_, "a number with a unit stands in double quotes: \"10 mm\"");
-    } else if (c == ':') {
-      complain(at_, open_.back().bracket == '['
-                        ? "a list [\xE2\x80\xA6] has values only; \"name\": value stands in an "
-                          "object {\xE2\x80\xA6}"
-                        : "this colon is too many");
-    } else {
-      complain(value_end_, "a comma is missing here");
-    }
-  }
-
-  void close() {
-    const char c = here();
-    const Open last = open_.back();
-    if (c != closing(last.bracket)) {
-      return complain(at_,
-                      fmt::format("this \"{}\" stands where the \"{}\" of line {} has to be "
-                                  "closed by \"{}\"",
-                                  c, last.bracket, line_of(last.place), closing(last.bracket)));
-    }
-    open_.pop_back();
-    ++at_;
-    was_number_ = false;
-    finish_value();
-  }
-
-  const std::string& text_;
-  std::size_t at_ = 0;
-  Expected expected_ = Expected::value;
-  std::vector<Open> open_;
-  std::optional<std::size_t> last_comma_;  ///< right before what is read now
-  std::size_t key_end_ = 0, value_begin_ = 0, value_end_ = 0;
-  bool was_number_ = false;
-  std::optional<Complaint> complaint_;
+  std::string_view text_, said_;
+  std::size_t end_, begin_ = 0;
+  std::size_t behind_ = 0;  ///< the last character before the token that is no blank
 };
-
-/// Bytes of the UTF-8 character that begins there; 0 if none does, or one that is not to be shown.
-std::size_t shown_character(std::string_view text) {
-  const auto byte = [&](std::size_t i) {
-    return static_cast<std::uint8_t>(i < text.size() ? text[i] : '\0');
-  };
-  if (byte(0) < 0x80) return byte(0) < 0x20 || byte(0) == 0x7F ? 0 : 1;
-  const std::size_t size = byte(0) >= 0xF0 ? 4 : byte(0) >= 0xE0 ? 3 : byte(0) >= 0xC2 ? 2 : 0;
-  for (std::size_t i = 1; i < size; ++i) {
-    if ((byte(i) & 0xC0) != 0x80) return 0;
-  }
-  if (byte(0) == 0xC2 && byte(1) < 0xA0) return 0;  // controls of C1
-  if (byte(0) == 0xE2 && (byte(1) == 0x80 || byte(1) == 0x81)) {
-    const bool is_shown = byte(1) == 0x80 ? byte(2) < 0xA8 || byte(2) > 0xAE : byte(2) < 0xA6;
-    return is_shown ? size : 0;  // separators, direction
-  }
-  return byte(0) > 0xF4 ? 0 : size;
-}
 
 /// The characters of a line, each as it is shown.
 std::vector<std::string> shown_characters(std::string_view line) {
@@ -344,17 +248,12 @@ std::string pointed_line(std::string_view line, std::size_t place, const std::st
 }  // namespace
 
 std::string describe_syntax_error(const std::string& text, std::size_t position,
-                                  const std::string& reason) {
-  const auto found = SyntaxCheck(text).find();
-  const bool is_known = found && found->place <= position;
-  std::size_t place = is_known ? found->place : position > 0 ? position - 1 : 0;
-  place = std::min(place, text.size());
+                                  const std::string& said) {
+  const auto [place, cause] = Slip(text, position, said).found();
   const std::size_t begin = place == 0 ? 0 : text.rfind('\n', place - 1) + 1;
   const std::size_t end = std::min(text.find('\n', place), text.size());
-  const auto line =
-      1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(begin), '\n');
-  return fmt::format("line {}, column {}: {}{}", line, place - begin + 1,
-                     is_known ? found->cause : reason,
+  const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<long>(begin), '\n');
+  return fmt::format("line {}, column {}: {}{}", line, place - begin + 1, cause,
                      pointed_line(std::string_view(text).substr(begin, end - begin), place - begin,
                                   std::to_string(line)));
 }

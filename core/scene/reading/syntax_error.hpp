@@ -13,9 +13,9 @@ namespace pleuel {
 ///          |                  ^
 ///
 /// Lines of at most 90 characters; what a terminal would obey is shown as "?".
-/// @param position  up to which a parser came: what counts where nothing is found
-/// @param reason    what it says of that
+/// @param position  how many bytes the parser of nlohmann-json has read
+/// @param said      by the parser
 std::string describe_syntax_error(const std::string& text, std::size_t position,
-                                  const std::string& reason);
+                                  const std::string& said);
 
 }  // namespace pleuel
