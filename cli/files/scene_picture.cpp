@@ -13,8 +13,8 @@
 #include "core/base/number_text.hpp"
 #include "core/model/motion_plane.hpp"
 #include "core/response/analysis.hpp"
+#include "core/scene/grammar/tables.hpp"
 #include "core/scene/joint_kind.hpp"
-#include "core/scene/number_keys.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "picture/drawn_place.hpp"
 #include "picture/section_outline.hpp"
@@ -38,6 +38,25 @@ Json points_document(const std::vector<Eigen::Vector2d>& points) {
   return document;
 }
 
+/// ", width 20 mm, height 30 mm"
+class SizeTexts : public Keys {
+ public:
+  explicit SizeTexts(const Values& design) : design_(design) {}
+
+  void number(const Key& key, Number& size, const Measure&, std::string_view) override {
+    std::string name(key.word);
+    std::replace(name.begin(), name.end(), '_', ' ');
+    text += fmt::format(", {} {} {}", name, significant(unit_.shown(resolve(size, design_)), 4),
+                        unit_.name);
+  }
+
+  std::string text;
+
+ private:
+  const Values& design_;
+  ShownUnit unit_ = engineering_unit("m");
+};
+
 /// "rectangle, width 20 mm, height 30 mm".
 class SectionText {
  public:
@@ -55,15 +74,10 @@ class SectionText {
 
  private:
   template <class OfType>
-  std::string sizes(std::string text, const OfType& section) const {
-    const ShownUnit unit = engineering_unit("m");
-    for (const NumberKey<OfType>& key : number_keys(KeysOf<OfType>())) {
-      std::string name(key.word);
-      std::replace(name.begin(), name.end(), '_', ' ');
-      const double size = resolve(*key.of(section), design_);
-      text += fmt::format(", {} {} {}", name, significant(unit.shown(size), 4), unit.name);
-    }
-    return text;
+  std::string sizes(const std::string& name, OfType section) const {
+    SizeTexts sizes(design_);
+    describe(sizes, section);
+    return name + sizes.text;
   }
 
   const Values& design_;

@@ -17,7 +17,7 @@ INSTANTIATE_TEST_SUITE_P(
             R"(/scene/bodies/crank/section has the unknown key "heigth"; did you mean "height"?)"},
         BadEdit{
             "/scene/bodies/slider/elements", "1",
-            R"(/scene/bodies/slider has the unknown key "elements"; known are "type", "at", "mass" and "velocity")"},
+            R"(/scene/bodies/slider has the unknown key "elements"; known are "type", "velocity", "at" and "mass")"},
         BadEdit{
             "/objective/scale", "2",
             R"(/objective has the unknown key "scale"; known are "minimize", "maximize" and "over_cases")"},

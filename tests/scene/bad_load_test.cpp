@@ -84,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(
             "/scene/loads/cord/at/0/1", "1",
             R"(/scene/loads/cord/at/0 must be on the axis of the beam "arm", the nearest point is (0.123, 0, 0) [m], got (0.123, 1, 0))"},
         BadEdit{"/scene/loads/strap/stiffness", "remove",
-                R"(/scene/loads/strap is missing the key "stiffness")"},
+                R"(/scene/loads/strap needs "stiffness" or "resistance")"},
         BadEdit{"/scene/loads/strap/stiffness", "-1",
                 "/scene/loads/strap/stiffness must not be negative [N/m], got -1"},
         BadEdit{
@@ -103,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(
             R"(/scene/loads/hinge/joint needs a joint of the type "revolute", "prismatic", "point-on-line", "cylindrical", "universal" or "planar", but "wrist" is of the type "spherical")"},
         BadEdit{
             "/scene/loads/hinge", R"({"type": "joint", "joint": "elbow"})",
-            R"(/scene/loads/hinge does nothing; it needs "stiffness", "damping", "resistance" or "motor")"},
+            R"(/scene/loads/hinge needs "stiffness", "damping", "resistance" or "motor")"},
         BadEdit{
             "/scene/loads/hinge/rest", "0.1",
             R"(/scene/loads/hinge/rest is the rest position of a spring, and needs "stiffness" or "resistance")"},

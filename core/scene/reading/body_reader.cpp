@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "core/scene/reading/keyed_numbers.hpp"
 #include "core/scene/reading/limits.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 
@@ -62,19 +61,6 @@ std::vector<Segment> read_segments(const JsonNode& node, NumberReader& numbers) 
   return segments;
 }
 
-Damping read_damping(const JsonNode& node, NumberReader& numbers) {
-  constexpr auto keys = number_keys(KeysOf<Damping>());
-  node.allow_keys(words_of(keys));
-  for (const char* key : {"mass", "stiffness"}) {
-    if (node.find("modal") && node.find(key)) {
-      node.fail(fmt::format("has both \"modal\" and \"{}\"", key));
-    }
-  }
-  Damping damping;
-  read_numbers(node, keys, numbers, damping);
-  return damping;
-}
-
 CraigBampton read_reduction(const JsonNode& node, const NumberReader& numbers) {
   node.allow_keys({"modes", "frequency"});
   const std::optional<JsonNode> modes = node.find("modes"), frequency = node.find("frequency");
@@ -111,7 +97,7 @@ void read_elasticity(const JsonNode& node, BeamBody& beam, NumberReader& numbers
   if (const auto rigid = node.find("rigid")) beam.is_rigid = rigid->truth();
   if (beam.is_rigid && damping) damping->fail("is not for a rigid beam");
   if (beam.is_rigid && reduction) reduction->fail("is not for a rigid beam");
-  if (damping) beam.damping = read_damping(*damping, numbers);
+  if (damping) read_keys(*damping, numbers, beam.damping);
   if (reduction) beam.reduction = read_reduction(*reduction, numbers);
   if (damping && damping->find("modal") && !reduction) {
     damping->at("modal").fail("is for beams with a \"reduction\" only");
@@ -172,10 +158,9 @@ BeamBody read_beam(const JsonNode& node, const std::vector<std::string>& materia
 }
 
 RigidBody read_rigid(const JsonNode& node, NumberReader& numbers) {
-  node.allow_keys({"type", "at", "mass", "inertia", "velocity", "angular_velocity"});
   RigidBody body;
-  body.at = numbers.triple(node.at("at"), quantities::length);
-  read_numbers(node, number_keys(KeysOf<RigidBody>()), numbers, body);
+  read_keys(node, numbers, [&](Keys& keys) { describe(keys, body); },
+            {"type", "velocity", "angular_velocity"});
   const std::vector<JsonNode> inertia = node.at("inertia").items(body.inertia.size());
   for (std::size_t i = 0; i < inertia.size(); ++i) {
     const Range range = i < 3 ? Range::not_negative : Range::any;
@@ -188,10 +173,8 @@ PointMass read_point_mass(const JsonNode& node, NumberReader& numbers) {
   if (const auto turning = node.find("angular_velocity")) {
     turning->fail("is not for a point mass, which does not turn");
   }
-  node.allow_keys({"type", "at", "mass", "velocity"});
   PointMass point;
-  point.at = numbers.triple(node.at("at"), quantities::length);
-  read_numbers(node, number_keys(KeysOf<PointMass>()), numbers, point);
+  read_keys(node, numbers, [&](Keys& keys) { describe(keys, point); }, {"type", "velocity"});
   return point;
 }
 
@@ -204,19 +187,6 @@ void read_velocities(const JsonNode& node, Body& body, NumberReader& numbers) {
   }
 }
 
-InitialDeflection read_initial_deflection(const JsonNode& node, NumberReader& numbers) {
-  constexpr auto keys = number_keys(KeysOf<InitialDeflection>());
-  node.allow_keys(words_of(keys, {"at", "direction"}));
-  InitialDeflection one;
-  one.at = numbers.triple(node.at("at"), quantities::length);
-  one.direction = numbers.unit_vector(node.at("direction"));
-  if (!node.find("displacement") && !node.find("rate")) {
-    node.fail("needs \"displacement\" or \"rate\"");
-  }
-  read_numbers(node, keys, numbers, one);
-  return one;
-}
-
 void read_initial_deflections(const JsonNode& node, Body& body, NumberReader& numbers) {
   const auto list = node.find("initial_deflections");
   if (!list) return;
@@ -227,7 +197,7 @@ void read_initial_deflections(const JsonNode& node, Body& body, NumberReader& nu
     }
   }
   for (const JsonNode& item : list->items()) {
-    body.initial_deflections.push_back(read_initial_deflection(item, numbers));
+    read_keys(item, numbers, body.initial_deflections.emplace_back());
   }
 }
 

@@ -36,7 +36,7 @@ void read_heading(const JsonNode& root, ProblemFile& problem) {
   if (const auto description = root.find("description")) problem.description = description->text();
 }
 
-void read_settings(const JsonNode& root, const NumberReader& numbers, ProblemFile& problem) {
+void read_settings(const JsonNode& root, NumberReader& numbers, ProblemFile& problem) {
   problem.sensitivity.memory = default_memory();
   MistakeCollector mistakes;
   const auto read = [&](const char* key, const auto& read_block) {
@@ -44,7 +44,7 @@ void read_settings(const JsonNode& root, const NumberReader& numbers, ProblemFil
       if (const auto node = root.find(key)) read_block(*node);
     });
   };
-  read("effects", [&](const JsonNode& node) { problem.effects = read_effects(node); });
+  read("effects", [&](const JsonNode& node) { problem.effects = read_effects(node, numbers); });
   read("sensitivity",
        [&](const JsonNode& node) { problem.sensitivity = read_sensitivity(node, numbers); });
   read("optimizer", [&](const JsonNode& node) {
@@ -129,7 +129,7 @@ ProblemFile read_document(const JsonNode& root, NumberReader& numbers) {
   mistakes.collect([&] { problem.simulation = read_simulation(root.at("simulation"), numbers); });
   mistakes.fail_if_any();
   if (const auto responses = root.find("responses")) {
-    problem.responses = read_responses(*responses, {problem.scene, problem.simulation, numbers});
+    problem.responses = read_responses(*responses, problem.scene, problem.simulation, numbers);
   }
   mistakes.collect([&] {
     if (const auto objective = root.find("objective")) {

@@ -4,16 +4,9 @@
 #include <utility>
 #include <variant>
 
+#include "core/scene/reading/key_reader.hpp"
+
 namespace pleuel {
-namespace {
-
-EffectChoice read_effect(const JsonNode& node) {
-  return read_choice<EffectChoice>(
-      node,
-      {{"auto", EffectChoice::automatic}, {"on", EffectChoice::on}, {"off", EffectChoice::off}});
-}
-
-}  // namespace
 
 void check_effects(const JsonNode& node, const ProblemFile& problem) {
   const EffectSettings& effects = problem.effects;
@@ -41,25 +34,9 @@ void check_effects(const JsonNode& node, const ProblemFile& problem) {
   }
 }
 
-EffectSettings read_effects(const JsonNode& node) {
-  node.allow_keys({"spatial_motion", "geometric_stiffening", "rotary_inertia", "elasticity",
-                   "axial_elasticity", "torsional_elasticity", "tolerance"});
+EffectSettings read_effects(const JsonNode& node, NumberReader& numbers) {
   EffectSettings effects;
-  for (const auto& [key, effect] :
-       {std::pair("spatial_motion", &effects.spatial_motion),
-        std::pair("geometric_stiffening", &effects.geometric_stiffening),
-        std::pair("rotary_inertia", &effects.rotary_inertia),
-        std::pair("elasticity", &effects.elasticity),
-        std::pair("axial_elasticity", &effects.axial_elasticity),
-        std::pair("torsional_elasticity", &effects.torsional_elasticity)}) {
-    if (const auto choice = node.find(key)) *effect = read_effect(*choice);
-  }
-  if (const auto tolerance = node.find("tolerance")) {
-    effects.tolerance = tolerance->number();
-    if (!is_within(Range::below_one, effects.tolerance)) {
-      tolerance->fail_with_value(rule_of(Range::below_one, quantities::pure_number));
-    }
-  }
+  read_keys(node, numbers, effects);
   return effects;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/scene/reading/json_node.hpp"
+#include "core/scene/reading/key_reader.hpp"
 #include "core/scene/reading/number_reader.hpp"
 #include "core/scene/time_function.hpp"
 
@@ -31,6 +32,15 @@ struct LawSource {
 
   /// Its keys may be "type", these, and the others.
   void allow_keys(std::vector<std::string_view> keys) const;
+
+  /// Reads a function by its table of keys.
+  template <class Function, class Measures>
+  void read(NumberReader& numbers, Function& function, const Measures& measures) const {
+    std::vector<std::string_view> others = other_keys;
+    others.push_back("type");
+    read_keys(
+        node, numbers, [&](Keys& keys) { describe(keys, function, measures); }, others);
+  }
 };
 
 }  // namespace pleuel

@@ -5,7 +5,6 @@
 
 #include "core/scene/joint_kind.hpp"
 #include "core/scene/reading/joint_type.hpp"
-#include "core/scene/reading/keyed_numbers.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 #include "core/scene/reading/time_function_reader.hpp"
 
@@ -76,24 +75,20 @@ PointTorque read_torque(const JsonNode& node, const Scene& scene, NumberReader& 
 }
 
 SpringDamper read_spring(const JsonNode& node, const Scene& scene, NumberReader& numbers) {
-  constexpr auto keys = number_keys(KeysOf<SpringDamper>());
-  node.allow_keys(words_of(keys, {"type", "bodies", "at", "resistance"}));
+  SpringDamper spring;
+  read_keys(node, numbers, [&](Keys& keys) { describe(keys, spring); }, {"type"});
   std::vector<std::string> bodies = names_of(scene.bodies);
   bodies.emplace_back(ground_name);
-  SpringDamper spring;
   spring.bodies = read_pair(node.at("bodies"), bodies);
   const std::vector<JsonNode> places = node.at("at").items(2);
   for (std::size_t end : {0U, 1U}) {
     spring.at[end] = numbers.triple(places[end], quantities::length);
   }
-  const auto resistance = node.find("resistance");
-  if (resistance) {
+  if (const auto resistance = node.find("resistance")) {
     const StateNames names{"elongation", "elongations", quantities::length, quantities::speed};
     spring.resistance =
         read_resistance({*resistance, quantities::force, LawPurpose::load, names}, numbers);
   }
-  if (!resistance) node.at("stiffness");
-  read_numbers(node, keys, numbers, spring);
   return spring;
 }
 
@@ -101,11 +96,9 @@ SpringDamper read_spring(const JsonNode& node, const Scene& scene, NumberReader&
 MotorControl read_control(const JsonNode& node, DrivenCoordinate coordinate,
                           NumberReader& numbers) {
   const AlongCoordinate measures = along(coordinate);
-  const auto keys = number_keys(KeysOf<MotorControl>(), measures);
-  node.allow_keys(words_of(keys, {"type", "target"}));
   MotorControl control;
+  read_keys(node, numbers, [&](Keys& keys) { describe(keys, control, measures); }, {"type"});
   control.target = read_target(node.at("target"), measures.coordinate, numbers);
-  read_numbers(node, keys, numbers, control);
   return control;
 }
 
@@ -125,23 +118,13 @@ void read_motor(const JsonNode& node, const Joint& joint, NumberReader& numbers,
 }
 
 JointForce read_joint_force(const JsonNode& node, const Scene& scene, NumberReader& numbers) {
-  node.allow_keys(
-      {"type", "joint", "coordinate", "stiffness", "damping", "rest", "resistance", "motor"});
-  const bool has_spring = node.find("stiffness").has_value();
-  const auto motor = node.find("motor"), resistance = node.find("resistance");
-  if (!has_spring && !node.find("damping") && !motor && !resistance) {
-    node.fail("does nothing; it needs \"stiffness\", \"damping\", \"resistance\" or \"motor\"");
-  }
-  if (node.find("rest") && !has_spring && !resistance) {
-    node.at("rest").fail(
-        "is the rest position of a spring, and needs \"stiffness\" or \"resistance\"");
-  }
   const Joint& joint = read_loaded_joint(node.at("joint"), scene);
   JointForce force;
   force.joint = joint.name;
   force.coordinate = read_coordinate(node, joint);
   const AlongCoordinate measures = along(force.coordinate);
-  read_numbers(node, number_keys(KeysOf<JointForce>(), measures), numbers, force);
+  read_keys(node, numbers, [&](Keys& keys) { describe(keys, force, measures); }, {"type"});
+  const auto motor = node.find("motor"), resistance = node.find("resistance");
   if (resistance) {
     force.resistance = read_resistance(
         {*resistance, measures.force, LawPurpose::load, names_along(force.coordinate)}, numbers);

@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "core/scene/reading/keyed_numbers.hpp"
-
 namespace pleuel {
 namespace {
 
@@ -59,14 +57,8 @@ TableFunction read_step(const LawSource& source, NumberReader& numbers) {
 }
 
 RampFunction read_ramp(const LawSource& source, NumberReader& numbers) {
-  const auto keys = number_keys(KeysOf<RampFunction>(), source.value);
-  source.allow_keys(words_of(keys, {"begin", "end", "rounding"}));
   RampFunction ramp;
-  read_numbers(source.node, keys, numbers, ramp);
-  ramp.begin = time_or(source, "begin", 0.0, Range::any, numbers);
-  const JsonNode end = source.node.at("end");
-  ramp.end = numbers.fixed(end, quantities::time);
-  if (ramp.end <= ramp.begin) end.fail_with_value("must be later than \"begin\"");
+  source.read(numbers, ramp, source.value);
   ramp.rounding = duration_of_drive(source, "rounding", numbers);
   const double most = 0.5 * (ramp.end - ramp.begin);
   if (ramp.rounding > most * (1.0 + 1e-9)) {
@@ -77,12 +69,8 @@ RampFunction read_ramp(const LawSource& source, NumberReader& numbers) {
 }
 
 HalfSineFunction read_half_sine(const LawSource& source, NumberReader& numbers) {
-  const auto keys = number_keys(KeysOf<HalfSineFunction>(), source.value);
-  source.allow_keys(words_of(keys, {"begin", "duration", "period"}));
   HalfSineFunction wave;
-  read_numbers(source.node, keys, numbers, wave);
-  wave.begin = time_or(source, "begin", 0.0, Range::any, numbers);
-  wave.duration = numbers.fixed(source.node.at("duration"), quantities::time, Range::positive);
+  source.read(numbers, wave, source.value);
   wave.period = read_period(source, wave.duration, numbers);
   return wave;
 }

@@ -1,12 +1,15 @@
 #pragma once
 
-#include <vector>
-
-#include "core/scene/reading/response_keys.hpp"
+#include "core/scene/problem_file.hpp"
+#include "core/scene/reading/json_node.hpp"
+#include "core/scene/reading/number_reader.hpp"
 
 namespace pleuel {
 
-/// Responses whose bodies and joints are in the scene and can give them. @throws InputError
-std::vector<ResponseSettings> read_responses(const JsonNode& node, const ResponseContext& context);
+/// @param simulation  whose end their windows of time keep to
+/// @throws InputError
+std::vector<ResponseSettings> read_responses(const JsonNode& node, const Scene& scene,
+                                             const SimulationSettings& simulation,
+                                             NumberReader& numbers);
 
 }  // namespace pleuel

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "core/scene/material_library.hpp"
-#include "core/scene/reading/keyed_numbers.hpp"
 #include "core/scene/reading/mistakes.hpp"
 
 namespace pleuel {
@@ -21,18 +20,9 @@ void check_strengths(const JsonNode& node, const Material& material) {
 }
 
 Material read_material(const std::string& name, const JsonNode& node, NumberReader& numbers) {
-  constexpr auto keys = number_keys(KeysOf<Material>());
-  node.allow_keys(words_of(keys, {"fatigue_exponent"}));
   Material material;
+  read_keys(node, numbers, material);
   material.name = name;
-  read_numbers(node, keys, numbers, material);
-  if (const auto exponent = node.find("fatigue_exponent")) {
-    material.fatigue_exponent = numbers.fixed(*exponent, quantities::pure_number, Range::positive);
-    if (*material.fatigue_exponent < 1.0) {
-      exponent->fail_with_value(
-          "must be at least 1 (k of Basquin's line, 5 to 15 for metals; its slope b is -1/k)");
-    }
-  }
   check_strengths(node, material);
   return material;
 }

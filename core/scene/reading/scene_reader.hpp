@@ -4,7 +4,9 @@
 #include <vector>
 
 #include "core/base/find_named.hpp"
+#include "core/scene/names_of.hpp"
 #include "core/scene/reading/json_node.hpp"
+#include "core/scene/reading/key_reader.hpp"
 #include "core/scene/reading/number_reader.hpp"
 #include "core/scene/scene.hpp"
 
@@ -32,14 +34,8 @@ Load read_load(const std::string& name, const JsonNode& node, const Scene& scene
                NumberReader& numbers);
 
 /// @throws InputError
-Section read_section(const JsonNode& node, NumberReader& numbers);
-
-/// Names of materials, bodies, joints, … in their order.
-template <class Named>
-std::vector<std::string> names_of(const std::vector<Named>& things) {
-  std::vector<std::string> names;
-  for (const Named& thing : things) names.push_back(thing.name);
-  return names;
+inline Section read_section(const JsonNode& node, NumberReader& numbers) {
+  return read_kind(node, numbers, section_kinds());
 }
 
 }  // namespace pleuel

@@ -7,6 +7,7 @@
 
 #include "core/base/int_size.hpp"
 #include "core/base/machine_memory.hpp"
+#include "core/scene/reading/key_reader.hpp"
 #include "core/scene/reading/limits.hpp"
 #include "core/scene/reading/sample_design.hpp"
 #include "core/scene/reading/tolerance.hpp"
@@ -18,35 +19,12 @@ namespace {
 
 constexpr int most_samples = 10000000;
 
-void read_invariant_derivatives(const JsonNode& node, InvariantDifferentiation& invariants) {
-  using enum InvariantDerivatives;
-  if (const auto derivatives = node.find("invariant_derivatives")) {
-    invariants.derivatives = read_choice(*derivatives, invariant_derivatives);
-  }
-  const auto step = node.find("invariant_step");
-  if (!step) return;
-  if (invariants.derivatives != central && invariants.derivatives != forward) {
-    step->fail("is for the invariant derivatives \"central\" and \"forward\" only");
-  }
-  invariants.step = read_tolerance(*step);
-}
-
 }  // namespace
 
-SensitivitySettings read_sensitivity(const JsonNode& node, const NumberReader& numbers) {
-  node.allow_keys(
-      {"method", "difference_step", "invariant_derivatives", "invariant_step", "memory"});
+SensitivitySettings read_sensitivity(const JsonNode& node, NumberReader& numbers) {
   SensitivitySettings settings;
-  if (const auto method = node.find("method")) {
-    settings.method = read_choice(*method, gradient_methods);
-  }
-  if (const auto step = node.find("difference_step")) {
-    settings.difference_step = read_tolerance(*step);
-  }
-  read_invariant_derivatives(node, settings.invariants);
-  const auto memory = node.find("memory");
-  settings.memory =
-      memory ? numbers.fixed(*memory, quantities::data, Range::positive) : default_memory();
+  settings.memory = default_memory();
+  read_keys(node, numbers, settings);
   return settings;
 }
 

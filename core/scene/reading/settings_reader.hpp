@@ -8,7 +8,7 @@
 /// InputError.
 namespace pleuel {
 
-SensitivitySettings read_sensitivity(const JsonNode& node, const NumberReader& numbers);
+SensitivitySettings read_sensitivity(const JsonNode& node, NumberReader& numbers);
 
 /// Whether the backend is there is for the optimizer to say.
 OptimizerSettings read_optimizer(const JsonNode& node, const std::vector<DesignVariable>& variables,

@@ -6,6 +6,6 @@
 namespace pleuel {
 
 /// Times, scheme, formulation and start. @throws InputError
-SimulationSettings read_simulation(const JsonNode& node, const NumberReader& numbers);
+SimulationSettings read_simulation(const JsonNode& node, NumberReader& numbers);
 
 }  // namespace pleuel

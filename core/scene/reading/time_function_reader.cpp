@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "core/scene/reading/keyed_numbers.hpp"
 #include "core/scene/reading/pulse_reader.hpp"
 #include "core/scene/reading/symbols.hpp"
 #include "core/scene/reading/table_law_reader.hpp"
@@ -32,12 +31,11 @@ enum class FunctionType {
   clearance
 };
 
-/// A function that its numbers are all of.
-template <class Function>
-Function read_numbers_of(const LawSource& source, NumberReader& numbers, Function function = {}) {
-  const auto keys = number_keys(KeysOf<Function>(), source.value);
-  source.allow_keys(words_of(keys));
-  read_numbers(source.node, keys, numbers, function);
+/// A function that its table of keys says all of.
+template <class Function, class Measures>
+Function read_keys_of(const LawSource& source, NumberReader& numbers, const Measures& measures) {
+  Function function;
+  source.read(numbers, function, measures);
   return function;
 }
 
@@ -114,8 +112,8 @@ TimeFunction read_expression_object(const LawSource& source, NumberReader& numbe
 ClearanceLaw read_clearance(const LawSource& source, NumberReader& numbers) {
   constexpr double never = 1e30;
   const auto lower = source.node.find("lower"), upper = source.node.find("upper");
-  if (!lower && !upper) source.node.fail("needs \"lower\" or \"upper\", or both");
-  const auto law = read_numbers_of<ClearanceLaw>(source, numbers, {-never, never, {}, {}});
+  ClearanceLaw law{-never, never, {}, {}};
+  source.read(numbers, law, along(source.value));
   if (lower && upper && !law.lower.is_bound() && !law.upper.is_bound() &&
       law.lower.constant > law.upper.constant) {
     upper->fail_with_value("must not be less than \"lower\"");
@@ -126,15 +124,15 @@ ClearanceLaw read_clearance(const LawSource& source, NumberReader& numbers) {
 TimeFunction read_function(FunctionType type, const LawSource& source, NumberReader& numbers) {
   switch (type) {
     case FunctionType::constant:
-      return read_numbers_of<ConstantFunction>(source, numbers);
+      return read_keys_of<ConstantFunction>(source, numbers, source.value);
     case FunctionType::constant_speed:
-      return read_numbers_of<ConstantSpeedDrive>(source, numbers);
+      return read_keys_of<ConstantSpeedDrive>(source, numbers, source.value);
     case FunctionType::ramp_to_speed:
-      return read_numbers_of<RampToSpeedDrive>(source, numbers);
+      return read_keys_of<RampToSpeedDrive>(source, numbers, source.value);
     case FunctionType::polynomial:
       return read_polynomial(source, numbers);
     case FunctionType::harmonic:
-      return read_numbers_of<HarmonicFunction>(source, numbers);
+      return read_keys_of<HarmonicFunction>(source, numbers, source.value);
     case FunctionType::step:
       return read_step(source, numbers);
     case FunctionType::ramp:
@@ -146,7 +144,7 @@ TimeFunction read_function(FunctionType type, const LawSource& source, NumberRea
     case FunctionType::expression:
       return read_expression_object(source, numbers);
     case FunctionType::friction:
-      return read_numbers_of<FrictionLaw>(source, numbers);
+      return read_keys_of<FrictionLaw>(source, numbers, along(source.value));
     case FunctionType::clearance:
       return read_clearance(source, numbers);
     case FunctionType::table:

@@ -144,8 +144,7 @@ TEST(Floors, KeepForeignLibrariesBehindTheirDoors) {
                                      {"Ip", "optimization/ipopt_optimizer.cpp"},
                                      {"coin", "optimization/ipopt_optimizer.cpp"},
                                      {"udunits2.h", "core/scene/units.cpp"},
-                                     {"sqlite3.h", "record/sqlite.cpp"},
-                                     {"mpParser.h", "core/scene/reading/expression_parser.cpp"}}) {
+                                     {"sqlite3.h", "record/sqlite.cpp"}}) {
     for (const auto& include : read_includes()) {
       if (!include.header.starts_with(header)) continue;
       EXPECT_TRUE(include.file.starts_with(door)) << include.file << " includes " << include.header;

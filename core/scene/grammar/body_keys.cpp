@@ -1,0 +1,65 @@
+#include "core/scene/grammar/tables.hpp"
+
+namespace pleuel {
+
+void describe(Keys& keys, Material& s) {
+  constexpr Measure stress = {quantities::stress, Range::positive};
+  keys.about("Linear elastic, isotropic.");
+  keys.number("young", s.young, stress, "Young's modulus {}.");
+  keys.number("poisson", s.poisson, {quantities::pure_number, Range::poisson},
+              "Poisson's ratio, {}.");
+  keys.number("density", s.density, {quantities::density, Range::positive}, "Density {}.");
+  keys.number(optional_key("strength"), s.strength, stress,
+              "Stress that it bears, of yield {}; for responses that compare with it.");
+  keys.number(optional_key("ultimate_strength"), s.ultimate_strength, stress,
+              "Stress at which it breaks {}; for fatigue.");
+  keys.number(optional_key("endurance_limit"), s.endurance_limit, stress,
+              "Amplitude of stress without mean that the part bears for ever {}: with its surface, "
+              "size and reliability; for fatigue.");
+  keys.number(optional_key("fatigue_strength"), s.fatigue_strength, stress,
+              "s of Basquin's line, amplitude = s (2N)^(-1/k) of stress without mean {}; for "
+              "fatigue-damage.");
+  keys.fixed(optional_key("fatigue_exponent"), s.fatigue_exponent,
+             {quantities::pure_number, Range::positive},
+             "k of Basquin's line, at least 1, 5 to 15 for metals; for fatigue-damage.");
+  keys.must("fatigue_exponent", s.fatigue_exponent.value_or(1.0) >= 1.0,
+            "must be at least 1 (k of Basquin's line, 5 to 15 for metals; its slope b is -1/k)",
+            Shown::rule_and_value);
+}
+
+void describe(Keys& keys, Damping& s) {
+  keys.about(
+      "Rayleigh damping, D = mass * M + stiffness * K, or a ratio for all modes of a reduced "
+      "beam.");
+  keys.exclusive("modal", "mass");
+  keys.exclusive("modal", "stiffness");
+  keys.number(optional_key("mass"), s.mass, {quantities::rate, Range::not_negative}, "{}.");
+  keys.number(optional_key("stiffness"), s.stiffness, {quantities::time, Range::not_negative},
+              "{}.");
+  keys.number(optional_key("modal"), s.modal, {quantities::pure_number, Range::below_one},
+              "Damping ratio of every mode, {}; needs a reduction.");
+}
+
+void describe(Keys& keys, RigidBody& s) {
+  keys.about("A rigid body.");
+  keys.point("at", s.at, quantities::length, "Centre of mass at the start {}.");
+  keys.number("mass", s.mass, {quantities::mass, Range::positive}, "{}.");
+  keys.other("inertia", "inertia", "");
+}
+
+void describe(Keys& keys, PointMass& s) {
+  keys.about("A mass without extent.");
+  keys.point("at", s.at, quantities::length, "At the start {}.");
+  keys.number("mass", s.mass, {quantities::mass, Range::positive}, "{}.");
+}
+
+void describe(Keys& keys, InitialDeflection& s) {
+  keys.point("at", s.at, quantities::length, "A place on the undeformed body at the start {}.");
+  keys.unit_vector("direction", s.direction, "Of the displacement, global axes at the start.");
+  keys.one_at_least({"displacement", "rate"});
+  keys.number(optional_key("displacement"), s.displacement, {quantities::length},
+              "At the start {}.");
+  keys.number(optional_key("rate"), s.rate, {quantities::speed}, "At the start {}.");
+}
+
+}  // namespace pleuel

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <vector>
+
+#include "core/scene/along_coordinate.hpp"
+#include "core/scene/grammar/keys.hpp"
+#include "core/scene/problem_file.hpp"
+#include "core/scene/scene.hpp"
+
+/// The tables of keys (keys.hpp), one a struct.
+namespace pleuel {
+
+// section_keys.cpp
+
+const std::vector<ObjectKind<Section>>& section_kinds();
+void describe(Keys& keys, Section& section);
+void describe(Keys& keys, RectangleSection& section);
+void describe(Keys& keys, CircleSection& section);
+void describe(Keys& keys, TubeSection& section);
+void describe(Keys& keys, EllipseSection& section);
+void describe(Keys& keys, BoxSection& section);
+void describe(Keys& keys, ISection& section);
+void describe(Keys& keys, GeneralSection& section);
+void describe(Keys& keys, GeneralStressPoint& point);
+
+// body_keys.cpp
+
+void describe(Keys& keys, Material& material);
+void describe(Keys& keys, Damping& damping);
+void describe(Keys& keys, RigidBody& body);
+void describe(Keys& keys, PointMass& body);
+void describe(Keys& keys, InitialDeflection& deflection);
+
+// load_keys.cpp: what acts along a coordinate measures what that says.
+
+void describe(Keys& keys, SpringDamper& spring);
+void describe(Keys& keys, JointForce& force, const AlongCoordinate& along);
+void describe(Keys& keys, MotorControl& control, const AlongCoordinate& along);
+void describe(Keys& keys, FrictionLaw& law, const AlongCoordinate& along);
+void describe(Keys& keys, ClearanceLaw& law, const AlongCoordinate& along);
+
+// function_keys.cpp: `value` is what the function itself measures.
+
+void describe(Keys& keys, ConstantFunction& function, const Quantity& value);
+void describe(Keys& keys, ConstantSpeedDrive& function, const Quantity& value);
+void describe(Keys& keys, RampToSpeedDrive& function, const Quantity& value);
+void describe(Keys& keys, HarmonicFunction& function, const Quantity& value);
+void describe(Keys& keys, RampFunction& function, const Quantity& value);
+void describe(Keys& keys, HalfSineFunction& function, const Quantity& value);
+
+// settings_keys.cpp
+
+void describe(Keys& keys, SimulationSettings& settings);
+void describe(Keys& keys, SensitivitySettings& settings);
+void describe(Keys& keys, EffectSettings& settings);
+
+}  // namespace pleuel

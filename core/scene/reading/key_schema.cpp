@@ -1,0 +1,321 @@
+#include "core/scene/reading/key_schema.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include <fmt/format.h>
+
+#include "core/scene/grammar/response_table.hpp"
+#include "core/scene/grammar/tables.hpp"
+#include "core/scene/response_kind.hpp"
+
+namespace pleuel {
+
+namespace {
+
+Json reference(const std::string& definition) {
+  return {{"$ref", "#/definitions/" + definition}};
+}
+
+struct RangeWords {
+  Range range;
+  const char *text, *limits;  ///< for people, and for plain numbers of the schema
+};
+constexpr RangeWords range_words[] = {
+    {Range::any, "", "{}"},
+    {Range::positive, "positive", R"({"exclusiveMinimum": 0})"},
+    {Range::not_negative, "not negative", R"({"minimum": 0})"},
+    {Range::poisson, "greater than -1 and less than 0.5",
+     R"({"exclusiveMinimum": -1, "exclusiveMaximum": 0.5})"},
+    {Range::fraction, "from 0 to 1", R"({"minimum": 0, "maximum": 1})"},
+    {Range::below_one, "at least 0 and less than 1", R"({"minimum": 0, "exclusiveMaximum": 1})"}};
+
+const RangeWords& words_of(Range range) {
+  return *std::find_if(std::begin(range_words), std::end(range_words),
+                       [&](const RangeWords& words) { return words.range == range; });
+}
+
+Json limited(const Json& type, Range range) {
+  Json schema = {{"type", type}};
+  schema.update(Json::parse(words_of(range).limits));
+  return schema;
+}
+
+/// "[m], positive"
+std::string measure_text(const Measure& measure) {
+  const std::string range = words_of(measure.range).text;
+  if (measure.quantity == quantities::pure_number) return range;
+  return fmt::format("[{}]{}{}", measure.quantity.unit, range.empty() ? "" : ", ", range);
+}
+
+/// An object by its table.
+class ObjectSchema : public Keys {
+ public:
+  /// @param type  what "type" says, where it has this key
+  explicit ObjectSchema(std::string_view type = "") {
+    schema_["type"] = "object";
+    schema_["additionalProperties"] = false;
+    properties_["$comment"] = reference("comment");
+    if (type.empty()) return;
+    required_.push_back("type");
+    properties_["type"] = {{"const", type}};
+  }
+
+  Json take() {
+    if (!required_.empty()) schema_["required"] = std::move(required_);
+    if (!rules_.empty()) schema_["allOf"] = std::move(rules_);
+    schema_["properties"] = std::move(properties_);
+    return std::move(schema_);
+  }
+
+  void about(std::string_view sentence) override { schema_["description"] = sentence; }
+
+  void number(const Key& key, Number& member, const Measure& measure,
+              std::string_view sentence) override {
+    add(key, reference("designable"), sentence, shown(member.constant), measure);
+  }
+  void fixed(const Key& key, Number&, const Measure& measure, std::string_view sentence) override {
+    add(key, reference("quantity"), sentence, "", measure);
+  }
+  void fixed(const Key& key, double& member, const Measure& measure,
+             std::string_view sentence) override {
+    const bool is_plain = measure.quantity == quantities::pure_number;
+    add(key, is_plain ? limited({"number", "string"}, measure.range) : reference("quantity"),
+        sentence, shown(member), measure);
+  }
+  void plain(const Key& key, double& member, Range range, std::string_view sentence) override {
+    add(key, limited("number", range), sentence, shown(member), {quantities::pure_number, range});
+  }
+  void whole(const Key& key, int& member, const WholeRange& range,
+             std::string_view sentence) override {
+    add(key, {{"type", "integer"}, {"minimum", range.least}, {"maximum", range.most}}, sentence,
+        shown(member));
+  }
+  void tolerance(const Key& key, double& member, std::string_view sentence) override {
+    add(key, {{"type", "number"}, {"exclusiveMinimum", 0}, {"exclusiveMaximum", 1}}, sentence,
+        shown(member));
+  }
+  void flag(const Key& key, bool& member, std::string_view sentence) override {
+    add(key, {{"type", "boolean"}}, sentence, member ? "true" : "false");
+  }
+  void text(const Key& key, std::string& member, std::string_view sentence) override {
+    add(key, reference("name"), sentence, member);
+  }
+  void point(const Key& key, std::array<Number, 3>&, const Quantity& quantity,
+             std::string_view sentence) override {
+    add(key, reference("point"), sentence, "", {quantity});
+  }
+  void direction(const Key& key, std::array<double, 3>&, std::string_view sentence) override {
+    add(key, reference("direction"), sentence);
+  }
+  void unit_vector(const Key& key, std::array<double, 3>&, std::string_view sentence) override {
+    add(key, reference("direction"), sentence);
+  }
+  void chosen(const Key& key, std::size_t& index, const std::vector<std::string_view>& words,
+              std::string_view sentence) override {
+    const bool has_default = index < words.size();
+    add(key, {{"enum", words}}, sentence, has_default ? std::string(words[index]) : "");
+  }
+  void chosen_or_vector(const Key& key, std::size_t&, const std::vector<std::string_view>& words,
+                        std::optional<std::array<double, 3>>&, std::string_view sentence) override {
+    const Json either = Json::array({{{"enum", words}}, reference("direction")});
+    add(key, {{"anyOf", either}}, sentence);
+  }
+  void place(const Key& key, double&, std::string_view sentence) override {
+    add(key, reference("place"), sentence);
+  }
+  void name(const Key& key, const char*, const std::vector<std::string>&, std::string&,
+            std::string_view sentence) override {
+    add(key, reference("name"), sentence);
+  }
+  void names(const Key& key, const char*, const std::vector<std::string>&,
+             std::vector<std::string>&, std::string_view sentence) override {
+    add(key, reference("names"), sentence);
+  }
+  void two_names(const Key& key, const char*, const std::vector<std::string>&,
+                 std::array<std::string, 2>&, std::string_view sentence) override {
+    add(key, reference("two_names"), sentence);
+  }
+  void object(const Key& key, const Table& table) override {
+    ObjectSchema inner;
+    table(inner);
+    add(key, inner.take(), "");
+  }
+  void items(const Key& key, std::string_view, std::size_t, const ItemTable& table,
+             std::string_view sentence) override {
+    ObjectSchema item;
+    table(0, item);
+    add(key, {{"type", "array"}, {"minItems", 1}, {"items", item.take()}}, sentence);
+  }
+  void other(const Key& key, const char* definition, std::string_view sentence) override {
+    add(key, reference(definition), sentence);
+  }
+
+  void exclusive(const char* one, const char* other) override {
+    rules_.push_back({{"not", {{"required", {one, other}}}}});
+  }
+  void one_at_least(Words words) override { rules_.push_back(one_of(words)); }
+  void together(const char* one, const char* other) override {
+    schema_["dependencies"] = {{one, Json::array({other})}, {other, Json::array({one})}};
+  }
+  void needs_one(const char* word, Words others, const char*) override {
+    rules_.push_back({{"if", one_of({word})}, {"then", one_of(others)}});
+  }
+  bool gives(const Key&, bool) override { return true; }
+
+ private:
+  static Json one_of(Words words) {
+    Json any = Json::array();
+    for (const char* word : words) any.push_back({{"required", Json::array({word})}});
+    return {{"anyOf", any}};
+  }
+  static std::string shown(double value) { return fmt::format("{:g}", value); }
+
+  /// The sentence with unit, range and default.
+  static std::string description(std::string sentence, const Measure& measure,
+                                 const std::string& standard) {
+    const std::size_t place = sentence.find("{}");
+    if (place != std::string::npos) sentence.replace(place, 2, measure_text(measure));
+    if (standard.empty() || sentence.find("efault") != std::string::npos) return sentence;
+    return fmt::format("{}{}Default {}.", sentence, sentence.empty() ? "" : " ", standard);
+  }
+
+  /// @param standard  what counts if it is left out
+  void add(const Key& key, Json property, std::string_view sentence,
+           const std::string& standard = "", const Measure& measure = {quantities::pure_number}) {
+    const std::string word(key.word);
+    const bool has_default = !key.is_required && key.has_default;
+    const std::string text =
+        description(std::string(sentence), measure, has_default ? standard : "");
+    if (!text.empty()) property["description"] = text;
+    properties_[word] = std::move(property);
+    if (key.is_required) required_.push_back(word);
+  }
+
+  Json schema_ = Json::object(), properties_ = Json::object();
+  Json required_ = Json::array(), rules_ = Json::array();
+};
+
+template <class Struct, class... Measures>
+Json schema_of(std::string_view type, Struct object, const Measures&... measures) {
+  ObjectSchema schema(type);
+  describe(schema, object, measures...);
+  return schema.take();
+}
+
+/// What holds for objects of one type.
+Json of_type(std::string_view type, Json schema) {
+  schema.erase("type");
+  return {{"if", {{"required", {"type"}}, {"properties", {{"type", {{"const", type}}}}}}},
+          {"then", std::move(schema)}};
+}
+
+/// Puts the schema into the place of that of the type.
+void replace_type(Json& definition, std::string_view type, Json schema) {
+  const Json one = of_type(type, std::move(schema));
+  for (Json& there : definition["allOf"]) {
+    if (there["if"] == one["if"]) {
+      there = one;
+      return;
+    }
+  }
+  definition["allOf"].push_back(one);
+}
+
+void take_sections(Json& section) {
+  Json words = Json::array();
+  for (const ObjectKind<Section>& kind : section_kinds()) {
+    words.push_back(kind.word);
+    replace_type(section, kind.word, schema_of(kind.word, kind.made));
+  }
+  section["properties"]["type"]["enum"] = words;
+}
+
+void take_responses(Json& response) {
+  const Scene nothing;
+  const ResponseScope scope{nothing, 1.0};
+  Json words = Json::array(), types = Json::array();
+  for (const ResponseKind& kind : response_kinds) {
+    ResponseSettings one;
+    one.type = kind.type;
+    words.push_back(kind.word);
+    types.push_back(of_type(kind.word, schema_of(kind.word, one, scope)));
+  }
+  response["properties"]["type"]["enum"] = words;
+  response["allOf"] = types;
+}
+
+/// Units of what acts along an angle, and along a displacement.
+AlongCoordinate along_either() {
+  constexpr const char* name = "a quantity";
+  return {{name, "rad] or [m"},
+          {name, "rad/s] or [m/s"},
+          {name, "N m] or [N"},
+          {name, "N m/rad] or [N/m"},
+          {name, "N m s/rad] or [N s/m"}};
+}
+
+}  // namespace
+
+Json with_tables(Json schema) {
+  Json& all = schema["definitions"];
+  take_sections(all["section"]);
+  take_responses(all["response"]);
+  all["material"] = schema_of("", Material());
+  all["damping"] = schema_of("", Damping());
+  all["initial_deflections"]["items"] = schema_of("", InitialDeflection());
+  const AlongCoordinate either = along_either();
+  replace_type(all["load"], "spring", schema_of("spring", SpringDamper()));
+  replace_type(all["load"], "joint", schema_of("joint", JointForce(), either));
+  all["control"] = schema_of("control", MotorControl(), either);
+  all["friction"] = schema_of("friction", FrictionLaw(), either);
+  all["clearance"] = schema_of("clearance", ClearanceLaw(), either);
+  all["half_sine"] = schema_of("half-sine", HalfSineFunction(), either.force);
+  all["simulation"] = schema_of("", SimulationSettings());
+  all["sensitivity"] = schema_of("", SensitivitySettings());
+  all["effects"] = schema_of("", EffectSettings());
+  return schema;
+}
+
+namespace {
+
+std::string line_of(const Json& value) {
+  std::string text;
+  if (value.is_object()) {
+    for (const auto& [key, member] : value.items()) {
+      text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", Json(key).dump(), line_of(member));
+    }
+    return "{" + text + "}";
+  }
+  if (!value.is_array()) return value.dump();
+  for (const Json& item : value) text += (text.empty() ? "" : ", ") + line_of(item);
+  return "[" + text + "]";
+}
+
+void add_lines(const Json& value, std::size_t depth, std::size_t used, std::string& text) {
+  constexpr std::size_t widest = 120;
+  const std::string line = line_of(value), indent(2 * depth + 2, ' ');
+  if (used + line.size() <= widest || !value.is_structured() || value.empty()) {
+    text += line;
+    return;
+  }
+  const char* separator = "\n";
+  text += value.is_object() ? '{' : '[';
+  for (const auto& [key, member] : value.items()) {
+    const std::string begin = value.is_object() ? Json(key).dump() + ": " : "";
+    text += separator + indent + begin;
+    add_lines(member, depth + 1, indent.size() + begin.size(), text);
+    separator = ",\n";
+  }
+  text += "\n" + std::string(2 * depth, ' ') + (value.is_object() ? '}' : ']');
+}
+
+}  // namespace
+
+std::string schema_text(const Json& schema) {
+  std::string text;
+  add_lines(schema, 0, 0, text);
+  return text + "\n";
+}
+
+}  // namespace pleuel
