@@ -34,8 +34,8 @@
 #include "optimization/design/design_solve.hpp"
 #include "optimization/design/multi_start.hpp"
 #include "optimization/design/optimum_error.hpp"
-#include "optimization/design/size_choice.hpp"
 #include "optimization/design/staged_solve.hpp"
+#include "optimization/design/whole_search.hpp"
 #include "optimization/prices.hpp"
 
 namespace pleuel {
@@ -52,58 +52,6 @@ ExitCode exit_code(const Optimum& optimum) {
   return optimum.result.status == Status::verified ? ExitCode::done : ExitCode::not_verified;
 }
 
-/// What was simulated as the last evaluation was: others have other errors.
-History with_last_setting(History seen) {
-  const double step = seen.back().time_step;
-  const int elements = seen.back().elements;
-  std::erase_if(seen, [&](const EvaluationRecord& record) {
-    return record.time_step != step || record.elements != elements;
-  });
-  return seen;
-}
-
-/// Those whose sizes are chosen, if there are any.
-History chosen_ones(const ProblemFile& problem, const History& seen) {
-  History chosen = seen;
-  std::erase_if(chosen, [&](const EvaluationRecord& record) {
-    return record.has_failed() || !keeps_choices(problem, record.x);
-  });
-  return chosen.empty() ? seen : chosen;
-}
-
-/// The best design so far, by the numbers of the last setting. Nothing is proven of it.
-Result interrupted_result(const DesignProblem& problem, const SolveOptions& options,
-                          const History& seen) {
-  const History last = chosen_ones(problem.file(), with_last_setting(seen));
-  const EvaluationRecord& best =
-      best_record(last.front().has_failed() ? seen : last, options.verdict.violation);
-  Result result;
-  result.status = Status::interrupted;
-  const std::string limits =
-      best.max_violation > 0.0
-          ? fmt::format("exceeds no limit by more than {:.1e} (relative)", best.max_violation)
-          : "keeps all limits";
-  result.message = fmt::format(
-      "{} {} made; the best design among them has {} = {} and {}", seen.size(),
-      seen.size() == 1 ? "evaluation was" : "evaluations were", problem.file().objective->response,
-      problem.objective_text(best.objective), limits);
-  if (!keeps_choices(problem.file(), best.x)) {
-    result.message += "; its sizes are not chosen from their lists yet";
-  }
-  result.backend = options.backend;
-  result.x = best.x;
-  result.evaluations = seen.back().evaluation;
-  result.iterations = seen.back().iteration;
-  result.gradient_evaluations =
-      static_cast<int>(std::count_if(seen.begin(), seen.end(), [](const EvaluationRecord& record) {
-        return record.request == Request::values_and_gradients;
-      }));
-  result.max_violation = best.max_violation;
-  result.seconds = seen.back().seconds;
-  result.history = seen;
-  return result;
-}
-
 /// A missing unit is told when the first design is known, not after a search for nothing.
 std::vector<std::string> far_limits_of(const ProblemFile& problem, const EvaluationRecord& record) {
   std::vector<std::string> warnings;
@@ -116,16 +64,10 @@ std::vector<std::string> far_limits_of(const ProblemFile& problem, const Evaluat
   return warnings;
 }
 
-struct Solved {
-  MultiStart all;
-  std::optional<SizeChoiceReport> sizes;  ///< where some are chosen from lists
-};
-
-Solved solve_visibly(const ProblemInput& input, const SolveOptions& options, RunRecord& run_record,
-                     RunStore& store, const Arguments& arguments) {
+WholeSearch solve_visibly(const ProblemInput& input, const SolveOptions& options,
+                          RunRecord& run_record, RunStore& store, const Arguments& arguments) {
   const int count = arguments.starts.value_or(input.problem.optimizer.starts);
-  auto first = std::make_unique<DesignProblem>(input.problem, arguments.jobs);
-  const DesignProblem& problem = *first;
+  const DesignProblem problem(input.problem, arguments.jobs);
   std::FILE* out = arguments.progress();
   show(out, wrapped(fmt::format(
                 "{}: {} {} by {} variable{} under {} constraint{}, with {}\n\n",
@@ -136,7 +78,6 @@ Solved solve_visibly(const ProblemInput& input, const SolveOptions& options, Run
   show(out, warnings_text(impossible_corners(problem.file())));
   std::optional<HistoryCsv> history;  // with the first evaluation
   IterationLines lines(out, problem.file());
-  History seen;
   bool is_first = true;
   const Observer observer = [&](const EvaluationRecord& record) {
     if (!history) history.emplace(run_record.result("history.csv"), problem);
@@ -149,27 +90,12 @@ Solved solve_visibly(const ProblemInput& input, const SolveOptions& options, Run
     if (record.has_failed()) {
       write_failed_design(run_record, arguments, problem.file(), record);
     }
-    seen.push_back(record);
   };
   const Notice notice = [out](const std::string& text) {
     show(out, wrapped("  " + text, "  ") + "\n");
   };
-  const Execution execution = {arguments.tasks(), &store};
-  try {
-    Solved solved;
-    solved.all = solve_from_starts(input.problem, starts_of(input.problem, input.design, count),
-                                   options, execution, observer, notice);
-    if (has_choices(input.problem)) {
-      solved.sizes = choose_sizes(solved.all.best, options, execution, observer, notice);
-    }
-    return solved;
-  } catch (const Stopped&) {
-    if (seen.empty() || seen.front().has_failed()) throw;
-    Solved solved;
-    solved.all.best.result = interrupted_result(problem, options, seen);
-    solved.all.best.problem = std::move(first);
-    return solved;
-  }
+  return search_design(input.problem, starts_of(input.problem, input.design, count), options,
+                       {arguments.tasks(), &store}, observer, notice);
 }
 
 /// Steps and elements of the last stage; of several load cases each has its own.
@@ -206,7 +132,7 @@ Outcome run_optimize(const Arguments& arguments) {
   RunStore store(record, arguments, input, std::move(used));
   show_warnings_before(input.problem);
   record.begin_phase("optimize");
-  const Solved answer = solve_visibly(input, options, record, store, arguments);
+  const WholeSearch answer = solve_visibly(input, options, record, store, arguments);
   const MultiStart& all = answer.all;
   const StagedSolution& solution = all.best;
   const ProblemFile& solved = solution.problem->file();

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "cli/input/fingerprint.hpp"
+#include "cli/input/own_file.hpp"
 #include "cli/text/wrapped_text.hpp"
 
 namespace pleuel {
@@ -43,8 +44,9 @@ std::string without_tags(const std::string& json) {
 /// Where it was looked for.
 std::string template_place() {
   if (const char* given = std::getenv("PLEUEL_REPORT_TEMPLATE")) return given;
-  return fmt::format("../report/{} from the program on (PLEUEL_REPORT_TEMPLATE may name it)",
-                     report_name);
+  return fmt::format(
+      "../report/{0} or share/pleuel/{0} from {1} on (PLEUEL_REPORT_TEMPLATE may name it)",
+      report_name, own_file().string());
 }
 
 }  // namespace
@@ -54,10 +56,13 @@ std::optional<fs::path> find_report_template() {
   if (const char* given = std::getenv("PLEUEL_REPORT_TEMPLATE")) {
     return fs::is_regular_file(given, error) ? std::optional<fs::path>(given) : std::nullopt;
   }
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  if (error) return std::nullopt;
-  const fs::path page = program.parent_path().parent_path() / "report" / report_name;
-  return fs::is_regular_file(page, error) ? std::optional<fs::path>(page) : std::nullopt;
+  const fs::path folder = own_file().parent_path();
+  fs::path page = folder.parent_path() / "report" / report_name;  // of a build
+  for (fs::path above = folder; !fs::is_regular_file(page, error); above = above.parent_path()) {
+    if (!above.has_relative_path()) return std::nullopt;
+    page = above / "share" / "pleuel" / report_name;
+  }
+  return page;
 }
 
 std::string missing_template_text(const std::string& program, const fs::path& folder) {

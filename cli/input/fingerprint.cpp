@@ -3,6 +3,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "cli/input/own_file.hpp"
 #include "core/scene/reading/document_reader.hpp"
 
 namespace pleuel {
@@ -44,7 +45,7 @@ std::string whole_text(const std::filesystem::path& path) {
 
 std::string program_fingerprint() {
   Fingerprint fingerprint;
-  fingerprint.add(whole_text("/proc/self/exe"));
+  fingerprint.add(whole_text(own_file()));
   return fingerprint.text();
 }
 

@@ -11,9 +11,9 @@
 
 #include "cli/input/command_options.hpp"
 #include "cli/input/help_texts.hpp"
+#include "cli/input/version_text.hpp"
 #include "cli/text/console.hpp"
 #include "cli/text/wrapped_text.hpp"
-#include "cli/versions.hpp"
 #include "core/base/error.hpp"
 #include "core/scene/reading/suggestion.hpp"
 
@@ -364,7 +364,7 @@ std::optional<Arguments> parse_arguments(int argc, const char* const* argv) {
                arguments.program);
   app.footer(footer);
   app.require_subcommand(1);
-  app.set_version_flag("--version", std::string("pleuel ") + versions::pleuel);
+  app.set_version_flag("--version", version_text());
   add_commands(app, arguments);
   check_command_name(app, words);
   try {

@@ -16,6 +16,10 @@ void request_stop() noexcept {
   is_asked.store(true, std::memory_order_relaxed);
 }
 
+void withdraw_stop() noexcept {
+  is_asked.store(false, std::memory_order_relaxed);
+}
+
 void check_stop() {
   if (is_asked.load(std::memory_order_relaxed)) throw Stopped{};
 }

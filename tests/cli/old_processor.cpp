@@ -1,4 +1,4 @@
-/// A program that needs all instructions there are, with the check of the program (cli/
+/// A program that needs all instructions there are, with the check of the program (library/
 /// processor_check.cpp) in front of it, on a processor without those that LACKING names.
 
 #include "tests/cli/old_processor.hpp"
@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "cli/processor_needs.hpp"
+#include "library/processor_needs.hpp"
 
 namespace pleuel {
 

@@ -30,8 +30,8 @@ struct Line {
 std::vector<Line> read_lines() {
   std::vector<Line> lines;
   const fs::path root = pleuel::source_folder();
-  for (const char* top :
-       {"core", "sensitivity", "optimization", "record", "studies", "picture", "mpi", "cli"}) {
+  for (const char* top : {"core", "sensitivity", "optimization", "record", "studies", "picture",
+                          "mpi", "cli", "library"}) {
     if (!fs::exists(root / top)) continue;
     for (const auto& entry : fs::recursive_directory_iterator(root / top)) {
       if (entry.path().extension() != ".hpp" && entry.path().extension() != ".cpp") continue;
@@ -58,7 +58,7 @@ std::vector<Include> read_includes() {
 std::string floor_of(const std::string& path) {
   if (path.starts_with("optimization/design/")) return "optimization/design";
   for (const std::string top :
-       {"sensitivity", "optimization", "record", "studies", "picture", "mpi", "cli"}) {
+       {"sensitivity", "optimization", "record", "studies", "picture", "mpi", "cli", "library"}) {
     if (path.starts_with(top + "/")) return top;
   }
   if (!path.starts_with("core/")) return "";
@@ -96,7 +96,8 @@ const std::map<std::string, Names>& permitted() {
         {"studies", {"optimization/design"}},
         {"picture", {"core/response"}},
         {"mpi", {}},
-        {"cli", {"studies", "picture", "record"}}};
+        {"cli", {"studies", "picture", "record"}},
+        {"library", {"cli"}}};
     for (int i = 0; i < 12; ++i) {  // what lies below what lies below …
       for (auto& [floor, names] : below) {
         for (const std::string& name : Names(names))

@@ -4,7 +4,7 @@
 
 #include <unistd.h>
 
-#include "cli/processor_needs.hpp"
+#include "library/processor_needs.hpp"
 
 #if defined(__x86_64__) && defined(__GNUC__)
 

@@ -1,4 +1,4 @@
-#include "cli/processor_needs.hpp"
+#include "library/processor_needs.hpp"
 
 namespace pleuel {
 

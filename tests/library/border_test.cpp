@@ -1,0 +1,241 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "include/pleuel.h"
+#include "tests/support/source_folder.hpp"
+
+namespace pleuel::test::border_test {
+namespace {
+
+using Numbers = std::vector<double>;
+using testing::HasSubstr;
+
+/// Some milliseconds of simulation: the start of the motion in coarse steps.
+const std::vector<const char*> quick = {"/simulation/end_time=5 ms", "/simulation/step=0.1 ms"};
+
+std::string crank_file() {
+  return source_folder() + "/problems/slider_crank.json";
+}
+
+std::string last_text() {
+  return pleuel_last_error()->text;
+}
+
+/// An open problem.
+class Crank {
+ public:
+  explicit Crank(const std::vector<const char*>& overrides = quick) {
+    const pleuel_status status = pleuel_open(crank_file().c_str(), nullptr, overrides.data(),
+                                             overrides.size(), nullptr, &number);
+    if (status != PLEUEL_OK) throw std::runtime_error(last_text());
+    pleuel_bounds(number, start.data(), nullptr, nullptr, start.size());
+  }
+  ~Crank() { pleuel_close(number); }
+  Crank(const Crank&) = delete;
+  Crank& operator=(const Crank&) = delete;
+
+  pleuel_problem number = 0;
+  Numbers start = Numbers(4);
+};
+
+struct Found {
+  double objective = 0.0;
+  Numbers values = Numbers(6), gradient = Numbers(4), jacobian = Numbers(24);
+  bool operator==(const Found&) const = default;
+};
+
+Found evaluated(const Crank& crank, const Numbers& x) {
+  Found found;
+  EXPECT_EQ(pleuel_evaluate(crank.number, x.data(), x.size(), &found.objective, found.values.data(),
+                            6, found.gradient.data(), found.jacobian.data()),
+            PLEUEL_OK)
+      << last_text();
+  return found;
+}
+
+/// The rows of responses and those of the limits on them come from two ways through the library.
+TEST(Border, ResponsesAgreeWithLimitsOnThem) {
+  const Crank crank;
+  const Found found = evaluated(crank, crank.start);
+  Numbers values(8), jacobian(32);
+  ASSERT_EQ(
+      pleuel_responses(crank.number, crank.start.data(), 4, values.data(), 8, jacobian.data()),
+      PLEUEL_OK);
+  EXPECT_DOUBLE_EQ(values[0], found.objective);  // crank_and_rod
+  EXPECT_DOUBLE_EQ(values[2], found.values[1]);  // rod_stress, rod_strength
+  for (int j = 0; j < 4; ++j) {  // the adjoint and direct differentiation may differ by round-off
+    EXPECT_NEAR(jacobian[2 * 4 + j], found.jacobian[1 * 4 + j], 1e-8 * std::abs(values[2]) / 0.02);
+  }
+}
+
+/// The peak of a response is the largest value of its history, and their derivatives are the same.
+TEST(Border, HistoriesHaveThePeaksOfResponses) {
+  const Crank crank;
+  Numbers values(8), jacobian(32);
+  pleuel_responses(crank.number, crank.start.data(), 4, values.data(), 8, jacobian.data());
+  size_t instants = 0;
+  ASSERT_EQ(pleuel_history_size(crank.number, crank.start.data(), 4, 2, &instants), PLEUEL_OK);
+  ASSERT_EQ(instants, 51u);  // 5 ms in steps of 0.1 ms, and the start
+  Numbers time(instants), history(instants), derivatives(4 * instants);
+  ASSERT_EQ(pleuel_history(crank.number, crank.start.data(), 4, 2, time.data(), history.data(),
+                           instants, derivatives.data()),
+            PLEUEL_OK);
+  EXPECT_NEAR(time.back(), 0.005, 1e-15);
+  const auto peak = std::max_element(history.begin(), history.end()) - history.begin();
+  // The response takes the peak of a parabola through three instants at most: a step resolves it to some percent.
+  EXPECT_NEAR(history[peak], values[2], 0.05 * values[2]);
+  for (int j = 0; j < 4; ++j) {
+    EXPECT_NEAR(derivatives[4 * peak + j], jacobian[2 * 4 + j], 0.1 * std::abs(values[2]) / 0.02);
+  }
+  size_t of_mass = 1;
+  EXPECT_EQ(pleuel_history_size(crank.number, crank.start.data(), 4, 0, &of_mass), PLEUEL_OK);
+  EXPECT_EQ(of_mass, 0u);
+}
+
+TEST(Border, ThreadsFindTheSameDigits) {
+  const Crank first, second;
+  Numbers x = first.start;
+  x[2] *= 1.1;
+  const Found alone = evaluated(first, x);
+  std::array<Found, 2> together;
+  std::thread other([&] { together[1] = evaluated(second, x); });
+  evaluated(first, first.start);
+  together[0] = evaluated(first, x);
+  other.join();
+  EXPECT_EQ(together[0], alone);
+  EXPECT_EQ(together[1], alone);
+}
+
+TEST(Border, ThreadsMayShareAProblem) {
+  const Crank crank;
+  Numbers wide = crank.start;
+  wide[0] *= 1.2;
+  const Found at_start = evaluated(crank, crank.start), at_wide = evaluated(crank, wide);
+  std::thread other([&] {
+    for (int i = 0; i < 5; ++i) EXPECT_EQ(evaluated(crank, wide), at_wide);
+  });
+  for (int i = 0; i < 5; ++i) EXPECT_EQ(evaluated(crank, crank.start), at_start);
+  other.join();
+}
+
+TEST(Border, ErrorsAreOfTheirThread) {
+  pleuel_close(12345);
+  const std::string mine = last_text();
+  std::thread([] { pleuel_count(1, PLEUEL_CASES, nullptr); }).join();
+  EXPECT_EQ(last_text(), mine);
+  EXPECT_THAT(mine, HasSubstr("12345"));
+}
+
+TEST(Border, ErrorsAreTakenApart) {
+  const Crank crank;
+  pleuel_problem number = 0;
+  const std::vector<const char*> overrides = {"/scene/bodies/slider/mass=-1"};
+  EXPECT_EQ(pleuel_open(crank_file().c_str(), nullptr, overrides.data(), 1, nullptr, &number),
+            PLEUEL_BAD_INPUT);
+  const pleuel_error* error = pleuel_last_error();
+  EXPECT_EQ(error->kind, PLEUEL_BAD_INPUT);
+  EXPECT_EQ(error->file, crank_file());
+  EXPECT_STREQ(error->pointer, "/scene/bodies/slider/mass");
+  EXPECT_THAT(error->rule, HasSubstr("-1"));
+  EXPECT_EQ(number, 0u);
+}
+
+int throw_at_once(const pleuel_progress*, void*) {
+  throw std::runtime_error("of the caller");
+}
+
+TEST(Border, ObserversThatThrowAreErrors) {
+  const Crank crank;
+  char* result = nullptr;
+  EXPECT_EQ(pleuel_optimize(crank.number, nullptr, 0, nullptr, throw_at_once, nullptr, &result),
+            PLEUEL_BAD_CALL);
+  EXPECT_THAT(last_text(), HasSubstr("observer threw"));
+  EXPECT_EQ(result, nullptr);
+}
+
+int close_it(const pleuel_progress* progress, void* user) {
+  EXPECT_EQ(pleuel_close(*static_cast<pleuel_problem*>(user)),
+            progress->evaluation == 1 ? PLEUEL_OK : PLEUEL_BAD_CALL);
+  return progress->evaluation >= 2;
+}
+
+TEST(Border, ProblemsMayBeClosedWhileTheyAreOptimized) {
+  Crank crank;
+  char* result = nullptr;
+  EXPECT_EQ(pleuel_optimize(crank.number, nullptr, 0, nullptr, close_it, &crank.number, &result),
+            PLEUEL_OK)
+      << last_text();
+  EXPECT_THAT(result, HasSubstr("interrupted"));
+  pleuel_free(result);
+}
+
+int stop_all(const pleuel_progress*, void*) {
+  pleuel_stop();
+  return 0;
+}
+
+TEST(Border, AStopEndsWhatRunsAndNothingElse) {
+  const Crank crank;
+  char* result = nullptr;
+  ASSERT_EQ(pleuel_optimize(crank.number, nullptr, 0, nullptr, stop_all, nullptr, &result),
+            PLEUEL_OK)
+      << last_text();
+  EXPECT_THAT(result, HasSubstr("\"status\": \"interrupted\""));
+  pleuel_free(result);
+  pleuel_stop();  // nothing runs
+  evaluated(crank, crank.start);
+}
+
+TEST(Border, OptionsAreChecked) {
+  const Crank crank;
+  for (const char* options :
+       {"[]", "{", R"({"tolerance": 2})", R"({"starts": 0})", R"({"jobs": 1e9})",
+        R"({"backend": 1})", R"({"backend": "x"})", R"({"backends": "x"})"}) {
+    char* result = nullptr;
+    EXPECT_EQ(pleuel_optimize(crank.number, nullptr, 0, options, nullptr, nullptr, &result),
+              PLEUEL_BAD_INPUT)
+        << options;
+  }
+  EXPECT_THAT(last_text(), HasSubstr("did you mean \"backend\""));
+}
+
+TEST(Border, CommandsReturnTheirDocuments) {
+  const std::string file = crank_file();
+  int code = -1;
+  char* document = nullptr;
+  const std::array<const char*, 5> words = {"check", file.c_str(), "--set", quick[0], "--no-such"};
+  EXPECT_EQ(pleuel_run(words.data(), 5, &code, &document), PLEUEL_BAD_INPUT);
+  EXPECT_THAT(last_text(), HasSubstr("--no-such"));
+  const char* backends = "backends";
+  ASSERT_EQ(pleuel_run(&backends, 1, &code, &document), PLEUEL_OK) << last_text();
+  EXPECT_EQ(code, 0);
+  EXPECT_THAT(document, HasSubstr("nlopt-slsqp"));
+  pleuel_free(document);
+}
+
+/// The same problem with the same number of variables as the last one, one after the other: numbers are not
+/// used again.
+TEST(Border, ClosedProblemsStayClosed) {
+  pleuel_problem closed = 0;
+  {
+    const Crank crank;
+    closed = crank.number;
+  }
+  const Crank next;
+  size_t count = 0;
+  EXPECT_EQ(pleuel_count(closed, PLEUEL_VARIABLES, &count), PLEUEL_BAD_CALL);
+  EXPECT_NE(closed, next.number);
+}
+
+}  // namespace
+}  // namespace pleuel::test::border_test
