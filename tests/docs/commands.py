@@ -11,7 +11,7 @@ Each page has a fresh folder with links `pleuel`, `problems` and `catalogue.json
     ```sh slow               takes more than some seconds
     ```sh by hand            is not run: it installs, builds, or has no end
     ```text                  behind a block that ran: what it printed; see below
-    ```json FILE             becomes the file
+    ```json FILE             becomes the file; so do blocks of python, c and cpp
     ```json FILE /POINTER    its members are put into the object there, the rest of the file stays
     ```json FILE … wrong     the same, until the next commands are done
 
@@ -103,6 +103,18 @@ def merged(old: str, block: Block) -> str:
     return json.dumps(document, indent=2, ensure_ascii=False) + "\n"
 
 
+def library_of(program: Path) -> dict[str, str]:
+    """Where compilers, the loader and Python find what is installed elsewhere."""
+    libraries = str(program.parent.parent / "lib")
+    return {
+        "CPATH": str(ROOT / "include"),
+        "LIBRARY_PATH": libraries,
+        "LD_LIBRARY_PATH": libraries,
+        "PYTHONPATH": f"{ROOT / 'python'}:{ROOT / 'python/examples'}",
+        "PYTHONDONTWRITEBYTECODE": "1",
+    }
+
+
 class Page:
     def __init__(self, page: Path, program: Path, folder: Path, with_slow: bool):
         self.page, self.folder, self.with_slow = page, folder, with_slow
@@ -113,7 +125,8 @@ class Page:
         (folder / "catalogue.json").symlink_to(ROOT / "problems/catalogue.json")
         self.environment = dict(
             os.environ,
-            PATH=f"{folder}:{os.environ['PATH']}",
+            PATH=f"{folder}:/usr/bin:{os.environ['PATH']}",  # Python is the system's, with its packages
+            **library_of(program),
             PLEUEL_REPORT_TEMPLATE=str(ROOT / "tests/cli/report_template.html"),
         )
 
@@ -125,7 +138,7 @@ class Page:
                     self.run_commands(block)
                 elif kind == "text" and self.output is not None:
                     compare(block.text, self.output)
-                elif kind == "json" and len(block.words) > 1:
+                elif kind in ("json", "python", "c", "cpp") and len(block.words) > 1:
                     self.write(block)
                 if kind != "sh":
                     self.output = None
@@ -137,7 +150,7 @@ class Page:
         old = file.read_text(encoding="utf-8") if file.exists() else ""
         if "wrong" in block.words:
             self.spoiled.setdefault(file, old)
-        is_whole = block.text.lstrip().startswith("{")
+        is_whole = block.words[0] != "json" or block.text.lstrip().startswith("{")
         file.write_text(block.text if is_whole else merged(old, block), encoding="utf-8")
 
     def run_commands(self, block: Block) -> None:
