@@ -15,26 +15,13 @@ namespace fs = std::filesystem;
 
 Outcome run_named(const Arguments& arguments) {
   static const std::map<std::string, Outcome (*)(const Arguments&)> commands = {
-      {"accuracy", run_accuracy},
-      {"backends", run_backends},
-      {"check", run_check},
-      {"compare", run_compare},
-      {"completion", run_completion},
-      {"export", run_export},
-      {"gradient", run_gradient},
-      {"invariants", run_invariants},
-      {"new", run_new},
-      {"optimize", run_optimize},
-      {"pareto", run_pareto},
-      {"plot", run_plot},
-      {"prices", run_prices},
-      {"report", run_report},
-      {"runs", run_runs},
-      {"schema", run_schema},
-      {"show", run_show},
-      {"simulate", run_simulate},
-      {"stability", run_stability},
-      {"uncertainty", run_uncertainty},
+      {"accuracy", run_accuracy}, {"backends", run_backends},     {"check", run_check},
+      {"compare", run_compare},   {"completion", run_completion}, {"export", run_export},
+      {"gradient", run_gradient}, {"invariants", run_invariants}, {"new", run_new},
+      {"optimize", run_optimize}, {"pareto", run_pareto},         {"plot", run_plot},
+      {"prices", run_prices},     {"reduce", run_reduce},         {"report", run_report},
+      {"runs", run_runs},         {"schema", run_schema},         {"show", run_show},
+      {"simulate", run_simulate}, {"stability", run_stability},   {"uncertainty", run_uncertainty},
   };
   const auto command = commands.at(arguments.command);
   if (asks_for_each_case(arguments)) return run_each_case(arguments, command);

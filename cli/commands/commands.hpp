@@ -20,6 +20,7 @@ Outcome run_optimize(const Arguments& arguments);
 Outcome run_pareto(const Arguments& arguments);
 Outcome run_plot(const Arguments& arguments);
 Outcome run_prices(const Arguments& arguments);
+Outcome run_reduce(const Arguments& arguments);
 Outcome run_report(const Arguments& arguments);
 Outcome run_runs(const Arguments& arguments);
 Outcome run_schema(const Arguments& arguments);

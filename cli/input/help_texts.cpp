@@ -47,6 +47,12 @@ const std::map<std::string, HelpText>& help_texts() {
        {"Writes the constants of the elastic bodies (mass, stiffness, coupling terms and their "
         "derivatives) as files that other codes can read.",
         "{0} invariants pump.json --body rod -o rod.json"}},
+      {"reduce",
+       {"Takes mesh, stiffness and mass matrix of a solid from a finite-element program, and "
+        "writes "
+        "the few numbers that a mechanism knows the body by, for bodies of the type "
+        "\"invariants\".",
+        "{0} reduce rod_model.json -o rod.json"}},
       {"optimize",
        {"Looks for the best design within the limits, tries to disprove it, and says VERIFIED only "
         "where that fails. Writes the design, the way to it and a report into a run folder.",

@@ -109,6 +109,16 @@ void add_invariants(CLI::App& app, Arguments& arguments) {
   add_overwrite(invariants, arguments);
 }
 
+void add_reduce(CLI::App& app, Arguments& arguments) {
+  CLI::App* reduce =
+      add_command(app, arguments, "reduce", "make a body of a finite-element model of a solid");
+  reduce->add_option("FILE", arguments.file, "model file (JSON)")->required();
+  reduce->add_option("-o,--output", arguments.output, "the file of invariants to write")
+      ->type_name("FILE.json")
+      ->required();
+  add_overwrite(reduce, arguments);
+}
+
 void add_prices(CLI::App& app, Arguments& arguments) {
   CLI::App* prices = add_file_command(app, arguments, "prices",
                                       "what the optimum would gain by each number of the file");
@@ -240,6 +250,7 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   add_design(simulate, arguments);
   add_gradient(app, arguments);
   add_invariants(app, arguments);
+  add_reduce(app, arguments);
   CLI::App* optimize = add_file_command(app, arguments, "optimize",
                                         "find the best design within the limits, and verify it");
   add_output(optimize, arguments);

@@ -1,0 +1,113 @@
+#include "reduction/reduce.hpp"
+
+#include <fmt/format.h>
+
+#include "core/base/error.hpp"
+#include "core/base/int_size.hpp"
+#include "reduction/model_check.hpp"
+#include "reduction/nodal_invariants.hpp"
+#include "reduction/plane_motion.hpp"
+#include "reduction/stress_points.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// The motion of a place per coordinate; interfaces have theirs in the coordinates.
+BodyPlace place_of(const InterfaceSet& set, const Eigen::MatrixXd& motion) {
+  return {set.name, set.at, sparse_of(motion.topRows<3>()), sparse_of(motion.bottomRows<3>())};
+}
+
+std::vector<BodyPlace> places_of(const ReductionModel& model, const Eigen::MatrixXd& shape) {
+  std::vector<BodyPlace> places;
+  const std::vector<InterfaceSet>& interfaces = model.interfaces;
+  for (const InterfaceSet& interface : interfaces) {
+    places.push_back(place_of(interface, mean_motion(interface, model.mesh.positions, shape)));
+  }
+  for (const InterfaceSet& place : model.places) {
+    places.push_back(place_of(place, mean_motion(place, model.mesh.positions, shape)));
+  }
+  return places;
+}
+
+StressRecovery stress_of(const ReductionModel& model, const Eigen::MatrixXd& shape,
+                         const Eigen::MatrixXd& stiffness) {
+  const StressChoice& choice = *model.stress;
+  std::vector<int> nodes = corners_among(model.mesh, choice.nodes);
+  if (nodes.empty()) throw InputError("no node of /stress/nodes is a corner of an element");
+  Eigen::MatrixXd rows = nodal_stress(model.mesh, shape, nodes);
+  if (choice.most > 0) {
+    const std::vector<int> kept = most_stressed(rows, stiffness, choice.most);
+    Eigen::MatrixXd fewer(6 * int_size(kept), rows.cols());
+    std::vector<int> fewer_nodes;
+    for (int i = 0; i < int_size(kept); ++i) {
+      fewer.middleRows<6>(6 * i) = rows.middleRows<6>(6 * kept[i]);
+      fewer_nodes.push_back(nodes[kept[i]]);
+    }
+    rows = fewer;
+    nodes = fewer_nodes;
+  }
+  StressRecovery stress;
+  for (const int node : nodes) {
+    stress.points.push_back(fmt::format("node {}", model.mesh.numbers[node]));
+  }
+  stress.strength = choice.strength;
+  stress.of_coordinates = sparse_of(rows);
+  stress.of_accelerations.resize(rows.rows(),
+                                 3 * int_size(model.interfaces) + 3 * int_size(model.places));
+  return stress;
+}
+
+/// Those coordinates alone that keep the body in the plane of its motion.
+void keep_in_plane(const ReductionModel& model, ComponentModes& modes) {
+  const BodyConstants all = nodal_invariants(model.matrices, model.mesh.positions, modes.shape);
+  const int prescribed = 6 * (int_size(model.interfaces) - 1);
+  const std::vector<int> kept = coordinates_in_plane(all, *model.plane, prescribed);
+  modes.shape = Eigen::MatrixXd(modes.shape(Eigen::all, kept));
+  std::vector<std::string> names;
+  std::vector<double> frequencies;
+  for (const int i : kept) {
+    names.push_back(modes.names[i]);
+    if (i >= prescribed) frequencies.push_back(modes.frequencies(i - prescribed));
+  }
+  modes.names = names;
+  modes.frequencies = Eigen::Map<Eigen::VectorXd>(frequencies.data(), int_size(frequencies));
+}
+
+BodyConstants constants_of(const ReductionModel& model, const Eigen::MatrixXd& shape) {
+  BodyConstants constants = nodal_invariants(model.matrices, model.mesh.positions, shape);
+  constants.damping = model.damping * constants.stiffness;
+  constants.places = places_of(model, shape);
+  const Eigen::MatrixXd stiffness(constants.stiffness);
+  if (model.stress) constants.stress = stress_of(model, shape, stiffness);
+  if (model.stiffening) {
+    constants.stretching =
+        line_stiffening(*model.stiffening, model.mesh.positions, shape, stiffness);
+  }
+  return constants;
+}
+
+}  // namespace
+
+ReducedBody reduce(const ReductionModel& model) {
+  check_model(model);
+  ComponentModes modes =
+      component_modes(model.matrices, model.mesh.positions, model.interfaces, model.modes);
+  if (model.plane) keep_in_plane(model, modes);
+  ReducedBody body;
+  body.frequencies = modes.frequencies;
+  body.next_frequency = modes.next_frequency;
+  body.volume = volume_of(model.mesh);
+  body.extent = extent_of(model.mesh);
+  body.file.body = model.body;
+  body.file.description = model.description;
+  body.file.reference_condition =
+      fmt::format("the interface \"{}\" is clamped", model.interfaces.front().name);
+  body.file.coordinates = modes.names;
+  body.file.constants = constants_of(model, modes.shape);
+  body.doubts = doubts_about(model, body.file.constants);
+  if (model.plane) body.asymmetry = clear_across_plane(body.file.constants, *model.plane);
+  return body;
+}
+
+}  // namespace pleuel
