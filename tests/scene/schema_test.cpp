@@ -67,35 +67,6 @@ TEST_F(ProblemSchema, AcceptsEveryProblemFile) {
   EXPECT_GE(hard_files, 18) << "as many as docs/stability.md lists";
 }
 
-TEST(Schema, NamesEveryTypeOfJoint) {
-  const nlohmann::json schema = load(problems / "problem.schema.json");
-  const nlohmann::json::json_pointer pointer("/definitions/joint/properties/type/enum");
-  nlohmann::json words = nlohmann::json::array();
-  for (const JointKind& kind : joint_kinds) words.push_back(std::string(kind.word));
-  EXPECT_EQ(schema.at(pointer), words);
-}
-
-/// The types of joints that may have a key: all others have a rule that refuses it.
-nlohmann::json types_with(const std::string& key) {
-  const nlohmann::json schema = load(problems / "problem.schema.json");
-  for (const nlohmann::json& rule : schema.at("definitions").at("joint").at("allOf")) {
-    const auto properties = rule.at("then").value("properties", nlohmann::json::object());
-    if (properties.value(key, nlohmann::json(true)) != false) continue;
-    return rule.at("if").at("properties").at("type").at("not").at("enum");
-  }
-  return {};
-}
-
-TEST(Schema, SaysWhichTypesOfJointHaveAKey) {
-  for (const JointKey& key : joint_keys) {
-    nlohmann::json words = nlohmann::json::array();
-    for (const JointKind& kind : joint_kinds) {
-      if (key.is_of(kind)) words.push_back(std::string(kind.word));
-    }
-    EXPECT_EQ(types_with(std::string(key.word)), words) << key.word;
-  }
-}
-
 TEST_F(ProblemSchema, RefusesKeysOfOtherJoints) {
   const Json good = good_mechanism();
   int refused = 0;

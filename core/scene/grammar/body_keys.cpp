@@ -1,3 +1,5 @@
+#include <numbers>
+
 #include "core/scene/grammar/tables.hpp"
 
 namespace pleuel {
@@ -60,6 +62,32 @@ void describe(Keys& keys, InitialDeflection& s) {
   keys.number(optional_key("displacement"), s.displacement, {quantities::length},
               "At the start {}.");
   keys.number(optional_key("rate"), s.rate, {quantities::speed}, "At the start {}.");
+}
+
+void describe(Keys& keys, CraigBampton& s) {
+  keys.about(
+      "Craig-Bampton reduction of bending and torsion: the static modes of joints and loads, and "
+      "fixed-interface modes, as many as \"modes\" says or all below a frequency.");
+  keys.exclusive("modes", "frequency");
+  keys.one_at_least({"modes", "frequency"});
+  keys.whole(optional_key("modes"), s.modes, {0, 1000},
+             "Number of fixed-interface modes of each family: bending in each of the two planes of "
+             "the beam, torsion, axial vibration (without geometric stiffening, which keeps all "
+             "axial displacements). So it means the same in a plane and in space.");
+  std::optional<double> cycles;
+  keys.fixed(optional_key("frequency"), cycles, {quantities::frequency, Range::positive},
+             "{}: a plain number is in Hz.");
+  if (cycles) s.frequency = 2.0 * std::numbers::pi * *cycles;
+}
+
+void describe(Keys& keys, Segment& s) {
+  keys.about("A stretch of a beam with one section.");
+  keys.other("section", "section", "");
+  keys.whole("elements", s.elements, {1, 10000}, "Number of finite elements.");
+  keys.fixed(optional_key("length_fraction"), s.fraction,
+             {quantities::pure_number, Range::positive},
+             "Share of the length, in all segments or in none; their sum is 1. By default in "
+             "proportion to the elements.");
 }
 
 }  // namespace pleuel

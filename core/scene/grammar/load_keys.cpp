@@ -2,6 +2,28 @@
 
 namespace pleuel {
 
+namespace {
+
+template <class PointLoad>
+void describe_point_load(Keys& keys, PointLoad& s, std::string_view value) {
+  keys.about("On a point of a body: value times a unit vector along direction.");
+  keys.other("body", "name", "Not \"ground\"; a torque needs a body that can turn.");
+  keys.point("at", s.at, quantities::length, "Where it acts at the start {}.");
+  keys.unit_vector("direction", s.direction, "Global axes at the start; of any length.");
+  keys.other("value", "load_function", value);
+  keys.flag(optional_key("follows"), s.follows_body, "Whether the direction turns with the body.");
+}
+
+}  // namespace
+
+void describe(Keys& keys, PointForce& s) {
+  describe_point_load(keys, s, "[N]");
+}
+
+void describe(Keys& keys, PointTorque& s) {
+  describe_point_load(keys, s, "[N m]");
+}
+
 void describe(Keys& keys, SpringDamper& s) {
   keys.about("Between two points: force k (l - l0) + c dl/dt + resistance along their connection.");
   keys.other("bodies", "two_bodies", "");

@@ -123,4 +123,15 @@ void describe(Keys& keys, EffectSettings& s) {
              "nothing is dropped.");
 }
 
+void describe(Keys& keys, OptimizerSettings& s) {
+  keys.about("Who searches, and when it may stop.");
+  keys.text(optional_key("backend"), s.backend,
+            "nlopt-slsqp, nlopt-mma, nlopt-ccsaq, ipopt: this one alone. Default: nlopt-slsqp, and "
+            "the others where it leads nowhere.");
+  keys.other(optional_key("starts"), "starts", "");
+  keys.tolerance(optional_key("tolerance"), s.tolerance,
+                 "Relative, on the objective and the scaled variables.");
+  keys.whole(optional_key("max_iterations"), s.max_iterations, iterations, "");
+}
+
 }  // namespace pleuel

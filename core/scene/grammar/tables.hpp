@@ -31,8 +31,17 @@ void describe(Keys& keys, RigidBody& body);
 void describe(Keys& keys, PointMass& body);
 void describe(Keys& keys, InitialDeflection& deflection);
 
+void describe(Keys& keys, CraigBampton& reduction);
+void describe(Keys& keys, Segment& segment);
+
+// joint_keys.cpp: those of its type
+
+void describe(Keys& keys, Joint& joint);
+
 // load_keys.cpp: what acts along a coordinate measures what that says.
 
+void describe(Keys& keys, PointForce& force);
+void describe(Keys& keys, PointTorque& torque);
 void describe(Keys& keys, SpringDamper& spring);
 void describe(Keys& keys, JointForce& force, const AlongCoordinate& along);
 void describe(Keys& keys, MotorControl& control, const AlongCoordinate& along);
@@ -53,5 +62,6 @@ void describe(Keys& keys, HalfSineFunction& function, const Quantity& value);
 void describe(Keys& keys, SimulationSettings& settings);
 void describe(Keys& keys, SensitivitySettings& settings);
 void describe(Keys& keys, EffectSettings& settings);
+void describe(Keys& keys, OptimizerSettings& settings);
 
 }  // namespace pleuel

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
@@ -14,13 +13,9 @@ constexpr int most_frames = 1000;
 enum class BodyType { beam, rigid, point_mass, imported };
 
 Segment read_segment(const JsonNode& node, NumberReader& numbers) {
-  node.allow_keys({"section", "elements", "length_fraction"});
   Segment segment;
+  read_keys(node, numbers, segment);
   segment.section = read_section(node.at("section"), numbers);
-  segment.elements = node.at("elements").whole_number(1, most_elements);
-  if (const auto fraction = node.find("length_fraction")) {
-    segment.fraction = numbers.fixed(*fraction, quantities::pure_number, Range::positive);
-  }
   return segment;
 }
 
@@ -61,21 +56,6 @@ std::vector<Segment> read_segments(const JsonNode& node, NumberReader& numbers) 
   return segments;
 }
 
-CraigBampton read_reduction(const JsonNode& node, const NumberReader& numbers) {
-  node.allow_keys({"modes", "frequency"});
-  const std::optional<JsonNode> modes = node.find("modes"), frequency = node.find("frequency");
-  if (modes && frequency) node.fail("has both \"modes\" and \"frequency\"");
-  CraigBampton reduction;
-  if (frequency) {
-    const double cycles = numbers.fixed(*frequency, quantities::frequency, Range::positive);
-    reduction.frequency = 2.0 * std::numbers::pi * cycles;
-  } else {
-    if (!modes) node.fail("needs \"modes\" or \"frequency\"");
-    reduction.modes = modes->whole_number(0, most_modes);
-  }
-  return reduction;
-}
-
 /// Of general sections nobody knows how they shear.
 void read_shear(const JsonNode& node, BeamBody& beam) {
   beam.has_shear = node.truth();
@@ -98,7 +78,7 @@ void read_elasticity(const JsonNode& node, BeamBody& beam, NumberReader& numbers
   if (beam.is_rigid && damping) damping->fail("is not for a rigid beam");
   if (beam.is_rigid && reduction) reduction->fail("is not for a rigid beam");
   if (damping) read_keys(*damping, numbers, beam.damping);
-  if (reduction) beam.reduction = read_reduction(*reduction, numbers);
+  if (reduction) read_keys(*reduction, numbers, beam.reduction.emplace());
   if (damping && damping->find("modal") && !reduction) {
     damping->at("modal").fail("is for beams with a \"reduction\" only");
   }

@@ -12,10 +12,6 @@ constexpr Choice<DrivenCoordinate> coordinates[] = {
 
 }  // namespace
 
-JointType read_joint_type(const JsonNode& node) {
-  return read_kind(node, joint_kinds);
-}
-
 std::string name_of(JointType type) {
   return std::string(kind_of(type).word);
 }

@@ -9,9 +9,6 @@
 /// What the types of joints are called, and which of their coordinates a drive or load can act on.
 namespace pleuel {
 
-/// @throws InputError
-JointType read_joint_type(const JsonNode& node);
-
 /// As in a file: "point-on-line".
 std::string name_of(JointType type);
 

@@ -13,33 +13,33 @@ namespace {
 
 class WordList : public Keys {
  public:
-  void each(const Key& key) override { words.push_back(key.word); }
+  void each(const Key& key) override {
+    if (std::find(words.begin(), words.end(), key.word) == words.end()) words.push_back(key.word);
+  }
   bool gives(const Key& key, bool) override {
     each(key);
     return false;
   }
 
-  void refused(const char* word, const std::string&) override { each(word); }
+  void refused(const char* word, const std::string& rule) override {
+    refusals.emplace_back(word, rule);
+  }
 
   std::vector<std::string_view> words;
+  std::vector<std::pair<const char*, std::string>> refusals;
 };
 
 }  // namespace
 
-std::vector<std::string_view> words_of_table(const Keys::Table& table) {
-  WordList list;
-  table(list);
-  std::vector<std::string_view> once;
-  for (const std::string_view word : list.words) {
-    if (std::find(once.begin(), once.end(), word) == once.end()) once.push_back(word);
-  }
-  return once;
-}
-
 void read_keys(const JsonNode& node, NumberReader& numbers, const Keys::Table& table,
-               std::vector<std::string_view> others) {
-  for (const std::string_view word : words_of_table(table)) others.push_back(word);
-  node.allow_keys(others);
+               const std::vector<std::string_view>& others) {
+  WordList list;
+  list.words = others;
+  table(list);
+  for (const auto& [word, rule] : list.refusals) {
+    if (const auto value = node.find(word)) value->fail(rule);
+  }
+  node.allow_keys(list.words);
   KeyReader reader(node, numbers);
   table(reader);
 }

@@ -67,11 +67,9 @@ class KeyReader : public Keys {
   NumberReader& numbers_;
 };
 
-std::vector<std::string_view> words_of_table(const Keys::Table& table);
-
 /// The node has keys of the table, and these besides, only.
 void read_keys(const JsonNode& node, NumberReader& numbers, const Keys::Table& table,
-               std::vector<std::string_view> others = {});
+               const std::vector<std::string_view>& others = {});
 
 /// What is not given stays as it is.
 template <class Struct, class... Measures>

@@ -7,6 +7,7 @@
 
 #include "core/scene/grammar/response_table.hpp"
 #include "core/scene/grammar/tables.hpp"
+#include "core/scene/joint_kind.hpp"
 #include "core/scene/response_kind.hpp"
 
 namespace pleuel {
@@ -210,39 +211,70 @@ Json of_type(std::string_view type, Json schema) {
           {"then", std::move(schema)}};
 }
 
-/// Puts the schema into the place of that of the type.
-void replace_type(Json& definition, std::string_view type, Json schema) {
-  const Json one = of_type(type, std::move(schema));
-  for (Json& there : definition["allOf"]) {
-    if (there["if"] == one["if"]) {
-      there = one;
-      return;
-    }
+/// A definition of objects of several types.
+class TypedSchema {
+ public:
+  /// @param definition  what else it says stays
+  explicit TypedSchema(Json& definition) : definition_(definition) {
+    definition_["type"] = "object";
+    definition_.erase("additionalProperties");
   }
-  definition["allOf"].push_back(one);
-}
+  ~TypedSchema() {
+    definition_["properties"] = {{"type", definition_["properties"]["type"]}};
+    definition_["properties"]["type"]["enum"] = words_;
+    definition_["allOf"] = types_;
+  }
+  TypedSchema(const TypedSchema&) = delete;
+  TypedSchema& operator=(const TypedSchema&) = delete;
+
+  /// Of objects without a type.
+  void keep(const Json& rule) { types_.push_back(rule); }
+  template <class Struct, class... Measures>
+  void add(std::string_view type, const Struct& object, const Measures&... measures) {
+    words_.push_back(type);
+    types_.push_back(of_type(type, schema_of(type, object, measures...)));
+  }
+
+ private:
+  Json& definition_;
+  Json words_ = Json::array(), types_ = Json::array();
+};
 
 void take_sections(Json& section) {
-  Json words = Json::array();
-  for (const ObjectKind<Section>& kind : section_kinds()) {
-    words.push_back(kind.word);
-    replace_type(section, kind.word, schema_of(kind.word, kind.made));
-  }
-  section["properties"]["type"]["enum"] = words;
+  const Json by_name = section["allOf"][0], by_variable = section["allOf"][1];
+  TypedSchema schema(section);
+  schema.keep(by_name);
+  schema.keep(by_variable);
+  for (const ObjectKind<Section>& kind : section_kinds()) schema.add(kind.word, kind.made);
 }
 
-void take_responses(Json& response) {
+void take_joints(Json& definition) {
+  definition["required"] = Json::array({"type"});
+  TypedSchema schema(definition);
+  for (const JointKind& kind : joint_kinds) {
+    Joint joint;
+    joint.type = kind.type;
+    schema.add(kind.word, joint);
+  }
+}
+
+void take_responses(Json& definition) {
   const Scene nothing;
   const ResponseScope scope{nothing, 1.0};
-  Json words = Json::array(), types = Json::array();
+  TypedSchema schema(definition);
   for (const ResponseKind& kind : response_kinds) {
-    ResponseSettings one;
-    one.type = kind.type;
-    words.push_back(kind.word);
-    types.push_back(of_type(kind.word, schema_of(kind.word, one, scope)));
+    ResponseSettings response;
+    response.type = kind.type;
+    schema.add(kind.word, response, scope);
   }
-  response["properties"]["type"]["enum"] = words;
-  response["allOf"] = types;
+}
+
+void take_loads(Json& definition, const AlongCoordinate& either) {
+  TypedSchema schema(definition);
+  schema.add("force", PointForce());
+  schema.add("torque", PointTorque());
+  schema.add("spring", SpringDamper());
+  schema.add("joint", JointForce(), either);
 }
 
 /// Units of what acts along an angle, and along a displacement.
@@ -260,13 +292,13 @@ AlongCoordinate along_either() {
 Json with_tables(Json schema) {
   Json& all = schema["definitions"];
   take_sections(all["section"]);
+  take_joints(all["joint"]);
   take_responses(all["response"]);
   all["material"] = schema_of("", Material());
   all["damping"] = schema_of("", Damping());
   all["initial_deflections"]["items"] = schema_of("", InitialDeflection());
   const AlongCoordinate either = along_either();
-  replace_type(all["load"], "spring", schema_of("spring", SpringDamper()));
-  replace_type(all["load"], "joint", schema_of("joint", JointForce(), either));
+  take_loads(all["load"], either);
   all["control"] = schema_of("control", MotorControl(), either);
   all["friction"] = schema_of("friction", FrictionLaw(), either);
   all["clearance"] = schema_of("clearance", ClearanceLaw(), either);
@@ -274,6 +306,9 @@ Json with_tables(Json schema) {
   all["simulation"] = schema_of("", SimulationSettings());
   all["sensitivity"] = schema_of("", SensitivitySettings());
   all["effects"] = schema_of("", EffectSettings());
+  all["optimizer"] = schema_of("", OptimizerSettings());
+  all["reduction"] = schema_of("", CraigBampton());
+  all["segment"] = schema_of("", Segment());
   return schema;
 }
 

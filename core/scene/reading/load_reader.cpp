@@ -55,13 +55,10 @@ TimeFunction read_value(const JsonNode& node, const Quantity& quantity, const Sc
 template <class PointLoad>
 PointLoad read_point_load(const JsonNode& node, const Quantity& quantity, const Scene& scene,
                           NumberReader& numbers) {
-  node.allow_keys({"type", "body", "at", "direction", "value", "follows"});
   PointLoad load;
+  read_keys(node, numbers, [&](Keys& keys) { describe(keys, load); }, {"type"});
   load.body = read_loaded_body(node.at("body"), scene).name;
-  load.at = numbers.triple(node.at("at"), quantities::length);
-  load.direction = numbers.unit_vector(node.at("direction"));
   load.value = read_value(node.at("value"), quantity, scene, numbers, load.over);
-  if (const auto follows = node.find("follows")) load.follows_body = follows->truth();
   return load;
 }
 

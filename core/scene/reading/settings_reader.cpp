@@ -63,19 +63,11 @@ void read_starts(const JsonNode& node, const std::vector<DesignVariable>& variab
 }  // namespace
 
 OptimizerSettings read_optimizer(const JsonNode& node, const std::vector<DesignVariable>& variables,
-                                 const NumberReader& numbers) {
-  node.allow_keys({"backend", "tolerance", "max_iterations", "starts"});
+                                 NumberReader& numbers) {
   OptimizerSettings settings;
-  if (const auto backend = node.find("backend")) {
-    settings.backend = backend->text();
-    settings.names_backend = true;
-  }
+  read_keys(node, numbers, settings);
+  settings.names_backend = node.find("backend").has_value();
   if (const auto starts = node.find("starts")) read_starts(*starts, variables, numbers, settings);
-  if (const auto tolerance = node.find("tolerance"))
-    settings.tolerance = read_tolerance(*tolerance);
-  if (const auto most = node.find("max_iterations")) {
-    settings.max_iterations = most->whole_number(1, most_iterations);
-  }
   return settings;
 }
 

@@ -12,7 +12,7 @@ SensitivitySettings read_sensitivity(const JsonNode& node, NumberReader& numbers
 
 /// Whether the backend is there is for the optimizer to say.
 OptimizerSettings read_optimizer(const JsonNode& node, const std::vector<DesignVariable>& variables,
-                                 const NumberReader& numbers);
+                                 NumberReader& numbers);
 
 AccuracySettings read_accuracy(const JsonNode& node, const std::vector<ResponseSettings>& responses,
                                const NumberReader& numbers);
