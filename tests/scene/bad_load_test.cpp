@@ -101,9 +101,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadEdit{
             "/scene/loads/hinge/joint", R"("wrist")",
             R"(/scene/loads/hinge/joint needs a joint of the type "revolute", "prismatic", "point-on-line", "cylindrical", "universal" or "planar", but "wrist" is of the type "spherical")"},
-        BadEdit{
-            "/scene/loads/hinge", R"({"type": "joint", "joint": "elbow"})",
-            R"(/scene/loads/hinge needs "stiffness", "damping", "resistance" or "motor")"},
+        BadEdit{"/scene/loads/hinge", R"({"type": "joint", "joint": "elbow"})",
+                R"(/scene/loads/hinge needs "stiffness", "damping", "resistance" or "motor")"},
         BadEdit{
             "/scene/loads/hinge/rest", "0.1",
             R"(/scene/loads/hinge/rest is the rest position of a spring, and needs "stiffness" or "resistance")"},
