@@ -1,0 +1,267 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/base/find_named.hpp"
+#include "core/base/int_size.hpp"
+#include "core/scene/grammar/response_keys.hpp"
+#include "core/scene/names_of.hpp"
+#include "core/scene/response_names.hpp"
+
+namespace pleuel::response_tables {
+
+namespace {
+
+constexpr Choice<int> frame_axes[] = {{"y", 1}, {"z", 2}, {"x", 0}, {"resultant", -1}};
+constexpr Choice<int> chord_axes[] = {{"y", 1}, {"z", 2}, {"resultant", -1}};
+constexpr Choice<StressPart> stress_parts[] = {
+    {"von-mises", StressPart::von_mises}, {"normal", StressPart::normal},
+    {"axial", StressPart::axial},         {"bending", StressPart::bending},
+    {"shear", StressPart::shear},         {"utilization", StressPart::utilization}};
+constexpr Choice<StressPart> imported_stress_parts[] = {{"von-mises", StressPart::von_mises},
+                                                        {"normal", StressPart::normal},
+                                                        {"utilization", StressPart::utilization}};
+constexpr Choice<SectionForcePart> section_parts[] = {
+    {"axial", SectionForcePart::axial},       {"moment-y", SectionForcePart::moment_y},
+    {"moment-z", SectionForcePart::moment_z}, {"torque", SectionForcePart::torque},
+    {"shear-y", SectionForcePart::shear_y},   {"shear-z", SectionForcePart::shear_z}};
+constexpr Choice<SectionSide> sides[] = {{"before", SectionSide::before},
+                                         {"behind", SectionSide::behind}};
+constexpr Choice<DeflectionReference> references[] = {
+    {"frame", DeflectionReference::frame},
+    {"chord", DeflectionReference::chord},
+    {"rigid-mechanism", DeflectionReference::rigid_mechanism}};
+constexpr int most_segments = 10000;
+
+/// The beams that a stress is the largest of: of one body a segment, a place or all of it, or all of
+/// several bodies.
+std::vector<const BeamBody*> beams(Keys& keys, const Body* one, R& r, const Scope& scope) {
+  std::vector<const BeamBody*> found;
+  const BeamBody* beam = elastic_beam(keys, one);
+  if (beam != nullptr) found.push_back(beam);
+  std::vector<std::string> several;
+  if (r.type != ResponseType::fatigue_damage) {
+    keys.names(optional_key("bodies"), "body", names_of(scope.scene.bodies), several,
+               "Elastic beams: the largest of all.");
+  }
+  for (std::size_t i = 0; i < several.size(); ++i) {
+    const auto* other = shape_of<BeamBody>(find_named(scope.scene.bodies, several[i]));
+    keys.must_item("bodies", i, other != nullptr && !other->is_rigid,
+                   fmt::format("must name an elastic beam, but \"{}\" is none", several[i]));
+    found.push_back(other);
+  }
+  if (!several.empty()) r.bodies = several;
+  for (const char* word : {"segment", "at"}) {
+    keys.must(word, several.empty(), "is for one \"body\", not for several");
+  }
+  keys.exclusive("segment", "at");
+  const int segments = beam == nullptr ? most_segments : int_size(beam->segments);
+  keys.whole(optional_key("segment"), r.segment, {0, segments - 1},
+             "Counted from 0; by default the whole beam.");
+  keys.place(optional_key("at"), r.station,
+             "Only at this place along the beam, from 0 to 1; not with segment.");
+  return found;
+}
+
+void body_or_bodies(Keys& keys) {
+  keys.exclusive("body", "bodies");
+  keys.one_at_least({"body", "bodies"});
+}
+
+/// What the points of stress of a file are good for: they know nothing of sections.
+void imported_stress(Keys& keys, const ImportedBody& body, R& r) {
+  const std::optional<StressRecovery>& stress = body.file->constants.stress;
+  keys.must("body", stress.has_value(),
+            fmt::format("names a body whose file {} has no block \"stress\"", body.source));
+  for (const char* word : {"bodies", "segment", "at"}) {
+    keys.refused(word, "is for beams only; the points of stress of a file are one set");
+  }
+  keys.choice(optional_key("part"), r.part, imported_stress_parts, "");
+  keys.must("part", r.part != StressPart::utilization || (stress && stress->strength != 0.0),
+            fmt::format("needs a strength, which the file {} does not give", body.source));
+}
+
+}  // namespace
+
+void stress(Keys& keys, R& r, const Scope& scope) {
+  keys.about(
+      "Stress [Pa], the largest over a beam, over one of its segments or at a place; utilization "
+      "is "
+      "a number without unit.");
+  body_or_bodies(keys);
+  const Body* one = body(keys, optional_key("body"), r, scope, "An elastic beam.");
+  if (const auto* imported = shape_of<ImportedBody>(one)) {
+    imported_stress(keys, *imported, r);
+  } else {
+    const std::vector<const BeamBody*> all = beams(keys, one, r, scope);
+    keys.choice(optional_key("part"), r.part, stress_parts,
+                "normal: signed, axial and bending; axial: normal force over area; bending: "
+                "without it; shear: of torsion; utilization: von Mises stress over the strength of "
+                "the material.");
+    for (const BeamBody* beam : all) {
+      const Material* material = find_named(scope.scene.materials, beam->material);
+      const bool has_strength = material != nullptr && material->strength.has_value();
+      keys.must(
+          "part", r.part != StressPart::utilization || has_strength,
+          fmt::format("needs the strength of the material \"{}\", which has none", beam->material));
+    }
+  }
+  history(keys, r, scope);
+}
+
+namespace {
+
+bool has_general_section(const BeamBody& beam) {
+  return std::any_of(beam.segments.begin(), beam.segments.end(), [](const Segment& segment) {
+    return std::holds_alternative<GeneralSection>(segment.section);
+  });
+}
+
+}  // namespace
+
+void shear_stress(Keys& keys, R& r, const Scope& scope) {
+  keys.about(
+      "Shear stress [Pa] of shear forces and torsion, the largest over a beam, over one of its "
+      "segments or at a place. The sections are not of the type general.");
+  body_or_bodies(keys);
+  const Body* one = body(keys, optional_key("body"), r, scope, "An elastic beam.");
+  const std::vector<const BeamBody*> all = beams(keys, one, r, scope);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const bool is_known = !has_general_section(*all[i]);
+    const char* rule =
+        "names a beam with a general section, whose properties do not tell where shear forces act "
+        "in it; \"section-force\" gives the forces";
+    keys.must("body", is_known, rule);
+    if (one == nullptr) keys.must_item("bodies", i, is_known, rule);
+  }
+  history(keys, r, scope);
+}
+
+namespace {
+
+/// What a criterion needs of a material, and what the endurance or the damage does.
+void fatigue_data(Keys& keys, const R& r, const Material& material) {
+  const auto need = [&](bool is_asked, const auto& number, const char* word) {
+    keys.must("criterion", !is_asked || number,
+              fmt::format("needs the \"{}\" of the material \"{}\", which has none: give it in "
+                          "/scene/materials",
+                          word, material.name));
+  };
+  const bool is_damage = r.type == ResponseType::fatigue_damage;
+  const bool is_soderberg = r.criterion == FatigueCriterion::soderberg;
+  need(!is_damage, material.endurance_limit, "endurance_limit");
+  need(is_damage, material.fatigue_strength, "fatigue_strength");
+  need(is_damage, material.fatigue_exponent, "fatigue_exponent");
+  need(is_soderberg, material.strength, "strength");
+  need(!is_soderberg, material.ultimate_strength, "ultimate_strength");
+}
+
+}  // namespace
+
+void fatigue(Keys& keys, R& r, const Scope& scope) {
+  const bool is_damage = r.type == ResponseType::fatigue_damage;
+  keys.about(is_damage
+                 ? "Damage by all cycles of normal stress of a point in the simulation or a window "
+                   "of it, by rainflow counting, Basquin's line and the sum of Palmgren and Miner: "
+                   "the largest of all points of one beam."
+                 : "Utilization of the material by the cycle between the largest and the smallest "
+                   "normal stress of a point, in the simulation or a window of it: the largest of "
+                   "all points. Its inverse is the factor of safety on the load.");
+  keys.refused(
+      "over_time",
+      "is not for a fatigue, which looks at the largest and the smallest stress of cycles");
+  if (is_damage) {
+    keys.refused("bodies", "is not for a fatigue-damage: give one \"body\"");
+  } else {
+    body_or_bodies(keys);
+  }
+  keys.choice("criterion", r.criterion, fatigue_criteria,
+              "How much mean stress a cycle bears beside its amplitude: a straight line to the "
+              "ultimate strength (goodman) or to the strength (soderberg), or a parabola to the "
+              "ultimate strength (gerber). Compression as a mean neither harms nor helps.");
+  r.over_time = OverTime::final;
+  const Key key = is_damage ? Key("body") : optional_key("body");
+  const Body* one = body(keys, key, r, scope, "An elastic beam.");
+  for (const BeamBody* beam : beams(keys, one, r, scope)) {
+    const Material* material = find_named(scope.scene.materials, beam->material);
+    if (material != nullptr) fatigue_data(keys, r, *material);
+  }
+  window(keys, r, scope);
+}
+
+void section_force(Keys& keys, R& r, const Scope& scope) {
+  keys.about(
+      "Section force [N, N m] of a beam, local axes: axial (positive: tension), moment-z (bends it "
+      "in the plane of its local x and y), moment-y, torque, shear-y, shear-z (across it).");
+  elastic_beam(keys, "body", r, scope);
+  double at = 0.0;
+  keys.place("at", at, "");
+  r.station = at;
+  keys.choice("part", r.section_part, section_parts, "");
+  keys.choice(optional_key("side"), r.side, sides,
+              "Where a joint or load acts at the place: only that side of it. Default: "
+              "both.");
+  history(keys, r, scope);
+}
+
+void buckling(Keys& keys, R& r, const Scope& scope) {
+  keys.about(
+      r.type == ResponseType::buckling
+          ? "Compressive force of a beam over the Euler load of the same beam pinned at both "
+            "ends."
+          : "Section forces of a beam, which its joints hold sideways, over those at which it "
+            "buckles out of the plane in which it bends, sideways as a column, by twisting "
+            "under its bending moment, or both; 0 where nothing buckles.");
+  elastic_beam(keys, "body", r, scope);
+  history(keys, r, scope);
+}
+
+namespace {
+
+/// The places at both ends of a chord of an imported body.
+void chord(Keys& keys, const ImportedBody* imported, R& r) {
+  if (imported == nullptr || r.against != DeflectionReference::chord) {
+    keys.must("chord", false,
+              "is for imported bodies with \"against\": \"chord\"; that of a beam is through its "
+              "ends");
+    keys.other(optional_key("chord"), "two_places",
+               "Of an imported body: the places at both ends of its chord.");
+    return;
+  }
+  const std::vector<BodyPlace>& places = imported->file->constants.places;
+  std::array<std::string, 2> ends;
+  keys.two_names("chord", "place", names_of(places), ends, "");
+  const auto *first = find_named(places, ends[0]), *second = find_named(places, ends[1]);
+  const bool is_apart =
+      first == nullptr || second == nullptr || (second->position - first->position).norm() > 0.0;
+  keys.must("chord", is_apart, "must name two places that are apart from each other");
+  r.chord = ends;
+}
+
+}  // namespace
+
+void deflection(Keys& keys, R& r, const Scope& scope) {
+  keys.about(
+      "Deflection [m] of a point of a beam against its frame or chord; or displacement of a place, "
+      "global axes, against the same place in the same mechanism without elasticity.");
+  const Body* one = body(keys, "body", r, scope, "An elastic beam.");
+  const auto* imported = shape_of<ImportedBody>(one);
+  if (imported == nullptr) elastic_beam(keys, one);
+  place(keys, one, r);
+  keys.choice(optional_key("against"), r.against, references,
+              "The body frame, the straight line through both ends, or the same mechanism without "
+              "elasticity.");
+  chord(keys, imported, r);
+  if (r.against == DeflectionReference::rigid_mechanism) {
+    keys.choice("direction", r.direction, axes, "");
+  } else if (r.against == DeflectionReference::chord) {
+    keys.choice(optional_key("direction"), r.direction, chord_axes, "");
+  } else {
+    keys.choice(optional_key("direction"), r.direction, frame_axes,
+                "Local y or z, their resultant, or x along the beam (against the frame); against "
+                "the rigid mechanism one of the global axes.");
+  }
+  history(keys, r, scope);
+}
+
+}  // namespace pleuel::response_tables
