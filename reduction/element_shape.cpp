@@ -178,12 +178,4 @@ ShapeGradient shape_gradient(SolidShape shape, const Eigen::Matrix3Xd& positions
   return {d * jacobian.inverse(), jacobian.determinant()};
 }
 
-Eigen::Matrix3Xd element_positions(const SolidMesh& mesh, const SolidElement& element) {
-  Eigen::Matrix3Xd positions(3, int_size(element.nodes));
-  for (int i = 0; i < int_size(element.nodes); ++i) {
-    positions.col(i) = mesh.positions.col(element.nodes[i]);
-  }
-  return positions;
-}
-
 }  // namespace pleuel

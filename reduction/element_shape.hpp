@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "reduction/solid_mesh.hpp"
+#include "reduction/solid_shape.hpp"
 
 /// Shape functions of solid elements in the order of nodes of CalculiX (Dhondt 2004, The Finite
 /// Element Method for Three-dimensional Thermomechanical Applications, §2.1): corners first, then
@@ -44,8 +44,5 @@ struct ShapeGradient {
 /// @param positions  of the nodes of the element, 3 × nodes
 ShapeGradient shape_gradient(SolidShape shape, const Eigen::Matrix3Xd& positions,
                              const Eigen::Vector3d& local);
-
-/// Of the nodes of an element, 3 × nodes.
-Eigen::Matrix3Xd element_positions(const SolidMesh& mesh, const SolidElement& element);
 
 }  // namespace pleuel

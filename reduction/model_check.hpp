@@ -1,6 +1,10 @@
 #pragma once
 
-#include "reduction/reduce.hpp"
+#include <string>
+#include <vector>
+
+#include "core/scene/body_constants.hpp"
+#include "reduction/reduction_model.hpp"
 
 namespace pleuel {
 

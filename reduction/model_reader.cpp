@@ -9,7 +9,7 @@
 #include "core/scene/reading/number_reader.hpp"
 #include "core/scene/reading/text_file.hpp"
 #include "reduction/calculix_input.hpp"
-#include "reduction/reduce.hpp"
+#include "reduction/reduction_model.hpp"
 
 namespace pleuel {
 

@@ -21,6 +21,14 @@ double volume_of(const SolidMesh& mesh, const SolidElement& element) {
 
 }  // namespace
 
+Eigen::Matrix3Xd element_positions(const SolidMesh& mesh, const SolidElement& element) {
+  Eigen::Matrix3Xd positions(3, int_size(element.nodes));
+  for (int i = 0; i < int_size(element.nodes); ++i) {
+    positions.col(i) = mesh.positions.col(element.nodes[i]);
+  }
+  return positions;
+}
+
 void scale_mesh(SolidMesh& mesh, double length, double mass, double time) {
   mesh.positions *= length;
   for (SolidMaterial& material : mesh.materials) {

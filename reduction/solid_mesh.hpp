@@ -6,10 +6,9 @@
 
 #include <Eigen/Core>
 
-namespace pleuel {
+#include "reduction/solid_shape.hpp"
 
-/// Solid finite elements whose shapes are known (element_shape.hpp), by their names in CalculiX.
-enum class SolidShape { tetrahedron4, tetrahedron10, hexahedron8, hexahedron20 };
+namespace pleuel {
 
 /// An isotropic material, in the units of the mesh.
 struct SolidMaterial {
@@ -33,6 +32,9 @@ struct SolidMesh {
 
   int size() const { return static_cast<int>(positions.cols()); }
 };
+
+/// Of the nodes of an element, 3 × nodes.
+Eigen::Matrix3Xd element_positions(const SolidMesh& mesh, const SolidElement& element);
 
 /// Multiplies what the mesh measures, by the SI values of its units.
 /// @param length, mass, time  one unit of each [m, kg, s]
