@@ -10,6 +10,7 @@
 #include "core/base/dense_solvers.hpp"
 #include "core/base/disjoint_sets.hpp"
 #include "core/base/eager_matrices.hpp"
+#include "core/base/error.hpp"
 
 namespace pleuel {
 
@@ -301,6 +302,10 @@ SparseRows select_block(const SparseRows& matrix, const RowBlock& block) {
 }
 
 RankedRows rank_rows(SparseRows rows, double negligible) {
+  rows.makeCompressed();
+  if (!rows.coeffs().allFinite()) {
+    throw SimulationError("the equations of joints and drives have numbers that are not finite");
+  }
   normalize(rows);
   std::vector<std::pair<double, int>> ranked;
   for (const RowBlock& block : connected_blocks(rows)) {

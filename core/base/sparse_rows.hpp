@@ -44,6 +44,7 @@ struct RankedRows {
 /// direction. In a small block every pivot is as large as it can be. In a large one rows keep an
 /// order of little fill-in, and those of which no more than `negligible` is left come last, with
 /// pivots of zero.
+/// @throws SimulationError  if a number is not finite
 RankedRows rank_rows(SparseRows rows, double negligible);
 
 /// The number of independent rows, by direction: pivots above a threshold. In large blocks all

@@ -1,12 +1,14 @@
 #include "core/base/sparse_rows.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/base/dense_solvers.hpp"
 #include "core/base/eager_matrices.hpp"
+#include "core/base/error.hpp"
 #include "tests/support/parameter_name.hpp"
 
 namespace pleuel::test::sparse_rows_test {
@@ -125,6 +127,12 @@ TEST(NullSpaceOfRows, HasTheColumnsThatNoRowHas) {
   const Eigen::MatrixXd space = null_space_of_rows(rows, 1e-8);
   EXPECT_EQ(space.cols(), 2);
   EXPECT_EQ((rows * space).lpNorm<Eigen::Infinity>(), 0.0);
+}
+
+TEST(RankRows, OfNumbersThatAreNotFiniteIsRefused) {
+  SparseRows rows = chain(3);
+  rows.coeffs()(4) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(rank_rows(rows, 1e-6), SimulationError);
 }
 
 }  // namespace
