@@ -38,6 +38,7 @@ void set_change(std::vector<double> changes, ComparedTime& time) {
   std::ranges::sort(changes);
   const std::size_t k = dropped(changes.size());
   time.change = median(changes);
+  if (changes.size() < fewest_rounds) return;
   time.spread = std::max(time.change - changes[k], changes[changes.size() - 1 - k] - time.change);
 }
 
@@ -59,8 +60,11 @@ std::vector<ComparedTime> compare_times(const std::vector<std::function<void()>>
   };
   round();
   const double begin = now();
-  for (std::size_t i = 0; i < fewest_rounds || (i < most_rounds && now() - begin < budget.seconds);
-       ++i) {
+  const auto goes_on = [&](std::size_t rounds) {
+    return rounds < most_rounds &&
+           now() - begin < (rounds < fewest_rounds ? budget.most : budget.seconds);
+  };
+  for (std::size_t i = 0; i == 0 || goes_on(i); ++i) {
     const std::vector<double> times = round();
     for (std::size_t k = 0; k < works.size(); ++k) {
       seconds[k].push_back(times[k]);

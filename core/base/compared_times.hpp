@@ -20,17 +20,18 @@ struct ComparedTime {
 
 /// How long works are compared.
 struct TimingBudget {
-  double seconds =
-      1.0;  ///< of all rounds; what takes longer has the fewest rounds that say something
+  double seconds = 1.0;  ///< of all rounds
+  double most = 30.0;    ///< of seven rounds, if they take longer than that
   /// Processor time of this thread [s].
   std::function<double()> clock = {};
 };
 
-/// Does all works in turns (A B C A B C …), after a first round that only warms up. Seven rounds at
-/// least, until the budget ends. Each round compares works within moments, so that what slows the
+/// Does all works in turns (A B C A B C …), after a first round that only warms up: seven rounds, and
+/// more until the budget ends. Each round compares works within moments, so that what slows the
 /// machine down slows all of them. The spread is that of the sign test (David & Nagaraja, Order
 /// Statistics, 2003, ch. 7): the median lies between the smallest and the largest of seven rounds but
-/// in 1.6 % of all cases; of many rounds within a part of them but in 0.4 %.
+/// in 1.6 % of all cases; of many rounds within a part of them but in 0.4 %. It is infinite where the
+/// most that may be spent ends before seven rounds.
 /// @returns one a work; changes are relative to the first
 std::vector<ComparedTime> compare_times(const std::vector<std::function<void()>>& works,
                                         const TimingBudget& budget = {});

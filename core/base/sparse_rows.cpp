@@ -37,8 +37,12 @@ VectorXd lengths_of(const SparseRows& rows) {
   return squares.cwiseSqrt();
 }
 
+/// @throws SimulationError  if a number is not finite: pivots would have no order
 void normalize(SparseRows& rows) {
   const VectorXd lengths = lengths_of(rows);
+  if (!lengths.allFinite()) {
+    throw SimulationError("the equations of joints and drives have numbers that are not finite");
+  }
   for (Index row = 0; row < rows.rows(); ++row) {
     if (lengths(row) == 0.0) continue;
     for (SparseRows::InnerIterator entry(rows, row); entry; ++entry) {
@@ -302,10 +306,6 @@ SparseRows select_block(const SparseRows& matrix, const RowBlock& block) {
 }
 
 RankedRows rank_rows(SparseRows rows, double negligible) {
-  rows.makeCompressed();
-  if (!rows.coeffs().allFinite()) {
-    throw SimulationError("the equations of joints and drives have numbers that are not finite");
-  }
   normalize(rows);
   std::vector<std::pair<double, int>> ranked;
   for (const RowBlock& block : connected_blocks(rows)) {

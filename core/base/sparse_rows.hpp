@@ -49,10 +49,12 @@ RankedRows rank_rows(SparseRows rows, double negligible);
 
 /// The number of independent rows, by direction: pivots above a threshold. In large blocks all
 /// columns count alike.
+/// @throws SimulationError  if a number is not finite
 Eigen::Index rank_of_rows(SparseRows rows, double threshold);
 
 /// Columns: an orthonormal basis of { x : rows x = 0 }.
 /// @param most  of a large block, whose basis takes their number squared, so many generic ones
+/// @throws SimulationError  if a number is not finite
 Eigen::MatrixXd null_space_of_rows(SparseRows rows, double threshold,
                                    Eigen::Index most = std::numeric_limits<Eigen::Index>::max());
 

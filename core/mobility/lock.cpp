@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "core/base/eager_matrices.hpp"
+#include "core/base/quoted.hpp"
 #include "core/model/drive_rows.hpp"
 
 namespace pleuel {
@@ -58,8 +59,7 @@ std::string lock_text(const Model& model, const RigidPath& path) {
     names.resize(most_names);
   }
   if (!names.empty()) {
-    members = fmt::format(", where \"{}\"{} are in line (a dead centre)",
-                          fmt::join(names, "\", \""), members);
+    members = fmt::format(", where {}{} are in line (a dead centre)", quoted(names), members);
   }
   const std::string gap =
       path.gap > 0.0 ? fmt::format(" Beyond it joints of rigid bodies are about {:.2g} mm apart.",

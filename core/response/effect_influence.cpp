@@ -105,7 +105,7 @@ void measure_times(const ProblemFile& as_it_is, const std::vector<Turned>& turne
     works.push_back([&, i] { analyze(turned[i].problem, x); });
     places.push_back(i);
   }
-  const std::vector<ComparedTime> times = compare_times(works, {timing_budget, {}});
+  const std::vector<ComparedTime> times = compare_times(works, {.seconds = timing_budget});
   for (std::size_t k = 0; k < places.size(); ++k) {
     const std::size_t i = places[k];
     influences[i].time = without(times[k + 1], turned[i].record->is_built);

@@ -27,7 +27,7 @@ enum class InfluenceTimes { none, measured };
 /// Simulates a design once more for each effect of each beam that the file or a tolerance decides
 /// on: without it where it is built, with it where it is not. Effects that another one needs are
 /// not listed, nor those that change nothing of what is built.
-/// @param times  measured: all of them in turns, seven times at least (core/base/compared_times.hpp)
+/// @param times  measured: all of them in turns (core/base/compared_times.hpp)
 std::vector<EffectInfluence> effect_influences(const ProblemFile& problem, const Eigen::VectorXd& x,
                                                InfluenceTimes times = InfluenceTimes::none);
 

@@ -43,6 +43,10 @@ double indicator_of(const LargestDeformation& most) {
   return std::max(most.bending / small_bending, by_twist);
 }
 
+bool is_beam(const ProblemFile& problem, const std::string& name) {
+  return std::holds_alternative<BeamBody>(find_named(problem.scene.bodies, name)->shape);
+}
+
 bool can_be_divided(const ProblemFile& problem, const std::string& name) {
   const auto is_none = [](const Number& number) {
     return !number.is_bound() && number.constant == 0.0;
@@ -60,15 +64,12 @@ Doubt stretched(const std::string& body, double strain) {
           true};
 }
 
-Doubt bent(const TrustedRun& run, const std::string& body, double rotation, double error) {
-  const bool is_beam =
-      std::holds_alternative<BeamBody>(find_named(run.problem.scene.bodies, body)->shape);
+Doubt bent(const std::string& body, double rotation, double error, const std::string& why) {
   return {fmt::format(
               "\"{}\" deforms until it has turned by {:.3g} rad against its frame: too far for "
-              "linear elasticity, which is off by some {} there. Do not trust these numbers; {}.",
-              body, rotation, rough_percent(error),
-              is_beam ? "damp it by \"stiffness\" only, and divide it: \"frames\""
-                      : "import it in several bodies, joined by fixed joints"),
+              "linear elasticity, which is off by some {} there. Do not trust these numbers: more "
+              "\"frames\" would help, but {}.",
+              body, rotation, rough_percent(error), why),
           true};
 }
 
@@ -84,16 +85,36 @@ std::vector<ConcernedBeam> find_far_bending(const TrustedRun& run) {
   return found;
 }
 
-std::vector<Doubt> doubt_linear_elasticity(const TrustedRun& run) {
+std::vector<Doubt> doubt_untold_bending(const TrustedRun& run,
+                                        const std::vector<std::string>& bodies,
+                                        const std::string& why) {
   std::vector<Doubt> doubts;
   for (const auto& [name, most] : largest_of_bodies(run)) {
     const double error = error_per_square * most.bending * most.bending;
+    const bool is_meant = std::ranges::find(bodies, name) != bodies.end();
+    if (is_meant && error > tolerable_error) doubts.push_back(bent(name, most.bending, error, why));
+  }
+  return doubts;
+}
+
+std::vector<Doubt> doubt_linear_elasticity(const TrustedRun& run) {
+  std::vector<Doubt> doubts;
+  std::vector<std::string> imported, damped;
+  for (const auto& [name, most] : largest_of_bodies(run)) {
     if (most.strain > tolerable_error) {
       doubts.push_back(stretched(name, most.strain));
-    } else if (error > tolerable_error && !can_be_divided(run.problem, name)) {
-      doubts.push_back(bent(run, name, most.bending, error));
+    } else if (!is_beam(run.problem, name)) {
+      imported.push_back(name);
+    } else if (!can_be_divided(run.problem, name)) {
+      damped.push_back(name);
     }
   }
+  const auto add = [&](const std::vector<std::string>& bodies, const char* why) {
+    const std::vector<Doubt> more = doubt_untold_bending(run, bodies, why);
+    doubts.insert(doubts.end(), more.begin(), more.end());
+  };
+  add(imported, "this body is from a file: import it in several, joined by fixed joints");
+  add(damped, "its damping is of the motion against one of them: damp it by \"stiffness\" only");
   return doubts;
 }
 

@@ -8,7 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/model/effect_estimates.hpp"
 #include "core/response/effect_measurement.hpp"
-#include "core/trust/variants.hpp"
+#include "core/trust/variant_basis.hpp"
 
 namespace pleuel {
 

@@ -20,7 +20,7 @@
 #include "core/trust/response_changes.hpp"
 #include "core/trust/round_off.hpp"
 #include "core/trust/stubby_beams.hpp"
-#include "core/trust/variants.hpp"
+#include "core/trust/variant_basis.hpp"
 
 namespace pleuel {
 
@@ -51,6 +51,8 @@ struct Variant {
   double missing;  ///< of what it changes: all that is missing
   std::vector<ConcernedBeam> (*find)(const TrustedRun&);
   void (*put_in)(BeamBody&);
+  /// What else says whether it counts, where not all responses are there with it; null: nothing.
+  std::vector<Doubt> (*untold)(const TrustedRun&, const Names&, const std::string& why);
   std::string_view one, several;  ///< "is stubby: shear, which it leaves out,"
   /// @param change  the largest that is told, relative
   std::string (*advice)(const ProblemFile&, const Names& beams, double change);
@@ -92,10 +94,11 @@ std::string advice_of_frames(const ProblemFile& problem, const Names& beams, dou
 
 constexpr Variant variants[] = {
     {"shear", Cause::left_out, 1.0, find_stubby_beams,
-     [](BeamBody& beam) { beam.has_shear = true; }, "is stubby: shear, which it leaves out,",
-     "are stubby: shear, which they leave out,", advice_of_shear},
+     [](BeamBody& beam) { beam.has_shear = true; }, nullptr,
+     "is stubby: shear, which it leaves out,", "are stubby: shear, which they leave out,",
+     advice_of_shear},
     {"more_frames", Cause::not_modelled, 4.0 / 3.0, find_far_bending,
-     [](BeamBody& beam) { beam.frames *= 2; },
+     [](BeamBody& beam) { beam.frames *= 2; }, doubt_untold_bending,
      "bends too far for linear elasticity in its frame: more frames",
      "bend too far for linear elasticity in their frames: more frames", advice_of_frames},
 };
@@ -117,10 +120,10 @@ class VariantRun {
     try {
       changed = analyze_variant(run_, problem);
     } catch (const SimulationError& error) {
-      found.doubts.push_back(failed(error.what(), true));
+      found.doubts.push_back(failed(error.what()));
       return;
     } catch (const InputError& error) {  // of what cannot be asked of it
-      found.doubts.push_back(failed(error.what(), false));
+      for (Doubt& doubt : untold(error.what())) found.doubts.push_back(std::move(doubt));
       return;
     }
     measure({problem, run_.x, *changed, run_.monitors});
@@ -137,13 +140,20 @@ class VariantRun {
     return problem;
   }
 
-  Doubt failed(const std::string& why, bool is_serious) const {
-    return {fmt::format("{} {} would change what cannot be told: {}", quoted(beams_), words(beams_),
-                        why),
-            is_serious,
+  Doubt failed(const std::string& why) const {
+    return {fmt::format("{} {} might change anything: this design cannot be simulated then: {}",
+                        quoted(beams_), words(beams_), why),
+            true,
             {},
             {},
             variant_.cause};
+  }
+
+  std::vector<Doubt> untold(const std::string& why) const {
+    if (variant_.untold == nullptr) return {failed(why)};
+    std::vector<Doubt> doubts = variant_.untold(run_, beams_, why);
+    for (Doubt& doubt : doubts) doubt.cause = variant_.cause;
+    return doubts;
   }
 
   std::string_view words(const Names& beams) const {

@@ -23,15 +23,15 @@ struct LeftOut {
   std::vector<Doubt> doubts;
 };
 
-/// Runs the variants whose indicators speak, at twice the step (variants.hpp):
+/// Runs the variants whose indicators speak, at twice the step (variant_basis.hpp):
 /// - `shear` in beams that leave it out and are stubby (stubby_beams.hpp),
-/// - `more_frames`, by twice as many, in beams that bend or twist far against those they have: linear elasticity in
-///   a frame is off by the square of rotations, which twice the frames leave a quarter of.
+/// - `more_frames`, by twice as many, in beams that bend or twist far against those they have: linear
+///   elasticity in a frame is off by the square of rotations, of which twice the frames leave a
+///   quarter.
 ///
 /// Told from 1 % of what a response is with it, serious from 10 % of that or of a tenth of its
 /// limits (response_changes.hpp), with the beams that make it: where there are several, each is
-/// simulated alone. Beams that cannot be divided, and imported bodies, are judged by 0.45 θ², what is
-/// missed of the deflection of a cantilever whose tip turns by θ.
+/// simulated alone. Where a response cannot be had of a divided beam, rotations tell (far_bending.hpp).
 LeftOut compare_variants(const TrustedRun& run);
 
 }  // namespace pleuel

@@ -9,7 +9,7 @@
 #include "core/base/number_text.hpp"
 #include "core/trust/asked_responses.hpp"
 #include "core/trust/round_off.hpp"
-#include "core/trust/variants.hpp"
+#include "core/trust/variant_basis.hpp"
 
 namespace pleuel {
 

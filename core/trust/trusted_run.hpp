@@ -21,7 +21,7 @@ enum class Scrutiny {
 
 /// What several doubts ask for, each made when the first of them does.
 struct SharedFindings {
-  /// What variants are compared with (variants.hpp): null is the run that is judged.
+  /// What variants are compared with (variant_basis.hpp): null is the run that is judged.
   std::optional<ProblemFile> problem{};
   std::unique_ptr<Analysis> analysis{};
   std::optional<std::vector<bool>> is_round_off{};  ///< round_off.hpp

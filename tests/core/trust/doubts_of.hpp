@@ -1,6 +1,8 @@
 #pragma once
 
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/response/analysis.hpp"
@@ -10,14 +12,27 @@
 
 namespace pleuel::test {
 
+/// A problem, simulated at its start design, and what its doubts are made from.
+struct StartRun {
+  ProblemFile problem;
+  Eigen::VectorXd x;
+  std::unique_ptr<Analysis> analysis;
+  Monitors monitors;
+
+  explicit StartRun(ProblemFile file)
+      : problem(std::move(file)),
+        x(start_design(problem)),
+        analysis(analyze(problem, x)),
+        monitors(monitor(analysis->model, analysis->trajectory)) {}
+
+  TrustedRun run() const { return {problem, x, *analysis, monitors}; }
+};
+
 using FindDoubts = std::vector<Doubt> (*)(const TrustedRun&);
 
 /// What one kind of doubt says of the start design of a problem.
 inline std::vector<Doubt> doubts_of(const ProblemFile& problem, FindDoubts find) {
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
-  const Monitors monitors = monitor(analysis->model, analysis->trajectory);
-  return find(TrustedRun{problem, x, *analysis, monitors});
+  return find(StartRun(problem).run());
 }
 
 /// What variants of the model say, as one kind of doubt.

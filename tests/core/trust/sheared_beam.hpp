@@ -50,20 +50,14 @@ struct LoadedBeam {
   }
 };
 
-struct ShearedBeam {
-  ProblemFile problem;
-  Eigen::VectorXd x;
-  std::unique_ptr<Analysis> analysis;
-  Monitors monitors;
-
-  explicit ShearedBeam(const LoadedBeam& beam)
-      : problem(beam.problem()), x(start_design(problem)), analysis(analyze(problem, x)) {}
+struct ShearedBeam : StartRun {
+  explicit ShearedBeam(const LoadedBeam& beam) : StartRun(beam.problem()) {}
   double share() const {
     State state;
     analysis->trajectory.states->load(0, state);
     return shear_share(problem, x, analysis->model, "beam", state);
   }
-  std::vector<Doubt> doubts() const { return doubt_variants({problem, x, *analysis, monitors}); }
+  std::vector<Doubt> doubts() const { return doubt_variants(run()); }
 };
 
 inline std::string rectangle(double height) {

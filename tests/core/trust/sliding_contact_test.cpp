@@ -61,10 +61,7 @@ TEST(SlidingContact, LeavesNumbersWithoutABar) {
                         "responses": {{"mass": {{"type": "mass"}},
                                        "force": {{"type": "drive-force", "joint": "rail", "over_time": "max"}}}}}})",
                                scene_of_trolley(0.2, 0.6, is_elastic ? "" : R"(, "rigid": true)")));
-    const Eigen::VectorXd x = start_design(problem);
-    const auto analysis = analyze(problem, x);
-    const Monitors monitors = monitor(analysis->model, analysis->trajectory);
-    const Trust trust = judge_run({problem, x, *analysis, monitors});
+    const Trust trust = judge_run(StartRun(problem).run());
     EXPECT_TRUE(trust.errors[0]->is_modelled);
     EXPECT_EQ(trust.errors[1]->is_modelled, !is_elastic);
     EXPECT_FALSE(is_elastic && trust.errors[1]->is_resolved());

@@ -1,4 +1,4 @@
-#include "core/trust/variants.hpp"
+#include "core/trust/variant_basis.hpp"
 
 #include "core/base/error.hpp"
 #include "core/trust/nested_runs.hpp"
