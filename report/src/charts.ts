@@ -6,12 +6,14 @@ import {
   LegendComponent,
   MarkLineComponent,
   MarkPointComponent,
+  TitleComponent,
   TooltipComponent,
 } from "echarts/components";
 import * as echarts from "echarts/core";
 import { SVGRenderer } from "echarts/renderers";
 import { download, h } from "./dom";
 import { number } from "./format";
+import { inLight, paperWidth, savePng, sizedSvg } from "./paper";
 import { color, onTheme } from "./theme";
 
 echarts.use([
@@ -24,6 +26,7 @@ echarts.use([
   MarkLineComponent,
   MarkPointComponent,
   DataZoomInsideComponent,
+  TitleComponent,
   SVGRenderer,
 ]);
 
@@ -39,6 +42,7 @@ export interface Series {
   dashed?: boolean;
   step?: boolean;
   silent?: boolean; // lets the mouse through to what lies below
+  hollow?: boolean[]; // points that are drawn as rings
   labels?: string[]; // one a point, for the tooltip
 }
 
@@ -114,7 +118,7 @@ function seriesOption(options: ChartOptions, s: Series, i: number) {
   return {
     type: isDots ? ("scatter" as const) : ("line" as const),
     name: s.name,
-    data: s.x.map((x, k) => pointOf(options, x, s.y[k])),
+    data: s.x.map((x, k) => (s.hollow?.[k] ? { value: pointOf(options, x, s.y[k]), itemStyle: { color: color("card"), borderColor: paint, borderWidth: 2 } } : pointOf(options, x, s.y[k]))),
     showSymbol: !!s.dots,
     symbol: "circle",
     silent: s.silent,
@@ -287,7 +291,7 @@ function tooltip(options: ChartOptions) {
       const box = h("div", {});
       items.forEach((item, k) => {
         const s = options.series[item.seriesIndex];
-        if (!s || !Array.isArray(item.data)) return;
+        if (!s || !Array.isArray(item.value)) return;
         if (k === 0) box.append(h("div.soft", {}, s.labels?.[item.dataIndex] ?? `${options.xTitle}: ${number(s.x[item.dataIndex], 5)}`));
         box.append(
           h("div", {}, h("span.dot", { style: `background:${color(s.color)}` }), `${s.name}: `, h("b", {}, number(s.y[item.dataIndex], 5))),
@@ -358,34 +362,54 @@ function optionOf(options: ChartOptions, width: number): echarts.EChartsCoreOpti
 
 function csvOf(options: ChartOptions): string {
   const quote = (text: string) => (/[",\n]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text);
+  const unit = options.yTitle ? ` [${options.yTitle}]` : "";
   const hasBand = options.series.some((s) => s.band);
-  const lines = [`series,${quote(options.xTitle)},${quote(options.yTitle)}${hasBand ? ",error" : ""}`];
+  const lines = [["series", options.xTitle, options.title + unit, ...(hasBand ? [`error${unit}`] : [])].map(quote).join(",")];
   for (const s of options.series) {
     s.x.forEach((x, i) => lines.push(`${quote(s.name)},${x},${s.y[i] ?? ""}${hasBand ? `,${s.band?.[i] ?? ""}` : ""}`));
   }
   return lines.join("\n") + "\n";
 }
 
-function svgOf(element: HTMLElement): string {
-  const svg = element.querySelector("svg")?.cloneNode(true) as SVGElement;
-  svg.setAttribute("xmlns", "http://www.w3.org/2000/svg");
-  svg.style.background = color("card");
-  return new XMLSerializer().serializeToString(svg);
+const paperTitle = 34; // room for a title and the unit of the axis [px]
+const paperRatio = 0.42;
+
+/** The chart as a file of its own: with title, axes and units, at the width that papers have. */
+function paperSvg(options: ChartOptions): { svg: string; width: number; height: number } {
+  const width = paperWidth();
+  const height = Math.round(Math.max(options.height ?? 0, paperRatio * width)) + paperTitle + furtherRows(options, width);
+  const box = h("div", { style: `position:absolute;left:-9999px;width:${width}px;height:${height}px` });
+  document.body.append(box);
+  const chart = echarts.init(box, undefined, { renderer: "svg", width, height });
+  inLight(() => {
+    const text = { fontFamily: fontFamily(), color: color("ink") };
+    const option = optionOf(options, width);
+    const shift = (part: object, key: string) => ({ ...part, [key]: ((part as Record<string, number>)[key] ?? 0) + paperTitle });
+    chart.setOption({
+      ...option,
+      backgroundColor: color("card"),
+      title: {
+        text: options.title,
+        subtext: options.yTitle ? `[${options.yTitle}]` : "",
+        itemGap: 2,
+        padding: [4, 6],
+        textStyle: { ...text, fontSize: 13, fontWeight: 600 },
+        subtextStyle: { ...text, fontSize: 11 },
+      },
+      grid: shift(option.grid as object, "top"),
+      legend: option.legend && shift(option.legend as object, "top"),
+    });
+    chart.getZr().flush();
+  });
+  const svg = sizedSvg(box.querySelector("svg")!.cloneNode(true) as SVGElement, width, height);
+  chart.dispose();
+  box.remove();
+  return { svg, width, height };
 }
 
-function savePng(element: HTMLElement, name: string): void {
-  const { width, height } = element.getBoundingClientRect();
-  const image = new Image();
-  image.onload = () => {
-    const canvas = document.createElement("canvas");
-    [canvas.width, canvas.height] = [2 * width, 2 * height];
-    const context = canvas.getContext("2d")!;
-    context.fillStyle = color("card");
-    context.fillRect(0, 0, canvas.width, canvas.height);
-    context.drawImage(image, 0, 0, canvas.width, canvas.height);
-    canvas.toBlob((blob) => blob && download(`${name}.png`, blob));
-  };
-  image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svgOf(element))}`;
+function savePaperPng(options: ChartOptions, file: string): void {
+  const { svg, width, height } = paperSvg(options);
+  savePng(svg, width, height, file);
 }
 
 export function lineChart(options: ChartOptions): Chart {
@@ -404,8 +428,8 @@ export function lineChart(options: ChartOptions): Chart {
       h(
         "span.saves",
         {},
-        h("button.quiet", { onclick: () => download(`${file}.svg`, svgOf(plot), "image/svg+xml") }, "SVG"),
-        h("button.quiet", { onclick: () => savePng(plot, file) }, "PNG"),
+        h("button.quiet", { onclick: () => download(`${file}.svg`, paperSvg(options).svg, "image/svg+xml") }, "SVG"),
+        h("button.quiet", { onclick: () => savePaperPng(options, file) }, "PNG"),
         h("button.quiet", { onclick: () => download(`${file}.csv`, csvOf(options), "text/csv") }, "CSV"),
       ),
     ),
@@ -422,6 +446,11 @@ export function lineChart(options: ChartOptions): Chart {
     cursor.hidden = !Number.isFinite(pixel);
     cursor.style.transform = `translateX(${pixel}px)`;
   };
+  /** Paper is narrower than the window: the style sheet scales what has a box. */
+  const scaleOnPaper = () => {
+    const svg = plot.querySelector("svg");
+    svg?.setAttribute("viewBox", `0 0 ${svg.getAttribute("width")} ${svg.getAttribute("height")}`);
+  };
   let width = 0;
   const draw = () => chart?.setOption(optionOf(options, width), true);
   /** Names of curves that need more rows make the chart higher. */
@@ -434,6 +463,7 @@ export function lineChart(options: ChartOptions): Chart {
     if (chart || !plot.clientWidth) return;
     fit();
     chart = echarts.init(plot, undefined, { renderer: "svg" });
+    chart.on("finished", scaleOnPaper);
     draw();
     // eslint-disable-next-line @typescript-eslint/no-explicit-any
     chart.on("click", (event: any) => options.onPick?.(event.seriesIndex, event.dataIndex));

@@ -113,3 +113,8 @@ export function placeText(place: string | undefined): string {
     .replace(/^at ([\d.]+) of the length/, (_, at: string) => `at ${number(100 * Number(at), 3)} % of the length`)
     .replace(/(-?[\d.]+(?:e-?\d+)?) m(?=$|,)/g, (_, metres: string) => `${number(1000 * Number(metres), 4)} mm`);
 }
+
+/** "a", "a and b", "a, b and c". */
+export function listed(texts: string[]): string {
+  return texts.length < 2 ? texts.join("") : `${texts.slice(0, -1).join(", ")} and ${texts[texts.length - 1]}`;
+}

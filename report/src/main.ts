@@ -11,6 +11,7 @@ import { showPage, simulatePage } from "./pages/simulate";
 import { stabilityPage } from "./pages/stability";
 import { genericPage, paretoPage } from "./pages/studies";
 import { uncertaintyPage } from "./pages/uncertainty";
+import { paperChoice } from "./paper";
 import { startTheme, themeButton } from "./theme";
 
 function pageOf(data: ReportData): HTMLElement[] {
@@ -68,6 +69,7 @@ function start(): void {
       h("span.brand", {}, "Pleuel"),
       h("span.soft", {}, [data.card.command, data.card.input?.file].filter(Boolean).join(" · ")),
       h("span.spring", {}),
+      paperChoice(),
       h("button.quiet", { onclick: () => window.print(), title: "print" }, "Print"),
       themeButton(),
     ),

@@ -66,7 +66,10 @@ export function stressColor(share: number): [number, number, number] {
   return [0, 1, 2].map((k) => stops[i][k] + f * (stops[i + 1][k] - stops[i][k])) as [number, number, number];
 }
 
+export function stressStops(): string[] {
+  return stops.map((s) => `rgb(${s.map((c) => Math.round(255 * c)).join(",")})`);
+}
+
 export function stressGradient(): string {
-  const css = stops.map((s) => `rgb(${s.map((c) => Math.round(255 * c)).join(",")})`);
-  return `linear-gradient(90deg, ${css.join(", ")})`;
+  return `linear-gradient(90deg, ${stressStops().join(", ")})`;
 }

@@ -52,6 +52,7 @@ Object.assign(runs, {
 Object.assign(runs, {
   fatigue: ["simulate", problem("slider_crank_round"), ...quick, "--set", "/scene/materials/steel/ultimate_strength=600 MPa", "--set", "/scene/materials/steel/fatigue_strength=900", "--set", "/scene/materials/steel/fatigue_exponent=8", "--set", '/responses/damage={"type": "fatigue-damage", "body": "rod", "criterion": "goodman"}', "--set", '/pareto={"responses": ["crank_and_rod", "rod_bow"]}', "--set", '/constraints={"life": {"response": "damage", "upper": 1}}'],
   prices: ["prices", problem("slider_crank_round"), ...quicker],
+  "broken-start": ["optimize", problem("slider_crank"), ...quick, "--set", "/variables/rod_height/start=8 mm", "--set", "/variables/rod_width/start=5 mm"],
   front: ["pareto", problem("slider_crank_round"), ...quicker, "--set", '/pareto={"responses": ["crank_and_rod", "rod_bow"], "points": 4}'],
 });
 // What novices meet: a search that fails at its start, a wrong unit, bounds far away, stiff and rigid members.
@@ -169,17 +170,87 @@ describe("pages", { concurrency: 3 }, () => {
     const { tab } = await open("optimize");
     const { objective, status } = result("optimize");
     const gain = Math.abs(100 * (objective.value / objective.start - 1)).toFixed(1);
-    assert.ok((await tab.locator("h1").innerText()).includes(`${gain} %`));
+    assert.equal(await tab.locator("h1").innerText(), `${objective.value.toPrecision(4)} kg ${gain} % ${objective.value < objective.start ? "lighter" : "heavier"}`);
     assert.match(await tab.locator(".hero .badge").innerText(), status === "verified" ? /Verified/ : /./);
     await tab.close();
   });
 
-  test("a verdict says in plain words what was checked", async () => {
+  test("a verdict says in plain words what holds and what decides, the audit what was checked", async () => {
     const { tab } = await open("optimize");
-    const { status, checked } = result("optimize");
+    const { status, checked, constraints, message } = result("optimize");
+    assert.equal(status, "verified");
     const text = await tab.locator(".hero").innerText();
-    if (status === "verified") assert.ok(text.includes(`In plain words: ${checked}.`));
-    else assert.ok(!text.includes("In plain words"));
+    assert.match(text, /Every limit holds; .* decides?\./);
+    for (const [name, one] of Object.entries(constraints)) {
+      assert.equal(text.includes(name.replace(/_/g, " ")), one.multiplier !== 0, name);
+    }
+    const audit = await tab.locator("section", { has: tab.getByRole("heading", { name: "Why to believe it" }) }).innerText();
+    assert.ok(audit.includes(`In plain words: ${checked}.`));
+    assert.ok(audit.includes(message.slice(1)));
+    await tab.close();
+  });
+
+  test("what to build has every member, and its design file is read back", async () => {
+    const { tab } = await open("optimize");
+    const table = tab.locator(".build tbody tr");
+    assert.equal(await table.count(), 2);
+    const { variables, objective } = result("optimize");
+    for (const [i, member] of ["crank", "rod"].entries()) {
+      const row = await table.nth(i).innerText();
+      for (const size of ["width", "height"]) {
+        assert.ok(row.includes(`${size} ${(1000 * variables[`${member}_${size}`].value).toPrecision(4)} mm`), row);
+      }
+    }
+    const [file] = await Promise.all([tab.waitForEvent("download"), tab.getByText("Download design.json").click()]);
+    const text = execFileSync(program, ["simulate", problem("slider_crank"), ...quick, "--design", await file.path(), "--json", "-o", join(folder, "read-back")], { encoding: "utf8" });
+    assert.equal(JSON.parse(text).responses.crank_and_rod.value, objective.value);
+    await tab.close();
+  });
+
+  test("a start that breaks its limits is told", async () => {
+    const { tab } = await open("broken-start");
+    const { constraints } = result("broken-start");
+    assert.match(await tab.locator(".hero").innerText(), /The start breaks rod stiffness by /);
+    assert.ok(constraints.rod_stiffness.value <= 1.001 * constraints.rod_stiffness.limit);
+    await tab.close();
+  });
+
+  test("a page is printed with its colours, within the paper, the answer on the first page", async () => {
+    const { tab } = await open("optimize");
+    const pdf = await tab.pdf({ format: "A4", margin: { top: "10mm", bottom: "10mm", left: "10mm", right: "10mm" } });
+    assert.ok(pdf.length > 1e5);
+    await tab.evaluate(() => window.dispatchEvent(new Event("beforeprint")));
+    await tab.emulateMedia({ media: "print" });
+    await tab.setViewportSize({ width: 718, height: 1047 });  // A4 with such margins
+    assert.equal(await tab.locator(".gauge-fill").first().evaluate((one) => getComputedStyle(one).printColorAdjust), "exact");
+    const beyond = await tab.evaluate(() => [...document.querySelectorAll("svg, canvas.paper-drawing, table")].filter((one) => one.getBoundingClientRect().right > 719).map((one) => one.outerHTML.slice(0, 80)));
+    assert.deepEqual(beyond, []);
+    for (const part of [".hero", ".paper-drawing", ".build", ".limits-card"]) {
+      const { y, height } = await tab.locator(part).boundingBox();
+      assert.ok(y + height <= 1047, `${part} ends at ${y + height}`);
+    }
+    await tab.close();
+  });
+
+  test("pictures for a paper have a title, units and the width of a column", async () => {
+    const { tab } = await open("optimize", { scheme: "dark" });
+    const save = async (from, name) => {
+      const [file] = await Promise.all([tab.waitForEvent("download"), from.getByText(name, { exact: true }).click()]);
+      return readFileSync(await file.path());
+    };
+    const chart = tab.locator('figure[data-title="crank stress"]').first();
+    const wide = (await save(chart, "SVG")).toString();
+    assert.match(wide, /width="170\.\dmm"/);
+    for (const text of ["crank stress", "[MPa]", "time [ms]"]) assert.ok(wide.includes(text), text);
+    assert.match(wide, /fill="#ffffff"|fill="#fff"|fill="white"|rgb\(255/);
+    assert.match((await save(chart, "CSV")).toString(), /^series,time \[ms\],crank stress \[MPa\]/);
+    await tab.selectOption('[aria-label="width of saved pictures"]', "85");
+    assert.match((await save(chart, "SVG")).toString(), /width="84\.\d|width="85\.\d/);
+    const png = await save(chart, "PNG");
+    assert.ok(Math.abs(png.readUInt32BE(16) - (300 / 25.4) * 85) < 4);
+    const drawing = (await save(tab.locator(".corner"), "SVG")).toString();
+    assert.match(drawing, /slider-crank at .* deformation ×/);
+    assert.ok((drawing.match(/<path/g) ?? []).length > 50);
     await tab.close();
   });
 

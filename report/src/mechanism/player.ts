@@ -3,6 +3,7 @@ import type { Picture } from "../data";
 import { h } from "../dom";
 import { number, seconds, words } from "../format";
 import { onTheme, stressGradient } from "../theme";
+import { saveDrawing } from "./drawing_file";
 import { Stage } from "./stage";
 
 export interface Pick {
@@ -198,8 +199,19 @@ export function makePlayer(options: PlayerOptions): Player {
       );
     }
     corner.append(h("button.quiet", { title: "the whole mechanism again", onclick: () => shown.resetCamera() }, "⌂"));
+    corner.append(drawingButton(shown, "svg"), drawingButton(shown, "png"));
     if (isMoving && "MediaRecorder" in window) corner.append(recordButton(shown));
     return corner;
+  }
+
+  function drawingButton(shown: Stage, kind: "svg" | "png"): HTMLElement {
+    const save = () => {
+      const what = isMoving ? `${words(picture.name)} at ${seconds(time)}${hasStress ? `, deformation × ${scale}` : ""}` : words(picture.name);
+      const colours = legendText(picture, options.main);
+      saveDrawing(shown, kind, picture.name.replace(/[^A-Za-z0-9]+/g, "-"), what, colours && colours.join(" "));
+    };
+    const name = kind.toUpperCase();
+    return h("button.quiet", { title: `save the drawing as ${name}`, onclick: save }, name);
   }
 
   /** One loop as WebM. */
@@ -312,14 +324,22 @@ function usefulScale(stage: Stage): number {
   return scales.filter((s) => s <= wanted).pop() ?? 1;
 }
 
-function legendOf(picture: Picture, main: number): HTMLElement | null {
+/** What the last colour is, and of what; null if stress has no colours. */
+function legendText(picture: Picture, main: number): [string, string] | null {
   const limits = stressLimits(picture, main);
   const known = [...new Set(limits.filter((limit): limit is number => limit !== null))];
   if (!picture.designs[main].motion || !known.length) return null;
-  const bodies = picture.scene.bodies;
-  const isLimit = bodies.some((body, i) => limits[i] !== null && body.stress_limit);
-  const last = known.length === 1 ? `${number(known[0] / 1e6, 3)} MPa` : "100 %";
-  const what = isLimit ? "von Mises stress, up to its limit" : "von Mises stress, up to the strength of the material";
+  const isLimit = picture.scene.bodies.some((body, i) => limits[i] !== null && body.stress_limit);
+  return [
+    known.length === 1 ? `${number(known[0] / 1e6, 3)} MPa` : "100 %",
+    isLimit ? "von Mises stress, up to its limit" : "von Mises stress, up to the strength of the material",
+  ];
+}
+
+function legendOf(picture: Picture, main: number): HTMLElement | null {
+  const text = legendText(picture, main);
+  if (!text) return null;
+  const [last, what] = text;
   return h(
     "div.legend",
     {},

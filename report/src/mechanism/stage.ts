@@ -5,6 +5,7 @@ import {
   Color,
   DirectionalLight,
   Group,
+  Light,
   OrthographicCamera,
   Raycaster,
   Scene as Space,
@@ -14,7 +15,9 @@ import {
   Mesh,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { SVGRenderer } from "three/examples/jsm/renderers/SVGRenderer.js";
 import type { Design, Scene } from "../data";
+import { inLight } from "../paper";
 import { color, onTheme, scheme } from "../theme";
 import { type Look, makeMember, type Member } from "./members";
 import { type BodyPose, Motion } from "./pose";
@@ -85,6 +88,7 @@ export class Stage {
   private isStressShown = true;
   private isDue = false;
   private isDisposed = false;
+  private copy: HTMLCanvasElement | null = null; // while the page is printed
   private readonly sizes = new ResizeObserver(() => this.resize());
   private readonly stopTheme: () => void;
 
@@ -124,6 +128,8 @@ export class Stage {
       this.relook();
     });
     this.relook();
+    window.addEventListener("beforeprint", this.toPaper);
+    window.addEventListener("afterprint", this.toWindow);
   }
 
   /** Gives the graphics card back: browsers have few contexts. */
@@ -131,6 +137,8 @@ export class Stage {
     this.isDisposed = true;
     this.sizes.disconnect();
     this.stopTheme();
+    window.removeEventListener("beforeprint", this.toPaper);
+    window.removeEventListener("afterprint", this.toWindow);
     this.controls.dispose();
     this.renderer.dispose();
     this.renderer.forceContextLoss();
@@ -226,8 +234,12 @@ export class Stage {
 
   private draw(): void {
     this.renderer.render(this.space, this.camera);
-    const { clientWidth: width, clientHeight: height } = this.host;
-    const free = this.freeArea();
+    this.placeLabels(this.freeArea());
+  }
+
+  private placeLabels(free: Box): void {
+    const { width } = free;
+    const height = free.y + free.height;
     const taken: Box[] = [];
     for (const label of this.labels) {
       const at = label.at();
@@ -397,12 +409,16 @@ export class Stage {
   }
 
   private resize(): void {
-    const width = this.host.clientWidth;
-    const height = this.host.clientHeight;
-    if (!width || !height) return;
+    const { clientWidth: width, clientHeight: height } = this.host;
+    if (!width || !height || this.copy) return;
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.renderer.setSize(width, height);
-    // What all motions reach fills the free area, with a margin for symbols and names.
+    this.fit(width, this.freeArea());
+    this.render();
+  }
+
+  /** What all motions reach fills the free area, with a margin for symbols and names. */
+  private fit(width: number, free: Box): void {
     this.camera.updateMatrixWorld();
     const right = new Vector3().setFromMatrixColumn(this.camera.matrixWorld, 0);
     const upwards = new Vector3().setFromMatrixColumn(this.camera.matrixWorld, 1);
@@ -417,7 +433,6 @@ export class Stage {
     }
     const margin = (this.options.showsAxes ? 0.16 : 0.085) * this.view.size;
     const [middleX, middleY] = [0, 1].map((i) => (low[i] + high[i]) / 2);
-    const free = this.freeArea();
     const perPixel = Math.max(((high[1] - low[1]) + 2 * margin) / free.height, ((high[0] - low[0]) + 2 * margin) / width);
     this.camera.top = middleY + perPixel * (free.height / 2 + free.y);
     this.camera.bottom = middleY - (perPixel * free.height) / 2;
@@ -426,9 +441,66 @@ export class Stage {
     this.camera.near = 0.01 * this.view.size;
     this.camera.far = 12 * this.view.size;
     this.camera.updateProjectionMatrix();
-    this.render();
+  }
+
+  /** Paper is narrower than the window, needs no buttons, and shows no frames that come later. */
+  private readonly toPaper = () => {
+    const { width, height } = paperStage;
+    Object.assign(this.host.style, { width: `${width}px`, height: `${height}px` });
+    this.copy = this.dots(3 * width, 3 * height);
+    this.copy.className = "paper-drawing";
+    this.host.append(this.copy);
+    const all = { x: 0, y: 0, width, height };
+    this.fit(width, all);
+    this.placeLabels(all);
+  };
+  private readonly toWindow = () => {
+    this.copy?.remove();
+    this.copy = null;
+    Object.assign(this.host.style, { width: "", height: "" });
+    this.resize();
+  };
+
+  /** The drawing as the camera sees it, of lines and areas, without buttons, in the colours of paper. */
+  svgPicture(width: number, height: number): SVGElement {
+    const painter = new SVGRenderer();
+    painter.setSize(width, height);
+    // It takes for the light of a surface what falls onto it: without the 1/π of surfaces that scatter evenly.
+    const lights = this.space.children.filter((one): one is Light => one instanceof Light);
+    for (const light of lights) light.intensity /= Math.PI;
+    this.forPaper(width, height, () => painter.render(this.space, this.camera));
+    for (const light of lights) light.intensity *= Math.PI;
+    return painter.domElement;
+  }
+
+  /** The same of dots. */
+  dots(width: number, height: number): HTMLCanvasElement {
+    const copy = document.createElement("canvas");
+    [copy.width, copy.height] = [width, height];
+    this.forPaper(width, height, () => {
+      this.renderer.setPixelRatio(1);
+      this.renderer.setSize(width, height, false);
+      this.renderer.render(this.space, this.camera);
+      copy.getContext("2d")!.drawImage(this.canvas, 0, 0);
+    });
+    return copy;
+  }
+
+  private forPaper(width: number, height: number, work: () => void): void {
+    inLight(() => {
+      repaint(this.space);
+      this.relook();
+      this.fit(width, { x: 0, y: 0, width, height });
+      work();
+    });
+    repaint(this.space);
+    this.relook();
+    this.resize();
   }
 }
+
+/** Of the drawing on paper [px]. */
+const paperStage = { width: 690, height: 210 };
 
 function isShown(object: { visible: boolean; parent: unknown }): boolean {
   for (let one: { visible: boolean; parent: unknown } | null = object; one; one = one.parent as typeof one) {

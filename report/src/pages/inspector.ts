@@ -190,32 +190,34 @@ function heading(picture: Picture, pick: Pick, main: number): HTMLElement[] {
   ];
 }
 
-/** Sections of both designs to scale. */
-export function profiles(picture: Picture, body: number, main: number): HTMLElement | null {
+/** Sections of both designs to scale, one drawing a segment; none of a body without sections. */
+export function profileSvgs(picture: Picture, body: number, main: number): SVGElement[] {
   const shown = picture.designs
-    .map((design, i) => ({ segments: design.geometry.bodies[body].segments, isMain: i === main, name: design.name }))
+    .map((design, i) => ({ segments: design.geometry.bodies[body].segments, isMain: i === main }))
     .filter((one) => one.segments);
-  if (!shown.length || picture.designs.length > 2) return null;
-  const count = shown[0].segments!.length;
-  const box = h("div.profiles", {});
-  for (let s = 0; s < count; s++) {
-    const all = shown.flatMap((one) => one.segments![s].outer.flat().map(Math.abs));
-    const size = Math.max(...all);
+  if (!shown.length || picture.designs.length > 2) return [];
+  return shown[0].segments!.map((_, s) => {
+    const size = Math.max(...shown.flatMap((one) => one.segments![s].outer.flat().map(Math.abs)));
     const scale = 30 / size;
     const path = (points: [number, number][]) =>
       points.length ? `M${points.map(([y, z]) => `${(z * scale).toFixed(2)},${(-y * scale).toFixed(2)}`).join("L")}Z` : "";
-    const svg = `<svg viewBox="-34 -34 68 68" width="72" height="72" role="img" aria-label="section">${shown
+    const box = h("div", {});
+    box.innerHTML = `<svg viewBox="-34 -34 68 68" width="72" height="72" role="img" aria-label="section">${shown
       .map(
         (one) =>
           `<path class="${one.isMain ? "profile-main" : "profile-start"}" fill-rule="evenodd" d="${path(one.segments![s].outer)}${path(one.segments![s].inner)}"/>`,
       )
       .join("")}</svg>`;
-    const drawing = h("div.profile", {});
-    drawing.innerHTML = svg;
-    drawing.append(h("span.note", {}, shown.find((one) => one.isMain)!.segments![s].text));
-    box.append(drawing);
-  }
-  return box;
+    return box.firstElementChild as SVGElement;
+  });
+}
+
+/** The drawings with the sizes of the main design. */
+export function profiles(picture: Picture, body: number, main: number): HTMLElement | null {
+  const drawings = profileSvgs(picture, body, main);
+  if (!drawings.length) return null;
+  const segments = picture.designs[main].geometry.bodies[body].segments!;
+  return h("div.profiles", {}, drawings.map((drawing, s) => h("div.profile", {}, drawing, h("span.note", {}, segments[s].text))));
 }
 
 function quantitiesOf(picture: Picture, pick: Pick, main: number): Quantity[] {

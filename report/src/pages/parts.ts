@@ -64,7 +64,7 @@ export function responsesTable(data: ReportData): HTMLElement | null {
     const [start, value] = [one.start, one.value].map((raw) => withoutRoundOff(data.picture, name, raw, one.unit));
     if (hasStart) row.push(number(start / unit.factor));
     row.push(number(value / unit.factor));
-    if (hasStart) row.push(change(start, value));
+    if (hasStart) row.push(name === data.result.objective?.name ? change(start, value) : start ? percent(value / start - 1) : "");
     row.push(unit.name);
     if (hasErrors) {
       row.push(

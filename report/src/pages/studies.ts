@@ -254,7 +254,12 @@ export function csvCharts(data: ReportData): HTMLElement[] {
       if (name === "uncertainty.csv") {
         const deviation = header.includes(`${title}:deviation`) ? column(`${title}:deviation`, shown.factor) : null;
         const band = deviation ? { band: deviation.map((d) => 2 * d) } : {};
-        return [lineChart({ title: words(title), yTitle: shown.name, xTitle: `time [${unit.name}]`, series: [{ name: words(title), x: time, y: values, color: "accent", ...band }] }).element];
+        const common = { yTitle: shown.name, xTitle: `time [${unit.name}]` };
+        const history = lineChart({ ...common, title: words(title), series: [{ name: words(title), x: time, y: values, color: "accent", ...band }] }).element;
+        if (!deviation) return [history];
+        const sampled = header.includes(`${title}:sampled_deviation`) ? [{ name: "by samples", x: time, y: column(`${title}:sampled_deviation`, shown.factor), color: "more", dashed: true }] : [];
+        const series = [{ name: "first order", x: time, y: deviation, color: "accent" }, ...sampled];
+        return [history, lineChart({ ...common, title: `deviation of ${words(title)}`, startsAtZero: true, series }).element];
       }
       const variables = header.filter((one) => one.startsWith(`${title}:`));
       const colors = ["accent", "more", "good", "drive", "limit", "soft"];

@@ -1,8 +1,8 @@
 // Deviations and bounds of the responses, and which parameters they come from.
 import type { Document, ReportData } from "../data";
 import { h, section, table } from "../dom";
-import { count, engineering, number, words } from "../format";
-import { fact, filesSection } from "./parts";
+import { count, engineering, number, share, withUnit, words } from "../format";
+import { fact, filesSection, unitOfLimit } from "./parts";
 import { csvCharts, hero } from "./studies";
 
 /** With so many digits that the width of the range is seen. */
@@ -33,6 +33,7 @@ export function uncertaintyPage(data: ReportData): HTMLElement[] {
       fact(count(result.samples), "samples"),
       fact(count(result.failures), "of them failed"),
     ]),
+    limitsSection(data),
     section(
       "Responses",
       "First order from the gradients; beside it what the samples saw.",
@@ -53,6 +54,36 @@ export function uncertaintyPage(data: ReportData): HTMLElement[] {
     ...csvCharts(data),
     filesSection(data),
   ].filter((part): part is HTMLElement => !!part);
+}
+
+/** Does it still hold? A row a limit, the nearest first. */
+function limitsSection(data: ReportData): HTMLElement | null {
+  const { result, picture } = data;
+  const limits = [...((result.limits ?? []) as Document[])].sort((a, b) => (a.distance ?? Infinity) - (b.distance ?? Infinity));
+  if (!limits.length) return null;
+  const isSampled = !!result.samples;
+  const rows = limits.map((one) => {
+    const unit = unitOfLimit(picture, one.name, one.unit);
+    const sign = one.side === "upper" ? "≤" : "≥";
+    const isBeyond = one.side === "upper" ? one.worst > one.limit : one.worst < one.limit;
+    const row: (Node | string)[] = [
+      words(one.name),
+      withUnit(one.value, unit),
+      `${sign} ${withUnit(one.limit, unit)}`,
+      one.distance === undefined ? "–" : h(one.distance < 3 ? "span.bad" : "span", {}, `${number(one.distance, 3)} σ`),
+      h(isBeyond ? "span.bad" : "span", {}, withUnit(one.worst, unit)),
+    ];
+    if (isSampled) row.push(h(one.broken ? "span.bad" : "span", {}, share(one.broken / result.samples)));
+    return row;
+  });
+  return section(
+    "Does it still hold?",
+    `Distance: from the value to the limit, in deviations.${isSampled ? ` Broken in: of the ${count(result.samples)} samples.` : ""} At worst: all parameters at their worst at once, to first order.`,
+    table(
+      [{ title: "limit", left: true }, { title: "value" }, { title: "allowed" }, { title: "distance" }, { title: "at worst" }, ...(isSampled ? [{ title: "broken in" }] : [])],
+      rows,
+    ),
+  );
 }
 
 interface Share {

@@ -1,0 +1,114 @@
+// What to build: all members with sections, sizes, masses; to copy, and as a design file.
+import type { Document, ReportData } from "../data";
+import { download, h, section, table } from "../dom";
+import { engineering, number, percent, withUnit, words } from "../format";
+import { hasDesign } from "./headline";
+import { profileSvgs } from "./inspector";
+import { endName } from "./parts";
+
+interface Member {
+  name: string;
+  index: number;
+  sizes: { before: string; after: string }[]; // of each segment
+  bounds: string[];
+  length?: number;
+  mass?: { before: number; after: number };
+  material?: string;
+}
+
+/** Names of the variables that a part of the problem file asks for, alone or in formulas. */
+function variablesIn(part: unknown, names: string[]): string[] {
+  const text = JSON.stringify(part ?? null);
+  return names.filter((name) => new RegExp(`(^|[^A-Za-z0-9_])${name}([^A-Za-z0-9_]|$)`).test(text));
+}
+
+function members(data: ReportData): Member[] {
+  const { picture, result, card } = data;
+  if (!picture?.designs.length) return [];
+  const [start, end] = [picture.designs[0], picture.designs[picture.designs.length - 1]];
+  const variables: Record<string, Document> = result.variables ?? {};
+  return picture.scene.bodies.flatMap((body, index): Member[] => {
+    const [before, after] = [start, end].map((design) => design.geometry.bodies[index]);
+    const own = variablesIn(card.problem?.scene?.bodies?.[body.name], Object.keys(variables));
+    if (!after.segments && !own.length) return [];
+    const mass = { before: start.masses?.[body.name], after: end.masses?.[body.name] };
+    const chosen = own.flatMap((name) => (variables[name].choice ? [String(variables[name].choice)] : []));
+    const sizes = (after.segments ?? []).map((segment, s) => ({ before: before.segments?.[s]?.text ?? "", after: segment.text }));
+    return [
+      {
+        name: body.name,
+        index,
+        sizes: chosen.length ? [{ before: sizes.map((one) => one.before).join("; "), after: chosen.join(", ") }] : sizes,
+        bounds: own.flatMap((name) => (variables[name].at_bound && !variables[name].choice ? [`${words(name)} at its ${variables[name].at_bound} bound`] : [])),
+        length: after.length,
+        mass: mass.before !== undefined && mass.after !== undefined ? { before: mass.before, after: mass.after } : undefined,
+        material: body.material,
+      },
+    ];
+  });
+}
+
+const metres = engineering("m");
+const lengthText = (length: number | undefined) => (length === undefined ? "–" : withUnit(length, metres));
+
+/** What other programs read from the clipboard: columns between tabs. */
+function copied(all: Member[]): string {
+  const rows = all.map((one) => [words(one.name), one.sizes.map((size) => size.after).join("; "), one.length === undefined ? "" : number(one.length / metres.factor), one.mass ? number(one.mass.after) : "", one.material ?? ""]);
+  return [["member", "size", `length [${metres.name}]`, "mass [kg]", "material"], ...rows].map((row) => row.join("\t")).join("\n") + "\n";
+}
+
+/** As `--design` reads it. */
+function designFile(result: Document): string {
+  const variables = Object.entries(result.variables as Record<string, Document>).map(([name, one]) => [name, one.choice ?? { value: one.value, unit: one.unit }]);
+  return JSON.stringify({ variables: Object.fromEntries(variables) }, null, 2) + "\n";
+}
+
+function massText(mass: Member["mass"]): (HTMLElement | string)[] {
+  if (!mass) return ["–"];
+  if (Math.abs(mass.after - mass.before) <= 1e-9 * mass.before) return [`${number(mass.after)} kg`];
+  return [h("b", {}, `${number(mass.after)} kg`), h("div.was", {}, `was ${number(mass.before)}, ${percent(mass.after / mass.before - 1)}`)];
+}
+
+export function buildSection(data: ReportData): HTMLElement | null {
+  const all = members(data);
+  if (!all.length || !hasDesign(data.result)) return null;
+  const { picture, result } = data;
+  const isSize = (one: Member) => one.sizes.some((size) => size.after !== size.before);
+  const copy = h("button.quiet.bordered", {}, "Copy") as HTMLButtonElement;
+  copy.addEventListener("click", async () => {
+    await navigator.clipboard?.writeText(copied(all));
+    copy.textContent = "Copied";
+  });
+  const rows = all.map((one) => [
+    h("div.sketch", {}, profileSvgs(picture!, one.index, picture!.designs.length - 1)),
+    h("b", {}, words(one.name)),
+    one.sizes.length
+      ? one.sizes.map((size) => h("div", {}, isSize(one) ? h("b", {}, size.after) : size.after, size.after !== size.before && size.before ? h("div.was", {}, `was ${size.before}`) : null))
+      : "–",
+    one.bounds.length ? h("span.bad", {}, one.bounds.join(", ")) : "",
+    lengthText(one.length),
+    massText(one.mass),
+    one.material ?? "–",
+  ]);
+  const hasBounds = all.some((one) => one.bounds.length);
+  const keep = (_: unknown, i: number) => i !== 3 || hasBounds;
+  const part = section(
+    result.status === "verified" ? "Build this" : "The design",
+    `All members of the ${endName(result)}; the filled outline is it, the grey one the start.`,
+    table(
+      [
+        { title: "section", left: true, short: true },
+        { title: "member", left: true, short: true },
+        { title: "size", left: true },
+        { title: "", left: true },
+        { title: "length" },
+        { title: "mass" },
+        { title: "material", left: true, short: true },
+      ].filter(keep),
+      rows.map((row) => row.filter(keep)),
+    ),
+    h("p.buttons.saves-design", {}, copy, h("button.quiet.bordered", { title: "for pleuel simulate … --design design.json", onclick: () => download("design.json", designFile(result), "application/json") }, "Download design.json")),
+  );
+  part.classList.add("build");
+  return part;
+}
