@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/eager_matrices.hpp"
+#include "core/base/find_named.hpp"
 #include "core/base/int_size.hpp"
 #include "core/base/stop.hpp"
 #include "core/base/stopwatch.hpp"
@@ -14,6 +15,7 @@
 #include "core/trust/doubts.hpp"
 #include "optimization/design/setting_text.hpp"
 #include "optimization/stored_tasks.hpp"
+#include "optimization/verdict.hpp"
 #include "sensitivity/history_gradients.hpp"
 #include "sensitivity/method_choice.hpp"
 #include "studies/missing_settings.hpp"
@@ -72,6 +74,22 @@ class Moments {
   int count_ = 0;
   Eigen::VectorXd mean_, squares_, lowest_, highest_;
 };
+
+/// Whether a value is beyond a limit by more than an optimum may be.
+bool breaks(const LimitScatter& limit, double value) {
+  const double excess = limit.is_upper ? value - limit.limit : limit.limit - value;
+  return excess > Tolerances().violation * std::abs(limit.limit);
+}
+
+LimitScatter limit_scatter(const UncertainResponse& response, bool is_upper, double limit) {
+  LimitScatter scatter;
+  scatter.is_upper = is_upper;
+  scatter.limit = limit;
+  scatter.worst = response.value + (is_upper ? response.bound : -response.bound);
+  scatter.distance = (is_upper ? limit - response.value : response.value - limit) /
+                     response.deviation;  // infinite where nothing scatters
+  return scatter;
+}
 
 /// Without values if the design could not be simulated, without histories if its steps differ.
 struct Sample {
@@ -147,8 +165,9 @@ struct SampleData {
 /// Hears of samples and sums them up, batch by batch.
 class Samples : public StoredTasks<SampleData> {
  public:
-  Samples(SampleData data, EvaluationStore* store, const SampleObserver& observer)
-      : StoredTasks(std::move(data), store), observer_(observer) {}
+  Samples(SampleData data, std::vector<LimitScatter>& limits, EvaluationStore* store,
+          const SampleObserver& observer)
+      : StoredTasks(std::move(data), store), limits_(limits), observer_(observer) {}
 
   int count() const override { return (data().size() + task_size - 1) / task_size; }
 
@@ -185,9 +204,12 @@ class Samples : public StoredTasks<SampleData> {
       return;
     }
     responses_.add(sample.values);
+    for (LimitScatter& limit : limits_)
+      limit.broken += breaks(limit, sample.values(limit.response));
     if (sample.histories.size() > 0) histories_.add(sample.histories);
   }
 
+  std::vector<LimitScatter>& limits_;
   const SampleObserver& observer_;
   std::vector<Sample> batch_;  ///< that is not yet whole
   int heard_ = 0, failures_ = 0;
@@ -226,6 +248,7 @@ class Study {
       if (response.deviation > 0.0) response.shares /= parts.squaredNorm();
       study_.responses.push_back(std::move(response));
     }
+    linearize_limits();
     linearize_histories();
     study_.gradient_seconds = stopwatch.seconds();
   }
@@ -233,7 +256,7 @@ class Study {
   void sample(const Execution& execution, const SampleObserver& observer) {
     if (settings_.samples == 0) return;
     const Stopwatch stopwatch;
-    Samples samples(sample_data(), execution.store, observer);
+    Samples samples(sample_data(), study_.limits, execution.store, observer);
     try {
       run_tasks(samples, execution.tasks);
     } catch (const Stopped&) {
@@ -248,6 +271,22 @@ class Study {
   UncertaintyStudy take() { return std::move(study_); }
 
  private:
+  void linearize_limits() {
+    const auto& constraints = with_same_steps_.constraints;
+    for (std::size_t c = 0; c < constraints.size(); ++c) {
+      const auto response = index_of_named(with_same_steps_.responses, constraints[c].response);
+      if (!response) continue;  // a limit on variables alone
+      const auto add = [&](bool is_upper, const std::optional<double>& limit) {
+        if (!limit) return;
+        study_.limits.push_back(limit_scatter(study_.responses[*response], is_upper, *limit));
+        study_.limits.back().constraint = c;
+        study_.limits.back().response = *response;
+      };
+      add(true, constraints[c].upper);
+      add(false, constraints[c].lower);
+    }
+  }
+
   /// σ(t) of every history: one value a response and instant.
   void linearize_histories() {
     study_.time = analysis_->trajectory.time;

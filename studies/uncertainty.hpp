@@ -39,10 +39,21 @@ struct UncertainHistory {
   Eigen::VectorXd sampled_deviations;  ///< by Monte Carlo; empty without
 };
 
+/// One side of a limit on a response that scatters.
+struct LimitScatter {
+  std::size_t constraint = 0, response = 0;
+  bool is_upper = true;
+  double limit = 0.0;     ///< [SI]
+  double worst = 0.0;     ///< the response with all parameters at their worst, to first order [SI]
+  double distance = 0.0;  ///< of the value to the limit in deviations; negative beyond it
+  int broken = 0;         ///< samples that break it
+};
+
 struct UncertaintyStudy {
   Eigen::VectorXd time;                      ///< of the histories [s]
   std::vector<UncertainResponse> responses;  ///< as in the problem
   std::vector<UncertainHistory> histories;   ///< of those that have one
+  std::vector<LimitScatter> limits;          ///< in the order of the file
   int samples = 0;                           ///< that could be simulated
   int failures = 0;                          ///< that could not
   bool is_interrupted = false;               ///< before all samples were simulated

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -54,11 +55,26 @@ Json response_document(const ProblemFile& problem, const UncertaintyStudy& study
   return document;
 }
 
+/// {"value", "limit", "side", "unit", "distance": in deviations, "worst", "broken": samples} [SI]
+Json limit_document(const ProblemFile& problem, const UncertaintyStudy& study,
+                    const LimitScatter& limit) {
+  Json document = {{"name", problem.constraints[limit.constraint].name},
+                   {"value", study.responses[limit.response].value},
+                   {"limit", limit.limit},
+                   {"side", limit.is_upper ? "upper" : "lower"},
+                   {"unit", unit_of(problem.responses[limit.response]).si},
+                   {"worst", limit.worst}};
+  if (std::isfinite(limit.distance)) document["distance"] = limit.distance;
+  if (study.samples > 0) document["broken"] = limit.broken;
+  return document;
+}
+
 Json make_document(const ProblemFile& problem, const UncertaintyStudy& study) {
   Json document = {
       {"status", study_status(!study.is_interrupted)},
       {"parameters", Json::object()},
       {"responses", Json::object()},
+      {"limits", Json::array()},
       {"samples", study.samples},
       {"failures", study.failures},
       {"warnings", texts_of(study.doubts)},
@@ -71,6 +87,9 @@ Json make_document(const ProblemFile& problem, const UncertaintyStudy& study) {
   }
   for (std::size_t i = 0; i < study.responses.size(); ++i) {
     document["responses"][problem.responses[i].name] = response_document(problem, study, i);
+  }
+  for (const LimitScatter& limit : study.limits) {
+    document["limits"].push_back(limit_document(problem, study, limit));
   }
   return document;
 }
@@ -170,15 +189,60 @@ std::string responses_text(const ProblemFile& problem, const UncertaintyStudy& s
   return table.text();
 }
 
+/// "the limits hold in all 200 samples; nearest: crank_strength, 4.2 deviations away"
+std::string answer_text(const ProblemFile& problem, const UncertaintyStudy& study) {
+  if (study.limits.empty()) return "";
+  const auto nearest = std::min_element(
+      study.limits.begin(), study.limits.end(),
+      [](const LimitScatter& a, const LimitScatter& b) { return a.distance < b.distance; });
+  const auto most = std::max_element(
+      study.limits.begin(), study.limits.end(),
+      [](const LimitScatter& a, const LimitScatter& b) { return a.broken < b.broken; });
+  const auto name = [&](const LimitScatter& limit) {
+    return problem.constraints[limit.constraint].name;
+  };
+  const std::string distance = fmt::format(
+      "nearest: {}, {} deviations {} its limit", name(*nearest),
+      significant(std::abs(nearest->distance), 2), nearest->distance < 0.0 ? "beyond" : "from");
+  if (study.samples == 0) return fmt::format("To first order, {}.\n\n", distance);
+  if (most->broken == 0) {
+    return fmt::format("Every limit holds in all {} samples; {}.\n\n", study.samples, distance);
+  }
+  return fmt::format("Limits are broken: {} in {} of {} samples; {}.\n\n", name(*most),
+                     most->broken, study.samples, distance);
+}
+
+/// Does it still hold? A row a limit.
+std::string limits_text(const ProblemFile& problem, const UncertaintyStudy& study) {
+  std::vector<Table::Column> columns = {
+      {"constraint", Table::Align::left}, {"value"},    {"limit"},
+      {"unit", Table::Align::left},       {"distance"}, {"at worst"}};
+  if (study.samples > 0) columns.push_back({"broken in"});
+  Table table(columns);
+  for (const LimitScatter& limit : study.limits) {
+    const ShownUnit unit = unit_of(problem.responses[limit.response]);
+    std::vector<std::string> cells = {
+        problem.constraints[limit.constraint].name,
+        significant(unit.shown(study.responses[limit.response].value)),
+        (limit.is_upper ? "≤ " : "≥ ") + significant(unit.shown(limit.limit)),
+        unit.name,
+        std::isfinite(limit.distance) ? significant(limit.distance, 3) + " σ" : "–",
+        significant(unit.shown(limit.worst))};
+    if (study.samples > 0) cells.push_back(percent(double(limit.broken) / study.samples));
+    table.add_row(std::move(cells));
+  }
+  return table.is_empty() ? "" : table.text() + "\n";
+}
+
 std::string study_text(const ProblemFile& problem, const UncertaintyStudy& study) {
   const std::size_t samples = study.samples + study.failures;
   const std::size_t all = problem.uncertainty->samples;
   std::string text = study.is_interrupted ? interrupted_text(samples, all, "samples") : "";
   text += fmt::format(
-      "{}: what uncertain parameters make of the responses, to first order\n\n{}\n{}\n"
+      "{}: what uncertain parameters make of the responses, to first order\n\n{}{}{}\n{}\n"
       "Time: gradients {}",
-      problem.name, parameters_text(problem), responses_text(problem, study),
-      duration(study.gradient_seconds));
+      problem.name, answer_text(problem, study), limits_text(problem, study),
+      parameters_text(problem), responses_text(problem, study), duration(study.gradient_seconds));
   if (samples > 0) {
     text += fmt::format("; {} samples {}", samples, duration(study.sampling_seconds));
   }

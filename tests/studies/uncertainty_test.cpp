@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
+#include "core/base/find_named.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "studies/random_numbers.hpp"
 #include "tests/studies/quick_problem.hpp"
@@ -127,6 +128,29 @@ TEST(Uncertainty, IsThatOfMonteCarlo) {
     EXPECT_LE(response.sampled->highest, response.value + 1.7 * response.bound);
     EXPECT_GE(response.sampled->lowest, response.value - 1.7 * response.bound);
   }
+}
+
+/// Limits beside the lowest and the highest sample are broken by that one; the distance and the worst
+/// follow from value, deviation and bound.
+TEST(Uncertainty, CountsTheSamplesThatBreakALimit) {
+  ProblemFile problem = uncertain_problem(
+      R"({"parameters": {"rod_diameter": {"deviation": "0.06 mm"}}, "samples": 40})");
+  const UncertaintyStudy free = uncertainty_study(problem, {.tasks = {.jobs = 2}});
+  const std::size_t bow = index_of_named(problem.responses, "rod_bow").value();
+  const UncertainResponse& response = free.responses[bow];
+  const double low = response.sampled->lowest, high = response.sampled->highest;
+  const double between = 1.5e-4 * high;  // more than a verdict allows; deviations are 0.6 %
+  problem.constraints = {{"high", "rod_bow", {}, {}, high - between},
+                         {"low", "rod_bow", {}, low + between, high + between}};
+  const UncertaintyStudy study = uncertainty_study(problem, {.tasks = {.jobs = 2}});
+  ASSERT_EQ(study.limits.size(), 3u);
+  EXPECT_EQ(study.limits[0].broken, 1);
+  EXPECT_EQ(study.limits[1].broken, 0);  // the upper side of the second
+  EXPECT_EQ(study.limits[2].broken, 1);
+  EXPECT_FALSE(study.limits[2].is_upper);
+  EXPECT_DOUBLE_EQ(study.limits[0].distance,
+                   (high - between - response.value) / response.deviation);
+  EXPECT_DOUBLE_EQ(study.limits[2].worst, response.value - response.bound);
 }
 
 /// The same numbers drawn here: where a response is straight in its one parameter, the deviation of
