@@ -9,6 +9,7 @@
 
 #include "cli/failure.hpp"
 #include "cli/input/parse_arguments.hpp"
+#include "cli/input/problem_input.hpp"
 #include "cli/input/run_setting.hpp"
 #include "cli/interruption.hpp"
 #include "cli/rank_of_job.hpp"
@@ -40,8 +41,8 @@ int report_error(ExitCode code, const std::string& whole_message, bool wants_jso
 
 /// Results in files are complete by then, or have been told of.
 int print(const Outcome& outcome, bool wants_json) {
-  const std::string failure =
-      write_all(stdout, wants_json ? to_text(outcome.document) : outcome.text);
+  const std::string failure = write_all(
+      stdout, wants_json ? to_text(outcome.document) : coloured_for(stdout, outcome.text));
   if (!failure.empty()) {
     return report_error(ExitCode::fault, "standard output cannot be written: " + failure, false);
   }
@@ -81,6 +82,7 @@ int run_program(int argc, const char* const* argv) noexcept {
     const std::optional<Arguments> parsed = parse_arguments(argc, argv);
     if (!parsed) return 0;
     arguments = *parsed;
+    require_units(arguments);
     take_setting_of_run(arguments);
     limit_threads(arguments.jobs);
     std::vector<RankPlace> others;

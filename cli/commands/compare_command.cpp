@@ -88,7 +88,7 @@ std::string inputs_text(const std::vector<Difference>& differences) {
                {"second", Table::Align::left}});
   std::size_t places = 0;
   for (const Difference& one : differences) places = std::max(places, characters(one.place));
-  const std::size_t room = line_width - std::min(line_width, places + gaps);
+  const std::size_t room = line_width() - std::min(line_width(), places + gaps);
   const std::size_t widest = std::max(narrowest, room / 2);
   for (const Difference& one : differences) {
     table.add_row({one.place, value_text(one.first, widest), value_text(one.second, widest)});

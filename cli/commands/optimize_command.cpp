@@ -158,7 +158,7 @@ Outcome run_optimize(const Arguments& arguments) {
     return document;
   };
   if (arguments.wants_all_warnings) optimum.consequences = 0;
-  show(arguments.progress(), optimum_report(optimum) +
+  show(arguments.progress(), optimum_report(optimum, arguments.is_verbose) +
                                  (answer.sizes ? sizes_text(solved, *answer.sizes, result) : "") +
                                  starts_text(solved, all) + stages_text(solution.stages));
   record.write("result.json", result_document());
@@ -176,8 +176,10 @@ Outcome run_optimize(const Arguments& arguments) {
                                         return optimum_change(*solution.problem, result, changes);
                                       }};
     mark_effects(measured, effects);
-    show(arguments.progress(),
-         examined.drives + influences_text(measured, arguments.wants_effects) + "\n");
+    if (arguments.is_verbose) show(arguments.progress(), examined.drives);
+    if (arguments.is_verbose || arguments.wants_effects) {
+      show(arguments.progress(), influences_text(measured, arguments.wants_effects) + "\n");
+    }
   }
   const std::string cut = is_whole ? "" : wrapped(fmt::format("{}\n", cut_message));
   Outcome outcome{

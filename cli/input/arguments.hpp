@@ -41,6 +41,7 @@ struct Arguments {
   std::string order = "time";       ///< of runs that are listed: "time" or "name"
   bool wants_all_warnings = false;  ///< those that follow from others, too
   Scrutiny scrutiny = Scrutiny::usual;
+  bool is_verbose = false;     ///< audit, prices, drives, effects, too
   bool wants_effects = false;  ///< what each effect brings and costs
   bool wants_json = false;
   bool wants_vtk = false;          ///< the motion as files for ParaView

@@ -77,6 +77,13 @@ void add_effects(CLI::App* command, Arguments& arguments) {
                     "list all physical effects, also those that change next to nothing");
 }
 
+void add_verbose(CLI::App* command, Arguments& arguments) {
+  command->add_flag(
+      "--verbose", arguments.is_verbose,
+      "print the audit, prices of limits, drives and effects, too; result.json and the "
+      "report have them in any case");
+}
+
 void add_accuracy(CLI::App* command, Arguments& arguments) {
   command
       ->add_option(

@@ -20,6 +20,7 @@ void add_all_warnings(CLI::App* command, Arguments& arguments);
 /// What is looked at besides the simulation.
 void add_checks(CLI::App* command, Arguments& arguments);
 void add_effects(CLI::App* command, Arguments& arguments);
+void add_verbose(CLI::App* command, Arguments& arguments);
 void add_accuracy(CLI::App* command, Arguments& arguments);
 void add_backend(CLI::App* command, Arguments& arguments);
 void add_starts(CLI::App* command, Arguments& arguments);

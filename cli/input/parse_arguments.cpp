@@ -259,6 +259,7 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   add_resume(optimize, arguments);
   add_accuracy(optimize, arguments);
   add_design(optimize, arguments);
+  add_verbose(optimize, arguments);
   add_effects(optimize, arguments);
   add_backend(optimize, arguments);
   add_starts(optimize, arguments);

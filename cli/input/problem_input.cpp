@@ -132,6 +132,19 @@ bool tries_a_design(const Arguments& arguments) {
                                          });
 }
 
+void require_units(const Arguments& arguments) {
+  if (arguments.overrides.empty()) return;
+  std::vector<std::filesystem::path> files = arguments.files;
+  if (!arguments.file.empty()) files.push_back(arguments.file);
+  for (const std::filesystem::path& file : files) {
+    if (!std::filesystem::exists(file)) continue;  // who reads it says so
+    const Json document = parse_json(whole_text(file), file.string());
+    for (const std::string& assignment : arguments.overrides) {
+      require_unit(document, assignment, file.string());
+    }
+  }
+}
+
 ProblemInput read_input(const Arguments& arguments) {
   return read_file(arguments.file, arguments);
 }

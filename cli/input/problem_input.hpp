@@ -31,6 +31,10 @@ struct ProblemInput {
 /// the command line sets [SI].
 Eigen::VectorXd design_of(const Arguments& arguments, const ProblemFile& problem);
 
+/// Of what `--set` says, before anything else is added to it.
+/// @throws InputError where it is a plain number and the file has one with a unit
+void require_units(const Arguments& arguments);
+
 /// The file of a command that takes one. @throws InputError
 ProblemInput read_input(const Arguments& arguments);
 

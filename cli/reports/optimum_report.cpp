@@ -22,10 +22,30 @@ namespace pleuel {
 
 namespace {
 
-std::string status_text(const Result& result) {
+/// "crank_strength and rod_stiffness decide": the limits that cost something; empty if none does.
+std::string deciding_text(const Optimum& optimum) {
+  if (!has_prices(optimum.result)) return "";
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < optimum.problem.constraints.size(); ++i) {
+    if (optimum.result.constraint_multipliers(i) == 0.0) continue;
+    names.push_back(limit_name(optimum.problem, i));
+  }
+  if (names.empty()) return "";
+  const std::string last = names.back();
+  names.pop_back();
+  if (names.empty()) return "; " + last + " decides";
+  return fmt::format("; {} and {} decide", fmt::join(names, ", "), last);
+}
+
+/// What was found, in words that need no theory; the audit of a verified answer is told apart.
+std::string status_text(const Optimum& optimum) {
+  const Result& result = optimum.result;
   switch (result.status) {
     case Status::verified:
-      return "VERIFIED: " + result.message;
+      if (optimum.sizes != nullptr && optimum.sizes->is_choice)
+        return "VERIFIED: " + result.message;
+      return fmt::format("VERIFIED: every limit holds{}; {}", deciding_text(optimum),
+                         neighbours_text(optimum));
     case Status::stalled:
       return "NOT VERIFIED (stalled): " + result.message;
     case Status::unresolved:
@@ -118,11 +138,11 @@ std::string limited_text(double shown) {
   return significant(std::abs(shown) < 1e-9 ? 0.0 : shown);
 }
 
-std::vector<std::string> constraint_row(const Optimum& optimum, std::size_t i) {
+std::vector<std::string> constraint_row(const Optimum& optimum, std::size_t i, bool has_price) {
   const ConstraintSettings& constraint = optimum.problem.constraints[i];
   const double value = optimum.result.evaluation.constraints(i);
   std::optional<double> multiplier;
-  if (has_prices(optimum.result)) {
+  if (has_price) {
     multiplier = optimum.problem.objective->sign() * optimum.result.constraint_multipliers(i);
   }
   const UsedLimit used = used_limit(constraint, value);
@@ -152,14 +172,14 @@ bool is_shown(const Optimum& optimum, std::size_t constraint, const std::vector<
   return !is_of_case || decides[constraint] || has_price;
 }
 
-std::string constraints_text(const Optimum& optimum) {
+std::string constraints_text(const Optimum& optimum, bool shows_prices) {
   const bool has_cases = optimum.problem.has_cases();
   std::vector<Table::Column> columns = {{"constraint", Table::Align::left},
                                         {"value"},
                                         {"limit"},
                                         {"unit", Table::Align::left},
                                         {"used"}};
-  if (has_prices(optimum.result)) {
+  if (shows_prices) {
     const ShownUnit objective_unit =
         unit_of(find_response(optimum.problem, optimum.problem.objective->response));
     columns.push_back({fmt::format("multiplier [{}/unit]", objective_unit.name)});
@@ -172,7 +192,7 @@ std::string constraints_text(const Optimum& optimum) {
   std::size_t shown = 0;
   for (std::size_t i = 0; i < optimum.problem.constraints.size(); ++i) {
     if (!is_shown(optimum, i, decides)) continue;
-    std::vector<std::string> row = constraint_row(optimum, i);
+    std::vector<std::string> row = constraint_row(optimum, i, shows_prices);
     if (has_cases) row.insert(row.begin() + 1, cases_of_limit(optimum.problem, i));
     table.add_row(std::move(row));
     ++shown;
@@ -185,11 +205,15 @@ std::string constraints_text(const Optimum& optimum) {
                    : "");
 }
 
-/// The sentence of a verified optimum gives its residuals already.
-std::string residuals_text(const Result& result) {
-  if (result.status == Status::verified) return "";
-  return fmt::format("KKT residual {}, largest violation of a limit {} (both relative)\n",
-                     magnitude(result.kkt_residual), magnitude(result.max_violation));
+/// Residuals and what was checked.
+std::string audit_text(const Optimum& optimum) {
+  const Result& result = optimum.result;
+  if (result.status != Status::verified) {
+    return fmt::format("KKT residual {}, largest violation of a limit {} (both relative)\n",
+                       magnitude(result.kkt_residual), magnitude(result.max_violation));
+  }
+  return wrapped("Audit: " + result.message + ".", "  ") + "\n" +
+         wrapped("In plain words: " + plain_verdict(optimum) + ".", "  ") + "\n";
 }
 
 std::string effort_text(const Optimum& optimum) {
@@ -211,16 +235,16 @@ std::string name_of_end(const std::string& status) {
   return status == to_string(Status::verified) ? "optimum" : "end";
 }
 
-std::string optimum_report(const Optimum& optimum) {
-  std::string status = "\n" + wrapped(status_text(optimum.result)) + "\n";
-  const std::string plain = plain_verdict(optimum);
-  if (!plain.empty()) status += wrapped("In plain words: " + plain + ".", "  ") + "\n";
+std::string optimum_report(const Optimum& optimum, bool is_verbose) {
+  const std::string status = "\n" + wrapped(status_text(optimum)) + "\n";
   if (!optimum.has_design()) return status;
-  return status + "\n" + objective_text(optimum) +
+  const bool shows_prices = is_verbose && has_prices(optimum.result);
+  const bool shows_audit = is_verbose || optimum.result.status != Status::verified;
+  return status + objective_text(optimum) +
          wrapped(objective_in_cases(optimum.problem, optimum.result), "  ") + "\n" +
-         variables_text(optimum) + constraints_text(optimum) + "\n" +
-         warnings_text(optimum.warnings, optimum.consequences) + residuals_text(optimum.result) +
-         effort_text(optimum);
+         variables_text(optimum) + constraints_text(optimum, shows_prices) + "\n" +
+         warnings_text(optimum.warnings, optimum.consequences) +
+         (shows_audit ? audit_text(optimum) : "") + effort_text(optimum);
 }
 
 }  // namespace pleuel

@@ -10,7 +10,8 @@ namespace pleuel {
 /// @param status  as in result.json
 std::string name_of_end(const std::string& status);
 
-/// The result of `optimize` for people: status, objective, variables, constraints, evidence.
-std::string optimum_report(const Optimum& optimum);
+/// The result of `optimize` for people: verdict, objective, dimensions, limits, what speaks against it.
+/// @param is_verbose  with the audit and the prices of limits
+std::string optimum_report(const Optimum& optimum, bool is_verbose);
 
 }  // namespace pleuel

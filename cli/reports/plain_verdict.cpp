@@ -19,6 +19,20 @@ std::string better_text(const ProblemFile& problem) {
   return fmt::format("has a {} {}", is_minimized ? "smaller" : "larger", response.name);
 }
 
+std::string accuracy_text(const Optimum& optimum) {
+  const std::string& name = optimum.problem.objective->response;
+  const double value = optimum.result.evaluation.objective;
+  if (!optimum.result.error || !optimum.result.error->is_resolved() || value == 0.0) {
+    return "how exact the simulation is was not looked at";
+  }
+  const double bound = optimum.result.error->bound();
+  if (bound == 0.0) return fmt::format("{} is exact", name);
+  return fmt::format("steps and elements change {} by {} % at most", name,
+                     significant(100.0 * bound / std::abs(value), 2));
+}
+
+}  // namespace
+
 std::string neighbours_text(const Optimum& optimum) {
   const std::string better = better_text(optimum.problem);
   if (optimum.sizes == nullptr || !optimum.sizes->is_choice) {
@@ -35,20 +49,6 @@ std::string neighbours_text(const Optimum& optimum) {
       "exchanged for {}; the others were not tried",
       sizes.tried, better, sizes.are_lists_tried ? "another" : "the next");
 }
-
-std::string accuracy_text(const Optimum& optimum) {
-  const std::string& name = optimum.problem.objective->response;
-  const double value = optimum.result.evaluation.objective;
-  if (!optimum.result.error || !optimum.result.error->is_resolved() || value == 0.0) {
-    return "how exact the simulation is was not looked at";
-  }
-  const double bound = optimum.result.error->bound();
-  if (bound == 0.0) return fmt::format("{} is exact", name);
-  return fmt::format("steps and elements change {} by {} % at most", name,
-                     significant(100.0 * bound / std::abs(value), 2));
-}
-
-}  // namespace
 
 std::string plain_verdict(const Optimum& optimum) {
   if (optimum.result.status != Status::verified) return "";

@@ -40,7 +40,7 @@ std::string error_text(const TriedSetting& setting) {
 }  // namespace
 
 Json overrides_document(const Json& effective, const ProblemFile& divided) {
-  Json overrides = {{"/simulation/step", divided.simulation.step}};
+  Json overrides = {{"/simulation/step", fmt::format("{} s", divided.simulation.step)}};
   if (divided.effects.tolerance > 0.0) {
     overrides["/effects/tolerance"] = divided.effects.tolerance;
   }

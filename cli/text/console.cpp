@@ -1,8 +1,13 @@
 #include "cli/text/console.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
+#include <string_view>
+#include <utility>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -18,8 +23,50 @@ void prepare_streams() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
+namespace {
+
+/// Words that are seen first, and their colours (ECMA-48, SGR).
+constexpr std::array<std::pair<std::string_view, const char*>, 7> word_colours = {{
+    {"VERIFIED", "32"},
+    {"NOT VERIFIED", "33"},
+    {"INTERRUPTED", "33"},
+    {"FAILED", "31"},
+    {"BROKEN", "31"},
+    {"Warning:", "33"},
+    {"error:", "31"},
+}};
+
+bool takes_colours(std::FILE* out) {
+  const char* refused = std::getenv("NO_COLOR");
+  const char* terminal = std::getenv("TERM");
+  const bool is_dumb = terminal != nullptr && std::string_view(terminal) == "dumb";
+  return ::isatty(::fileno(out)) == 1 && !is_dumb && (refused == nullptr || *refused == '\0');
+}
+
+}  // namespace
+
+std::string coloured(const std::string& text) {
+  std::string shown;
+  for (std::size_t i = 0; i < text.size();) {
+    const auto word = std::find_if(word_colours.begin(), word_colours.end(), [&](const auto& one) {
+      return text.compare(i, one.first.size(), one.first) == 0;
+    });
+    if (word == word_colours.end()) {
+      shown += text[i++];
+      continue;
+    }
+    shown += std::string("\033[1;") + word->second + "m" + std::string(word->first) + "\033[0m";
+    i += word->first.size();
+  }
+  return shown;
+}
+
+std::string coloured_for(std::FILE* out, const std::string& text) {
+  return takes_colours(out) ? coloured(text) : text;
+}
+
 void show(std::FILE* out, const std::string& text) {
-  std::fputs(text.c_str(), out);
+  std::fputs(coloured_for(out, text).c_str(), out);
   std::fflush(out);
 }
 

@@ -10,7 +10,14 @@ namespace pleuel {
 /// their number and their text, and turns signals of failed writing into errors of that writing.
 void prepare_streams();
 
-/// Shows progress, at once. What cannot be written is left out: the work is worth more.
+/// The text with colours of verdicts, broken limits and warnings (ECMA-48).
+std::string coloured(const std::string& text);
+
+/// The same where `out` is a terminal and NO_COLOR is not set; else the text.
+std::string coloured_for(std::FILE* out, const std::string& text);
+
+/// Shows progress, at once, in colours on a terminal. What cannot be written is
+/// left out: the work is worth more.
 void show(std::FILE* out, const std::string& text);
 
 /// @returns why the text could not be written as a whole; empty if it could. A pipe that nobody

@@ -51,8 +51,8 @@ std::vector<std::size_t> Table::widths() const {
   const std::size_t whole = total(widths, all(widths.size()));
   const bool ends_with_text = !columns_.empty() && columns_.back().align == Align::left;
   const std::size_t before = widths.empty() ? 0 : whole - widths.back();
-  if (whole > line_width && ends_with_text && before + narrow_text <= line_width) {
-    widths.back() = line_width - before;
+  if (whole > line_width() && ends_with_text && before + narrow_text <= line_width()) {
+    widths.back() = line_width() - before;
   }
   return widths;
 }
@@ -64,7 +64,7 @@ std::vector<std::vector<std::size_t>> Table::blocks(const std::vector<std::size_
     std::vector<std::size_t> wider = blocks.back();
     wider.push_back(i);
     const bool is_first = blocks.back().size() == keys.size();
-    if (total(widths, wider) > line_width && !is_first) {
+    if (total(widths, wider) > line_width() && !is_first) {
       blocks.push_back(keys);
       blocks.back().push_back(i);
     } else {

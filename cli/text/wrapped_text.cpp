@@ -1,12 +1,24 @@
 #include "cli/text/wrapped_text.hpp"
 
 #include <algorithm>
+#include <cstdlib>
+
+#include <sys/ioctl.h>
+#include <unistd.h>
 
 #include "cli/text/characters.hpp"
 
 namespace pleuel {
 
 namespace {
+
+/// 0 where nobody says.
+std::size_t known_width() {
+  winsize size{};
+  if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
+  const char* columns = std::getenv("COLUMNS");
+  return columns == nullptr ? 0 : std::strtoul(columns, nullptr, 10);
+}
 
 std::string wrapped_line(const std::string& line, const std::string& indent, std::size_t width) {
   std::string text;
@@ -30,6 +42,14 @@ std::string wrapped_line(const std::string& line, const std::string& indent, std
 }
 
 }  // namespace
+
+std::size_t line_width() {
+  static const std::size_t width = [] {
+    const std::size_t known = known_width();
+    return known == 0 ? 100 : std::clamp<std::size_t>(known, 80, 160);
+  }();
+  return width;
+}
 
 std::string wrapped(const std::string& text, const std::string& indent, std::size_t width) {
   std::string result;

@@ -5,13 +5,14 @@
 
 namespace pleuel {
 
-/// Characters in a line of what people read.
-inline constexpr std::size_t line_width = 100;
+/// Characters in a line of what people read: of the terminal that standard output is, or as many as
+/// COLUMNS says, at least 80 and at most 160; 100 where nobody says.
+std::size_t line_width();
 
 /// The text with line breaks between words, so that no line is longer than `width` characters where
 /// words allow that. Lines that are in it already stay apart.
 /// @param indent  what the lines begin with that are added
 std::string wrapped(const std::string& text, const std::string& indent = "",
-                    std::size_t width = line_width);
+                    std::size_t width = line_width());
 
 }  // namespace pleuel

@@ -30,15 +30,16 @@ TEST(BadInput, MissingFileIsNamed) {
 }
 
 TEST(BadInput, WrongValueIsNamedByItsPointer) {
-  expect_complaint({"simulate", problem("slider_crank_round"), "--set", "/simulation/step=-1"},
+  expect_complaint({"simulate", problem("slider_crank_round"), "--set", "/simulation/step=-1 s"},
                    "/simulation/step");
 }
 
 /// Commands that simulate, and those that only look at instants.
 TEST(BadInput, StepsThatNoMachineHoldsAreRefusedBeforeAnyLoop) {
   for (const char* command : {"show", "simulate", "optimize"}) {
-    expect_complaint({command, problem("slider_crank_round"), "--set", "/simulation/step=1.2e-10"},
-                     "but the machine has");
+    expect_complaint(
+        {command, problem("slider_crank_round"), "--set", "/simulation/step=1.2e-10 s"},
+        "but the machine has");
   }
 }
 
@@ -64,7 +65,7 @@ TEST(BadInput, SeveralMistakesAreALineEach) {
   const ProgramRun run =
       run_program(TemporaryFolder().path(),
                   {"simulate", problem("slider_crank"), "--set", "/scene/bodies/crank/elements=0",
-                   "--set", "/scene/bodies/rod/elements=0", "--set", "/simulation/step=-1"});
+                   "--set", "/scene/bodies/rod/elements=0", "--set", "/simulation/step=-1 s"});
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.err, AllOf(StartsWith("pleuel: 3 mistakes:\n"),
                              HasSubstr("\n" + problem("slider_crank") +
@@ -72,6 +73,18 @@ TEST(BadInput, SeveralMistakesAreALineEach) {
                              HasSubstr(": /scene/bodies/rod/elements must be "),
                              HasSubstr(": /simulation/step must be ")));
   EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 4);
+}
+
+/// 0.1 in place of "0.2 mm" would be 100 mm.
+TEST(BadInput, OverrideWithoutTheUnitOfTheFileHasTwoReadings) {
+  expect_complaint(
+      {"simulate", problem("slider_crank"), "--set", "/constraints/rod_stiffness/upper=0.1"},
+      "the file has \"0.2 mm\" there: write \"0.1 mm\", or \"100 mm\" if the number is in SI");
+  expect_complaint({"simulate", problem("slider_crank"), "--set", "rod_height=0.012"},
+                   "write \"0.012 mm\", or \"12 mm\" if");
+  // A number in place of a number says what it is.
+  expect_complaint({"simulate", problem("slider_crank"), "--set", "/scene/bodies/rod/elements=0"},
+                   "/scene/bodies/rod/elements must be");
 }
 
 TEST(BadInput, OverrideOfNothingIsRefused) {

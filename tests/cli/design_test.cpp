@@ -284,7 +284,7 @@ TEST_F(RoundedDesign, IsAFileOfNamesAndValues) {
 
 /// A value on the command line stands above that of the file.
 TEST_F(RoundedDesign, IsOnTheCommandLineByTheNamesOfVariables) {
-  EXPECT_EQ(values(simulate({"--set", "crank_length=55 mm", "--set", "rod_height=0.02"})),
+  EXPECT_EQ(values(simulate({"--set", "crank_length=55 mm", "--set", "rod_height=20 mm"})),
             nlohmann::json({0.055, 0.02}));
   const std::string file = design(R"({"crank_length": "50 mm", "rod_height": "20 mm"})");
   EXPECT_EQ(values(simulate({"--design", file, "--set", "crank_length=55 mm"})),

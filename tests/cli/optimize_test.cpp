@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
@@ -42,6 +43,29 @@ TEST(Optimize, GivesADocumentWithTheDocumentedKeys) {
     EXPECT_GE(variable.at("value"), variable.at("lower")) << name;
     EXPECT_LE(variable.at("value"), variable.at("upper")) << name;
   }
+}
+
+/// A screen of 80 columns and 40 lines has the whole answer; --verbose has the audit, too.
+TEST(Optimize, FitsAScreen) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> words = {"optimize", problem("slider_crank"), "--set",
+                                          "/simulation/step=0.2 ms"};
+  ::setenv("COLUMNS", "80", 1);
+  const ProgramRun run = run_program(folder.path(), joined(words, {"-o", "one"}));
+  ::unsetenv("COLUMNS");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  std::istringstream lines(run.out);
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count) {
+    const auto is_first = [](char c) { return (c & 0xC0) != 0x80; };  // of a UTF-8 character
+    EXPECT_LE(std::count_if(line.begin(), line.end(), is_first), 80) << line;
+  }
+  EXPECT_LE(count, 40);
+  EXPECT_THAT(run.out,
+              AllOf(HasSubstr("\nVERIFIED: every limit holds; "), Not(HasSubstr("Audit: "))));
+  const ProgramRun verbose = run_program(folder.path(), joined(words, {"--verbose", "-o", "two"}));
+  EXPECT_THAT(verbose.out, AllOf(HasSubstr("\nAudit: a local optimum: "),
+                                 HasSubstr("at +1 % limit"), HasSubstr("\nDrive bearing: ")));
 }
 
 /// Whatever makes the gradients, the optimum is the same: within the tolerance of the optimizer.
@@ -172,7 +196,7 @@ TEST(Optimize, CannotVerifyWhatNoDesignCanKeep) {
   const TemporaryFolder folder;
   const ProgramRun run =
       run_program(folder.path(),
-                  quick_optimization({"--json", "--set", "/constraints/rod_stiffness/upper=1e-12",
+                  quick_optimization({"--json", "--set", "/constraints/rod_stiffness/upper=1e-12 m",
                                       "--set", "/optimizer/max_iterations=10"}));
   EXPECT_EQ(run.exit_code, 4) << run.err;
   const nlohmann::json document = run.document();
@@ -229,7 +253,7 @@ TEST(Optimize, SaysWhereLinearElasticityIsLeft) {
   const TemporaryFolder folder;
   const ProgramRun run =
       run_program(folder.path(), {"optimize", problem("hard/soft_rod"), "--set",
-                                  "/scene/joints/bearing/drive/speed=30", "--set",
+                                  "/scene/joints/bearing/drive/speed=30 rad/s", "--set",
                                   R"(/objective={"minimize": "rod_bow"})", "--set",
                                   R"(/optimizer={"max_iterations": 1})"});
   EXPECT_THAT(unwrapped(run.out), HasSubstr("too far for linear elasticity"));

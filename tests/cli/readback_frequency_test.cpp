@@ -28,8 +28,10 @@ class ReadBackFrequency : public testing::Test {
  protected:
   ReadBackFrequency() { std::ofstream(folder_.path() / "cantilever.json") << cantilever; }
 
-  std::pair<std::string, json> run(const std::string& command) const {
-    const ProgramRun run = run_program(folder_.path(), {command, "cantilever.json", "-o", command});
+  std::pair<std::string, json> run(const std::string& command,
+                                   const std::vector<std::string>& more = {}) const {
+    const ProgramRun run =
+        run_program(folder_.path(), joined({command, "cantilever.json", "-o", command}, more));
     EXPECT_EQ(run.exit_code, 0) << run.err;
     return {run.out, json::parse(read_file(folder_.path() / command / "result.json"))};
   }
@@ -59,7 +61,7 @@ TEST_F(ReadBackFrequency, IsShownInHertz) {
 }
 
 TEST_F(ReadBackFrequency, LimitsAnOptimumInHertz) {
-  const auto [text, document] = run("optimize");
+  const auto [text, document] = run("optimize", {"--verbose"});
   const double diameter = 0.040 * 40 / hertz_of(0.040);
   EXPECT_NEAR(document.at("variables").at("d").at("value"), diameter, 1e-4 * diameter);
   const TextTable table(text, "constraint");

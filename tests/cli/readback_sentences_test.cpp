@@ -148,7 +148,7 @@ TEST(ReadBackSentences, OfWhatEffectsBringInGrams) {
 /// Without --effects the table has the effects that matter by the numbers of the document: more than
 /// 0.1 % of a response or of the optimum. A sentence counts the rest.
 TEST(ReadBackSentences, OfWhichEffectsMatter) {
-  const Report report = run({"optimize", file});
+  const Report report = run({"optimize", file, "--verbose"});
   const json& document = report.document;
   const json limits = json::parse(read_file(file)).at("constraints");
   const std::string text = unwrapped(report.text);
@@ -186,7 +186,7 @@ TEST(ReadBackSentences, OfWhichEffectsMatter) {
 
 /// The verdict in plain words has the error that the document has.
 TEST(ReadBackSentences, OfAVerdictInPlainWords) {
-  const Report report = run({"optimize", file});
+  const Report report = run({"optimize", file, "--verbose"});
   const std::string checked = report.document.at("checked");
   EXPECT_THAT(unwrapped(report.text), testing::HasSubstr("In plain words: " + checked + "."));
   EXPECT_THAT(checked, testing::HasSubstr("every limit holds; no design nearby that keeps them is "

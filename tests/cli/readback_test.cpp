@@ -115,7 +115,7 @@ TEST(ReadBack, OfGradient) {
 
 class ReadBackOptimum : public testing::Test {
  protected:
-  const Report report_ = run({"optimize", file});
+  const Report report_ = run({"optimize", file, "--verbose"});
   const json& document_ = report_.document;
 };
 
@@ -174,7 +174,7 @@ TEST_F(ReadBackOptimum, Constraints) {
 /// A lower limit: raising it costs.
 TEST(ReadBack, OfALowerLimit) {
   const Report report =
-      run({"optimize", file, "--set",
+      run({"optimize", file, "--verbose", "--set",
            R"(/constraints={"least": {"response": "crank_and_rod", "lower": "1000 g"}})", "--set",
            R"(/pareto={"constraint": "least", "from": "1 kg", "to": "2 kg"})"});
   const TextTable table(report.text, "constraint");

@@ -54,8 +54,9 @@ class OptimizationReport : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = std::make_unique<TemporaryFolder>();
-    run_ = run_program(folder_->path(),
-                       joined({"optimize", problem("slider_crank_round"), "-o", "one"}, quick()));
+    run_ = run_program(
+        folder_->path(),
+        joined({"optimize", problem("slider_crank_round"), "--verbose", "-o", "one"}, quick()));
   }
   static void TearDownTestSuite() { folder_.reset(); }
 

@@ -94,7 +94,7 @@ TEST(RunFolder, ResultSaysWhereLinearElasticityIsLeft) {
   const TemporaryFolder folder;
   const ProgramRun run =
       run_program(folder.path(), {"simulate", problem("hard/soft_rod"), "-o", "soft", "--set",
-                                  "/scene/joints/bearing/drive/speed=30"});
+                                  "/scene/joints/bearing/drive/speed=30 rad/s"});
   EXPECT_THAT(unwrapped(run.out), HasSubstr("too far for linear elasticity"));
   EXPECT_THAT(simulate_into(folder, "one").out, ::testing::Not(HasSubstr("linear elasticity")));
 }
@@ -159,7 +159,7 @@ TEST(RunFolder, OfAnOlderRunOutlivesBadInput) {
   const std::string result = read_file(folder.path() / "one/result.json");
   for (
       const std::string bad :
-      {"/simulation/step=-1", "/responses/crank_stress/from=19.99 ms",
+      {"/simulation/step=-1 s", "/responses/crank_stress/from=19.99 ms",
        R"(/constraints/crank_strength={"response": "crank_stress", "lower": 1e8, "upper": 1e8})"}) {
     const ProgramRun run = run_program(folder.path(), joined(good, {"--set", bad}));
     EXPECT_EQ(run.exit_code, 2) << bad << run.err;

@@ -14,7 +14,7 @@ using ::testing::Not;
 
 /// Rubber at 30 rad/s: bends by far more than linear elasticity describes.
 const std::vector<std::string> too_soft = {problem("hard/soft_rod"), "--set",
-                                           "/scene/joints/bearing/drive/speed=30", "--set",
+                                           "/scene/joints/bearing/drive/speed=30 rad/s", "--set",
                                            "/simulation/end_time=0.6 s"};
 
 std::vector<std::string> words(const std::string& command, const std::vector<std::string>& more) {
@@ -44,12 +44,12 @@ TEST(Warnings, OfADesignThatBendsTooFarAreShownByEveryCommandWithNumbers) {
 /// A limit of 150 where 150 MPa are meant: told with the first design, before the search.
 TEST(Warnings, OfALimitWithoutItsUnitComeBeforeTheSearch) {
   const TemporaryFolder folder;
-  const ProgramRun run =
-      run_program(folder.path(),
-                  {"optimize", problem("slider_crank_round"), "-o", "run", "--no-report", "--set",
-                   "/constraints/crank_strength/upper=150", "--set", "/optimizer/max_iterations=1",
-                   "--set", "/simulation/step=0.5 ms", "--set", "/simulation/end_time=20 ms",
-                   "--set", "/scene/joints/bearing/drive/ramp=20 ms"});
+  const ProgramRun run = run_program(
+      folder.path(),
+      {"optimize", problem("slider_crank_round"), "-o", "run", "--no-report", "--set",
+       "/constraints/crank_strength/upper=150 Pa", "--set", "/optimizer/max_iterations=1", "--set",
+       "/simulation/step=0.5 ms", "--set", "/simulation/end_time=20 ms", "--set",
+       "/scene/joints/bearing/drive/ramp=20 ms"});
   const std::string text = unwrapped(run.err);
   EXPECT_THAT(text, HasSubstr("Warning: at the start the limit of \"crank_strength\" is 150 Pa"));
   EXPECT_THAT(text, HasSubstr("Is a unit missing"));

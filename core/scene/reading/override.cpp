@@ -10,6 +10,7 @@
 
 #include "core/base/error.hpp"
 #include "core/scene/reading/suggestion.hpp"
+#include "core/scene/units.hpp"
 
 namespace pleuel {
 namespace {
@@ -21,6 +22,35 @@ constexpr std::array optional_blocks = {
 
 /// The same within the scene.
 constexpr std::array scene_blocks = {"joints", "loads", "materials"};
+
+/// JSON, or a text.
+Json read_value(const std::string& text) {
+  try {
+    return parse_json(text, "");
+  } catch (const InputError&) {
+    return Json(text);
+  }
+}
+
+/// Of a number with a unit, "0.2 mm": "mm"; empty if the text is something else.
+std::string unit_of_text(const std::string& text) {
+  double number = 0.0;
+  const char* end = text.data() + text.size();
+  const auto [rest, status] = std::from_chars(text.data(), end, number);
+  if (status != std::errc()) return "";
+  const std::string unit(std::find_if(rest, end, [](char c) { return c != ' '; }), end);
+  if (unit.empty()) return "";
+  try {
+    UnitSystem().measure(unit);
+    return unit;
+  } catch (const UnitError&) {
+    return "";
+  }
+}
+
+std::string shortest(double number) {
+  return fmt::format("{:.6g}", number);
+}
 
 /// One assignment on its way down the document.
 class Override {
@@ -122,14 +152,6 @@ class Override {
     return pointer.empty() ? "the problem" : pointer;
   }
 
-  static Json read_value(const std::string& text) {
-    try {
-      return parse_json(text, "");
-    } catch (const InputError&) {
-      return Json(text);
-    }
-  }
-
   const std::string whose_;
   const std::string& file_;
 };
@@ -138,6 +160,24 @@ class Override {
 
 void apply_override(Json& document, const std::string& assignment, const std::string& file) {
   Override("--set " + assignment, file).apply(document, assignment);
+}
+
+void require_unit(const Json& document, const std::string& assignment, const std::string& file) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string::npos) return;
+  const Json value = read_value(assignment.substr(equals + 1));
+  const Json::json_pointer place(assigned_pointer(assignment));
+  if (!value.is_number() || value == 0 || !document.contains(place)) return;
+  const Json& written = document.at(place);
+  const std::string unit = written.is_string() ? unit_of_text(written) : "";
+  if (unit.empty()) return;
+  const double number = value.get<double>();
+  throw InputError(
+      fmt::format("{}: --set {}: the file has \"{}\" there: write \"{} {}\", or \"{} {}\" if the "
+                  "number is in SI "
+                  "units",
+                  file, assignment, written.get<std::string>(), shortest(number), unit,
+                  shortest(number / UnitSystem().measure(unit).scale), unit));
 }
 
 void replace_at(Json& document, const std::string& pointer, const Json& value,

@@ -19,6 +19,11 @@ void apply_override(Json& document, const std::string& assignment, const std::st
 void replace_at(Json& document, const std::string& pointer, const Json& value,
                 const std::string& whose, const std::string& file);
 
+/// Of people's assignments: "0.1" in place of "0.2 mm" may mean 0.1 mm, or 0.1 m as the number in SI
+/// that it is.
+/// @throws InputError with both if the assignment is a number and the document has one with a unit
+void require_unit(const Json& document, const std::string& assignment, const std::string& file);
+
 /// What stands before the "=" of an assignment, without spaces around it: a pointer, or the name of
 /// a variable.
 std::string assigned_place(const std::string& assignment);
