@@ -178,21 +178,27 @@ class BodySampler {
 
 }  // namespace
 
-Motion sample_motion(const Scene& scene, const Analysis& analysis, const std::vector<int>& steps) {
-  const Eigen::Index instants = steps.size();
+Motion sample_motion(const Scene& scene, const Model& model, const Eigen::VectorXd& time,
+                     const std::function<void(Eigen::Index, State&)>& state_at) {
   std::vector<BodySampler> samplers;
-  for (const Body& body : scene.bodies) samplers.emplace_back(body, analysis.model, instants);
-  Motion motion;
-  motion.time.resize(instants);
-  State state;
-  for (Eigen::Index i = 0; i < instants; ++i) {
-    const int step = steps[i];
-    motion.time(i) = analysis.trajectory.time(step);
-    analysis.trajectory.states->load(step, state);
+  for (const Body& body : scene.bodies) samplers.emplace_back(body, model, time.size());
+  State state(model.mechanism.system->coordinates(), model.mechanism.system->multipliers());
+  for (Eigen::Index i = 0; i < time.size(); ++i) {
+    state_at(i, state);
     for (BodySampler& sampler : samplers) sampler.see(state, i);
   }
+  Motion motion;
+  motion.time = time;
   for (BodySampler& sampler : samplers) motion.bodies.push_back(sampler.take());
   return motion;
+}
+
+Motion sample_motion(const Scene& scene, const Analysis& analysis, const std::vector<int>& steps) {
+  Eigen::VectorXd time(std::ssize(steps));
+  for (Eigen::Index i = 0; i < time.size(); ++i) time(i) = analysis.trajectory.time(steps[i]);
+  return sample_motion(scene, analysis.model, time, [&](Eigen::Index i, State& state) {
+    analysis.trajectory.states->load(steps[i], state);
+  });
 }
 
 }  // namespace pleuel

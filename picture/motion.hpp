@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,12 @@ struct Motion {
   Eigen::VectorXd time;           ///< [s]
   std::vector<BodyTrack> bodies;  ///< in the order of the scene
 };
+
+/// The motion through states that are given.
+/// @param time      of each of them [s]
+/// @param state_at  fills in the i-th
+Motion sample_motion(const Scene& scene, const Model& model, const Eigen::VectorXd& time,
+                     const std::function<void(Eigen::Index, State&)>& state_at);
 
 /// The motion of a simulation at some of its steps.
 /// @param steps  ascending

@@ -171,7 +171,7 @@ Outcome run_accuracy(const Arguments& arguments) {
   const OptimumStudy* optima = answer.optima ? &*answer.optima : nullptr;
   Outcome outcome{answer.is_interrupted() ? ExitCode::not_verified : ExitCode::done,
                   accuracy_document(input, answer.study),
-                  accuracy_text(problem, answer.study, optima)};
+                  accuracy_text(problem, answer.study, optima, arguments.is_verbose)};
   if (optima != nullptr) add_optima(input, *optima, outcome.document);
   if (answer.is_interrupted()) outcome.document["status"] = study_status(false);
   outcome.text += "\n";

@@ -8,7 +8,11 @@
 #include <fmt/format.h>
 
 #include "cli/commands/commands.hpp"
+#include "cli/commands/older_picture.hpp"
 #include "cli/files/older_run.hpp"
+#include "cli/files/output_file.hpp"
+#include "cli/files/report_page.hpp"
+#include "cli/files/run_folder.hpp"
 #include "cli/text/characters.hpp"
 #include "cli/text/table.hpp"
 #include "cli/text/wrapped_text.hpp"
@@ -309,6 +313,52 @@ std::string outcomes_text(const OlderRun& first, const OlderRun& second,
   return table.text();
 }
 
+/// The last design of each run, which the page lets move together.
+Json both_pictures(const OlderRun& first, const OlderRun& second, Notes& notes) {
+  Json picture = picture_of_run(first.card, first.result, first.folder, notes);
+  Json other = picture_of_run(second.card, second.result, second.folder, notes);
+  if (picture.is_object() && other.is_object()) picture["compared"] = std::move(other);
+  return picture;
+}
+
+Json compared_run(const OlderRun& run) {
+  Json document = {{"folder", run.folder.string()},
+                   {"command", run.command()},
+                   {"problem", run.problem()},
+                   {"status", run.status()}};
+  if (run.objective()) document["objective"] = run.result.at("objective");
+  return document;
+}
+
+/// A page of both, where pages can be made.
+void write_page(const Arguments& arguments, const OlderRun& first, const OlderRun& second,
+                Outcome& outcome) {
+  const auto page_template = find_report_template();
+  if (!page_template) return;
+  Json picture, result = outcome.document;
+  Notes notes;
+  try {
+    picture = both_pictures(first, second, notes);
+  } catch (const std::exception& error) {
+    outcome.text +=
+        wrapped(fmt::format("Note: the mechanisms are not shown: {}\n", error.what()), "  ");
+  }
+  result["runs"] = {compared_run(first), compared_run(second)};
+  const Json card = {{"command", "compare"},
+                     {"arguments", arguments.words},
+                     {"problem", second.card.value("problem", Json())},
+                     {"input", {{"file", first.folder.string() + ", " + second.folder.string()}}}};
+  const std::filesystem::path page = arguments.output.value_or(free_page("compare"));
+  make_folder_of(page);
+  WriteFailures failures;
+  if (write_file({page, &failures},
+                 report_page(*page_template, report_data(card, result, picture, "")))) {
+    outcome.document["page"] = page.string();
+    outcome.text += fmt::format("\nDrawn in {}\n", page.string());
+  }
+  outcome.unwritten = failures.files();
+}
+
 }  // namespace
 
 Outcome run_compare(const Arguments& arguments) {
@@ -338,6 +388,7 @@ Outcome run_compare(const Arguments& arguments) {
       fmt::format("first: {}, second: {}\n\n{}\n{}", first.folder.string(), second.folder.string(),
                   inputs.empty() ? same_inputs_text(first, second) : inputs_text(inputs),
                   outcomes_text(first, second, values));
+  write_page(arguments, first, second, outcome);
   return outcome;
 }
 

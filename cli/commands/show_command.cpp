@@ -7,6 +7,7 @@
 #include "cli/files/report_page.hpp"
 #include "cli/files/run_folder.hpp"
 #include "cli/files/run_picture.hpp"
+#include "cli/files/run_record.hpp"
 #include "cli/input/problem_input.hpp"
 #include "cli/reports/effects_report.hpp"
 #include "cli/reports/first_steps.hpp"
@@ -25,6 +26,7 @@
 #include "core/trust/doubts.hpp"
 #include "core/trust/idle_freedoms.hpp"
 #include "core/trust/proportions.hpp"
+#include "picture/rigid_motion.hpp"
 
 /// The mechanism as the file places it, before anything is simulated.
 namespace pleuel {
@@ -37,6 +39,7 @@ namespace fs = std::filesystem;
 struct Shown {
   Json document;
   std::string text;
+  Motion motion;  ///< of rigid bodies; empty where they cannot be assembled or nothing is driven
 };
 
 /// DegreesOfFreedom and size of the mechanism, if it can be assembled.
@@ -52,8 +55,10 @@ void add_assembly(const ProblemFile& problem, Model& model, Shown& shown,
     freedoms.blocked = blocked_drives(model.mechanism, start, drive_rows(model));
     const std::string blocked = blocked_drives_text(model, start);
     if (!blocked.empty()) warnings.push_back(blocked);
-    const RigidPath path =
-        follow_drives(model, problem.simulation.end_time, problem.simulation.step);
+    RigidMotion rigid =
+        rigid_motion(problem.scene, model, problem.simulation.end_time, problem.simulation.step);
+    const RigidPath& path = rigid.path;
+    if (rigid.motion.time.size() > 1) shown.motion = std::move(rigid.motion);
     if (path.end == RigidPath::End::locks) {
       warnings.insert(warnings.begin(), lock_text(model, path));
       shown.document["lock"] = {{"time", path.time}, {"gap", path.gap}};
@@ -120,16 +125,6 @@ Shown describe(const ProblemFile& problem, const Eigen::VectorXd& x) {
   return shown;
 }
 
-/// FILE-show.html, or with a number if that is there.
-fs::path free_page(const fs::path& file) {
-  const std::string stem = file.stem().string() + "-show";
-  fs::path page = fs::path("runs") / (stem + ".html");
-  for (int number = 2; fs::exists(page); ++number) {
-    page = fs::path("runs") / fmt::format("{}-{}.html", stem, number);
-  }
-  return page;
-}
-
 /// Without a template of pages: all but the drawing.
 Outcome show_in_words(const Arguments& arguments, const ProblemInput& input) {
   const std::string reason =
@@ -142,20 +137,44 @@ Outcome show_in_words(const Arguments& arguments, const ProblemInput& input) {
 
 }  // namespace
 
+namespace {
+
+Json picture_of(const Arguments& arguments, const ProblemInput& input, const Motion& motion) {
+  ShownDesign design{arguments.design ? "design" : "start", input.design};
+  if (motion.time.size() > 0) design.rigid = &motion;
+  return run_picture(input.problem, {design});
+}
+
+/// Into a run folder, as of other commands.
+Outcome show_in_folder(const Arguments& arguments, const ProblemInput& input) {
+  RunRecord record(arguments, input, Json::object());
+  record.begin_phase("show");
+  Shown shown = describe(input.problem, input.design);
+  record.write("result.json", shown.document);
+  record.show_picture([&] { return picture_of(arguments, input, shown.motion); });
+  Outcome outcome{ExitCode::done, shown.document, shown.text};
+  record.finish(outcome);
+  return outcome;
+}
+
+}  // namespace
+
 Outcome run_show(const Arguments& arguments) {
   const ProblemInput input = read_input(arguments);
+  if (arguments.output && arguments.output->extension() != ".html") {
+    return show_in_folder(arguments, input);
+  }
   const auto page_template = find_report_template();
   if (!page_template) return show_in_words(arguments, input);
-  const fs::path page = arguments.output.value_or(free_page(arguments.file));
-  if (fs::is_directory(page)) throw InputError(fmt::format("-o {}: is a folder", page.string()));
+  const fs::path page =
+      arguments.output.value_or(free_page(arguments.file.stem().string() + "-show"));
   make_folder_of(page);
   Shown shown = describe(input.problem, input.design);
   const Json card = {{"command", "show"},
                      {"arguments", arguments.words},
                      {"input", {{"file", input.file.string()}, {"overrides", arguments.overrides}}},
                      {"problem", input.effective}};
-  const std::string name = arguments.design ? "design" : "start";
-  const Json picture = run_picture(input.problem, {{name, input.design, nullptr}});
+  const Json picture = picture_of(arguments, input, shown.motion);
   WriteFailures failures;
   if (write_file({page, &failures},
                  report_page(*page_template, report_data(card, shown.document, picture, "")))) {

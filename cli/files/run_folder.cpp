@@ -85,6 +85,15 @@ fs::path free_folder(const fs::path& folder) {
   return free;
 }
 
+std::filesystem::path free_page(const std::string& name) {
+  const std::filesystem::path runs = "runs";
+  std::filesystem::path page = runs / (name + ".html");
+  for (int number = 2; std::filesystem::exists(page); ++number) {
+    page = runs / fmt::format("{}-{}.html", name, number);
+  }
+  return page;
+}
+
 RunFolder::RunFolder(const Arguments& arguments)
     : path_(arguments.output                            ? *arguments.output
             : arguments.overwrites || arguments.resumes ? usual_folder(arguments)

@@ -12,6 +12,9 @@ inline constexpr const char* card_name = "run_card.json";
 /// The first of FOLDER, FOLDER-2, FOLDER-3 … that is not there.
 std::filesystem::path free_folder(const std::filesystem::path& folder);
 
+/// The first of runs/NAME.html, NAME-2.html … that is not there.
+std::filesystem::path free_page(const std::string& name);
+
 /// The folder of a run: made if need be, and locked against other runs of the program until it is
 /// destroyed or the program ends. A folder that was made and is still empty then goes again.
 class RunFolder {

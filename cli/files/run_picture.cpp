@@ -162,10 +162,13 @@ int frames_for(const Motion& first, std::size_t designs, const Room& room) {
   return static_cast<int>(std::clamp(frames, 60.0, static_cast<double>(most_frames)));
 }
 
-Json motion_document(const Scene& scene, const Analysis& analysis, std::size_t designs,
-                     const Room& room) {
+Motion frames_of(const Scene& scene, const Analysis& analysis, std::size_t designs,
+                 const Room& room) {
   const int frames = frames_for(sample_motion(scene, analysis, {0}), designs, room);
-  const Motion motion = sample_motion(scene, analysis, frames_of_motion(analysis, frames));
+  return sample_motion(scene, analysis, frames_of_motion(analysis, frames));
+}
+
+Json motion_document(const Motion& motion) {
   Json document = {{"time", packed_numbers(motion.time.transpose())}, {"bodies", Json::array()}};
   for (const BodyTrack& body : motion.bodies) {
     Json entry = {{"stations", body.stations},
@@ -183,13 +186,14 @@ Json design_document(const ProblemFile& problem, const ShownDesign& design, std:
   Json document = {{"name", design.name}};
   document["variables"] = std::vector<double>(design.x.begin(), design.x.end());
   document["geometry"] = geometry_picture(problem, design.x);
+  if (design.rigid != nullptr) document["motion"] = motion_document(*design.rigid);
   if (design.analysis == nullptr) return document;
   const Analysis& analysis = *design.analysis;
   document["masses"] = Json::object();
   for (const BodyModel& body : analysis.model.bodies) {
     document["masses"][body.name] = document["masses"].value(body.name, 0.0) + body.mass;
   }
-  document["motion"] = motion_document(problem.scene, analysis, designs, room);
+  document["motion"] = motion_document(frames_of(problem.scene, analysis, designs, room));
   document["responses"] = Json::array();
   for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
     document["responses"].push_back(response_document(problem, design, i, room));
@@ -220,7 +224,10 @@ Json run_picture(const ProblemFile& problem, const std::vector<ShownDesign>& des
   for (const ResponseSettings& response : problem.responses) {
     document["responses"][response.name] = meaning_document(response);
   }
-  if (problem.objective) document["objective"] = problem.objective->response;
+  if (problem.objective) {
+    document["objective"] = problem.objective->response;
+    document["maximizes"] = problem.objective->sign() < 0.0;
+  }
   if (!problem.load_case.empty()) document["case"] = problem.load_case;
   for (const ShownDesign& design : designs) {
     if (design.analysis != nullptr) document["size"] = size_of(design.analysis->model);

@@ -6,6 +6,7 @@
 #include "cli/reports/design_influence.hpp"
 #include "cli/text/json.hpp"
 #include "core/response/analysis.hpp"
+#include "picture/motion.hpp"
 
 /// What the report shows of simulated designs (docs/report.md) [SI].
 namespace pleuel {
@@ -18,6 +19,7 @@ struct ShownDesign {
   /// Of the histories (core/trust/error_bands.hpp); empty where none is known.
   std::vector<Eigen::VectorXd> bands{};
   const DesignInfluence* influence = nullptr;  ///< of the variables; null: not known
+  const Motion* rigid = nullptr;  ///< without an analysis: how drives move it; null: it stands
 };
 
 /// The mechanism of a problem at some designs: its geometry and, of simulated ones, motion, stress,

@@ -77,11 +77,9 @@ void add_effects(CLI::App* command, Arguments& arguments) {
                     "list all physical effects, also those that change next to nothing");
 }
 
-void add_verbose(CLI::App* command, Arguments& arguments) {
-  command->add_flag(
-      "--verbose", arguments.is_verbose,
-      "print the audit, prices of limits, drives and effects, too; result.json and the "
-      "report have them in any case");
+void add_verbose(CLI::App* command, Arguments& arguments, const std::string& what) {
+  command->add_flag("--verbose", arguments.is_verbose,
+                    "print " + what + ", too; result.json and the report have them in any case");
 }
 
 void add_accuracy(CLI::App* command, Arguments& arguments) {
@@ -105,7 +103,7 @@ void add_starts(CLI::App* command, Arguments& arguments) {
       ->add_option("--starts", arguments.starts,
                    "begin at so many designs, the start and others spread between the bounds")
       ->type_name("NUMBER")
-      ->check(CLI::Range(1, 10000));
+      ->check(CLI::Range(1, 10000).description(""));
 }
 
 void add_method(CLI::App* command, Arguments& arguments) {
@@ -123,7 +121,7 @@ void add_jobs(CLI::App* command, Arguments& arguments) {
                    "simulations at a time (default: the environment variable PLEUEL_JOBS, or all "
                    "processors)")
       ->type_name("NUMBER")
-      ->check(CLI::Range(1, 1024));
+      ->check(CLI::Range(1, 1024).description(""));
 }
 
 void add_task_limit(CLI::App* command, Arguments& arguments, const std::string& task) {
@@ -132,7 +130,7 @@ void add_task_limit(CLI::App* command, Arguments& arguments, const std::string& 
                    "seconds after which the process of " + task +
                        " counts as hung; it is tried once more (default: none)")
       ->type_name("SECONDS")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Validator(CLI::PositiveNumber).description(""));
 }
 
 }  // namespace pleuel

@@ -20,7 +20,8 @@ void add_all_warnings(CLI::App* command, Arguments& arguments);
 /// What is looked at besides the simulation.
 void add_checks(CLI::App* command, Arguments& arguments);
 void add_effects(CLI::App* command, Arguments& arguments);
-void add_verbose(CLI::App* command, Arguments& arguments);
+/// @param what  it prints beside the answer
+void add_verbose(CLI::App* command, Arguments& arguments, const std::string& what);
 void add_accuracy(CLI::App* command, Arguments& arguments);
 void add_backend(CLI::App* command, Arguments& arguments);
 void add_starts(CLI::App* command, Arguments& arguments);

@@ -143,6 +143,7 @@ void add_accuracy(CLI::App& app, Arguments& arguments) {
   accuracy->add_flag("--optimum", arguments.wants_optimum,
                      "at the optimum (that of --design, or it is looked for), and with whole "
                      "optimizations for the settings that are worth it");
+  add_verbose(accuracy, arguments, "the errors and times of all settings");
   add_backend(accuracy, arguments);
 }
 
@@ -165,6 +166,11 @@ void add_compare(CLI::App& app, Arguments& arguments) {
   CLI::App* compare = add_command(app, arguments, "compare",
                                   "two runs side by side: what differs in input and outcome");
   compare->add_option("DIR", arguments.files, "the two run folders")->required()->expected(2);
+  compare
+      ->add_option("-o,--output", arguments.output,
+                   "the page to write (default: the first of runs/compare.html, …-2 that is not "
+                   "there)")
+      ->type_name("FILE.html");
 }
 
 void add_export(CLI::App& app, Arguments& arguments) {
@@ -194,9 +200,10 @@ void add_show(CLI::App& app, Arguments& arguments) {
   CLI::App* show = add_file_command(
       app, arguments, "show", "draw the mechanism of a file as a page, before it is simulated");
   show->add_option("-o,--output", arguments.output,
-                   "the page to write (default: the first of runs/<file>-show.html, …-2 that is "
-                   "not there)")
-      ->type_name("FILE.html");
+                   "the page to write, or a run folder (default: the first of "
+                   "runs/<file>-show.html, …-2 that is not there)")
+      ->type_name("FILE.html|DIR");
+  add_overwrite(show, arguments);
   add_design(show, arguments);
 }
 
@@ -222,10 +229,7 @@ void add_completion(CLI::App& app, Arguments& arguments) {
   command->add_option("SHELL", arguments.kind, "bash or zsh")->required();
 }
 
-}  // namespace
-
-void add_commands(CLI::App& app, Arguments& arguments) {
-  add_new(app, arguments);
+void add_check(CLI::App& app, Arguments& arguments) {
   CLI::App* check = add_file_command(
       app, arguments, "check",
       "validate, describe the mechanism, verify the derivatives, estimate the time");
@@ -239,6 +243,9 @@ void add_commands(CLI::App& app, Arguments& arguments) {
       ->add_option("-o,--output", arguments.output,
                    "run folder for result.json and report.html (default: nothing is written)")
       ->type_name("DIR");
+}
+
+void add_simulate(CLI::App& app, Arguments& arguments) {
   CLI::App* simulate = add_file_command(app, arguments, "simulate",
                                         "simulate one design and say whether it keeps its limits");
   add_output(simulate, arguments);
@@ -248,9 +255,9 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   simulate->add_flag("--effects", arguments.wants_effects,
                      "show what each effect brings and costs: a simulation more for each");
   add_design(simulate, arguments);
-  add_gradient(app, arguments);
-  add_invariants(app, arguments);
-  add_reduce(app, arguments);
+}
+
+void add_optimize(CLI::App& app, Arguments& arguments) {
   CLI::App* optimize = add_file_command(app, arguments, "optimize",
                                         "find the best design within the limits, and verify it");
   add_output(optimize, arguments);
@@ -259,13 +266,16 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   add_resume(optimize, arguments);
   add_accuracy(optimize, arguments);
   add_design(optimize, arguments);
-  add_verbose(optimize, arguments);
+  add_verbose(optimize, arguments, "the audit, prices of limits, drives and effects");
   add_effects(optimize, arguments);
   add_backend(optimize, arguments);
   add_starts(optimize, arguments);
   add_method(optimize, arguments);
   add_jobs(optimize, arguments);
   add_task_limit(optimize, arguments, "one of several starts");
+}
+
+void add_pareto(CLI::App& app, Arguments& arguments) {
   CLI::App* pareto = add_file_command(app, arguments, "pareto",
                                       "the best designs for a row of values of one limit");
   add_output(pareto, arguments);
@@ -280,16 +290,30 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   add_method(pareto, arguments);
   add_jobs(pareto, arguments);
   add_task_limit(pareto, arguments, "one point");
-  add_prices(app, arguments);
+}
+
+}  // namespace
+
+/// In the order in which one meets them.
+void add_commands(CLI::App& app, Arguments& arguments) {
+  add_new(app, arguments);
+  add_show(app, arguments);
+  add_simulate(app, arguments);
+  add_optimize(app, arguments);
+  add_check(app, arguments);
   add_accuracy(app, arguments);
-  add_stability(app, arguments);
   add_uncertainty(app, arguments);
-  add_runs(app, arguments);
+  add_pareto(app, arguments);
+  add_prices(app, arguments);
+  add_gradient(app, arguments);
   add_compare(app, arguments);
-  add_export(app, arguments);
+  add_runs(app, arguments);
   add_report(app, arguments);
   add_plot(app, arguments);
-  add_show(app, arguments);
+  add_export(app, arguments);
+  add_stability(app, arguments);
+  add_invariants(app, arguments);
+  add_reduce(app, arguments);
   add_command(app, arguments, "backends", "list the optimizers");
   add_schema(app, arguments);
   add_completion(app, arguments);

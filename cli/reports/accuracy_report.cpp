@@ -363,14 +363,16 @@ std::string change_text(const ResponseSettings& response, double change) {
 }
 
 std::string accuracy_text(const ProblemFile& problem, const AccuracyStudy& study,
-                          const OptimumStudy* optima) {
+                          const OptimumStudy* optima, bool is_verbose) {
   const std::size_t all = accuracy_grid(problem).size();
   std::string text = study.is_interrupted ? interrupted_text(study.runs.size(), all, "runs") : "";
   text += wrapped(problem.name + ": " + recommendations_text(study));
   text += wrapped(optimum_sentences(problem, study, optima));
   text += wrapped(knobs_text(study)) + wrapped(effects_text(problem, study)) + "\n";
-  text += runs_text(problem, study) + "\n" + optima_text(problem, optima);
-  text += variations_text(problem, study) + reference_text(problem, study) + "\n";
+  if (is_verbose) {
+    text += runs_text(problem, study) + "\n" + optima_text(problem, optima);
+    text += variations_text(problem, study) + reference_text(problem, study) + "\n";
+  }
   return text + warnings_text(warnings_of(study));
 }
 

@@ -10,7 +10,7 @@ namespace pleuel {
 /// What the command accuracy prints: the answer as sentences first, then the tables behind it.
 /// @param optima  whole optimizations; null without
 std::string accuracy_text(const ProblemFile& problem, const AccuracyStudy& study,
-                          const OptimumStudy* optima);
+                          const OptimumStudy* optima, bool is_verbose);
 
 /// "a step of 0.2 ms and 4 elements a segment", "… the elements of the file", "… 0.5 times the
 /// elements of the file"

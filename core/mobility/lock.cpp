@@ -72,10 +72,10 @@ std::string lock_text(const Model& model, const RigidPath& path) {
       path.time, drives_text(model, path.time), members, gap);
 }
 
-RigidPath follow_drives(const Model& model, double end, double step) {
+RigidPath follow_drives(const Model& model, double end, double step, const PathObserver& observer) {
   if (drive_rows(model).empty()) return {.time = end, .q = model.mechanism.guess.q};
   RigidConstraints constraints(model);
-  return follow_drives(constraints, model.mechanism.guess.q, end, step);
+  return follow_drives(constraints, model.mechanism.guess.q, end, step, observer);
 }
 
 void require_no_lock(const Model& model, const RigidPath& path) {

@@ -16,7 +16,8 @@ class LockedMechanism : public SimulationError {
 /// Follows the drives of a model; without drives there is nothing to follow.
 /// @param end   [s] of the motion
 /// @param step  [s] of the simulation
-RigidPath follow_drives(const Model& model, double end, double step);
+RigidPath follow_drives(const Model& model, double end, double step,
+                        const PathObserver& observer = {});
 
 /// When it locks, where, which bodies are at a dead centre there, and by how much they miss.
 std::string lock_text(const Model& model, const RigidPath& path);

@@ -44,8 +44,8 @@ constexpr int first_iterations = 6000;
 
 class Follower {
  public:
-  Follower(RigidConstraints& constraints, double end, double step)
-      : constraints_(constraints), end_(end), step_(step) {}
+  Follower(RigidConstraints& constraints, double end, double step, const PathObserver& observer)
+      : constraints_(constraints), end_(end), step_(step), observer_(observer) {}
 
   RigidPath follow(const Eigen::VectorXd& start) {
     RigidPath path;
@@ -60,7 +60,12 @@ class Follower {
     complete_rows(path.q);
     int sign = orientation(path.q, 0.0);
     double step = step_;
-    std::vector<Eigen::VectorXd> before = {path.q};
+    std::vector<Eigen::VectorXd> before;
+    const auto arrive = [&] {
+      before.push_back(path.q);
+      if (observer_) observer_(path.time, path.q);
+    };
+    arrive();
     const int most_iterations = static_cast<int>(2.0 * end_ / step_) + first_iterations;
     while (path.time < end_ && constraints_.iterations() < most_iterations) {
       step = std::min({step, longest_step * step_, end_ - path.time});
@@ -79,13 +84,13 @@ class Follower {
         path.time = next;
         path.travel = std::max(path.travel, drive_values(before.front(), next));
         sign = next_sign;
-        before.push_back(path.q);
+        arrive();
         step *= 2.0;
       } else if (!is_small) {
         step *= 0.25;
       } else if (take_other_branch(path) || pass_small_gap(path)) {
         sign = orientation(path.q, path.time);
-        before.push_back(path.q);
+        arrive();
         step = step_;
       } else {
         describe_end(before, path);
@@ -267,6 +272,7 @@ class Follower {
 
   RigidConstraints& constraints_;
   double end_, step_;
+  const PathObserver& observer_;
   std::vector<int> independent_;
   Eigen::MatrixXd free_;
 };
@@ -274,8 +280,8 @@ class Follower {
 }  // namespace
 
 RigidPath follow_drives(RigidConstraints& constraints, const Eigen::VectorXd& start, double end,
-                        double step) {
-  return Follower(constraints, end, step).follow(start);
+                        double step, const PathObserver& observer) {
+  return Follower(constraints, end, step, observer).follow(start);
 }
 
 }  // namespace pleuel

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include <Eigen/Core>
 
 #include "core/mobility/rigid_constraints.hpp"
@@ -25,6 +27,9 @@ struct RigidPath {
   double gap = 0.0;
 };
 
+/// Hears of the positions on the way.
+using PathObserver = std::function<void(double time, const Eigen::VectorXd& q)>;
+
 /// Follows the drives of a mechanism over time by continuation (Allgower & Georg, Introduction to
 /// Numerical Continuation Methods, 2003). Steps are quartered where positions are not where the
 /// tangent points to, or where det Φ_z changes its sign: so the branch is kept that goes straight
@@ -35,6 +40,6 @@ struct RigidPath {
 /// @param end   [s]
 /// @param step  [s] a first step; the steps of a simulation
 RigidPath follow_drives(RigidConstraints& constraints, const Eigen::VectorXd& start, double end,
-                        double step);
+                        double step, const PathObserver& observer = {});
 
 }  // namespace pleuel

@@ -142,11 +142,14 @@ export interface Picture {
   limits: Record<string, { unit: Unit; response?: string; lower?: number; upper?: number }>;
   size?: number; // of the mechanism [m]
   objective?: string;
+  maximizes?: boolean;
   designs: Design[];
   /** Load case that it is of. */
   case?: string;
   /** Pictures of the other load cases of the run. */
   other_cases?: Picture[];
+  /** Of the run that it is compared with. */
+  compared?: Picture;
   /** Of the numbers of all load cases, by their names in the result. */
   units?: { responses: Record<string, Unit>; limits: Record<string, Unit> };
 }

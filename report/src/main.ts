@@ -3,6 +3,7 @@ import { readData, type ReportData } from "./data";
 import { h } from "./dom";
 import { accuracyPage } from "./pages/accuracy";
 import { checkPage } from "./pages/check";
+import { comparePage } from "./pages/compare";
 import { gradientPage } from "./pages/gradient";
 import { filesSection } from "./pages/parts";
 import { optimizePage } from "./pages/optimize";
@@ -34,6 +35,8 @@ function pageOf(data: ReportData): HTMLElement[] {
       return stabilityPage(data);
     case "gradient":
       return gradientPage(data);
+    case "compare":
+      return comparePage(data);
     case "check":
       return checkPage(data);
     default:

@@ -65,7 +65,7 @@ Object.assign(runs, {
   rigid: ["simulate", problem("hard/squeezer")],
   sliding: ["simulate", problem("spatial_slider_crank")],
 });
-const pageOf = (name) => join(folder, name === "show" ? "show.html" : `${name}/report.html`);
+const pageOf = (name) => join(folder, name === "show" || name === "compare" ? `${name}.html` : `${name}/report.html`);
 
 let browser;
 const terminal = {}; // what each run said
@@ -82,6 +82,7 @@ before(async () => {
     }
   }
   execFileSync(program, ["show", problem("robot_arm"), "-o", pageOf("show")], { stdio: "pipe" });
+  execFileSync(program, ["compare", join(folder, "broken-start"), join(folder, "optimize"), "-o", pageOf("compare")], { stdio: "pipe" });
   mkdirSync(join(folder, "bent"));
   execFileSync(program, ["show", problem("slider_crank_round"), "-o", pageOf("bent"), "--set", '/scene/bodies/rod/initial_deflections=[{"at": ["210 mm", 0, 0], "direction": [0, 1, 0], "displacement": "2 mm"}]'], { stdio: "pipe" });
   browser = await chromium.launch({ executablePath, args: drawing });
@@ -127,7 +128,7 @@ describe("pages", { concurrency: 3 }, () => {
   const allLooks = [...looks, [1280, "dark"], [390, "light"]];
   const drawn = ["optimize", "simulate", "pareto", "show"];
 
-  for (const name of [...Object.keys(runs), "show"]) {
+  for (const name of [...Object.keys(runs), "show", "compare"]) {
     test(`${name}: no complaints and nothing beside the page, wide and narrow, light and dark`, async () => {
       for (const [width, scheme] of drawn.includes(name) ? allLooks : looks) {
         const { tab, complaints } = await open(name, { width, scheme });
@@ -232,6 +233,14 @@ describe("pages", { concurrency: 3 }, () => {
     await tab.close();
   });
 
+  test("the picture in the README shows the page of today", async () => {
+    execFileSync(program, ["optimize", problem("slider_crank"), "-o", join(folder, "readme")], { stdio: "pipe" });
+    const drawn = join(folder, "report.png");
+    execFileSync("node", [join(root, "docs/draw_report.mjs"), pageOf("readme"), drawn], { stdio: "pipe", env: { ...process.env, CHROMIUM: executablePath } });
+    const words = (name) => readFileSync(name, "utf8");
+    assert.equal(words(join(root, "docs/report.txt")), words(join(folder, "report.txt")), "draw it anew: docs/draw_report.mjs");
+  });
+
   test("pictures for a paper have a title, units and the width of a column", async () => {
     const { tab } = await open("optimize", { scheme: "dark" });
     const save = async (from, name) => {
@@ -251,6 +260,44 @@ describe("pages", { concurrency: 3 }, () => {
     const drawing = (await save(tab.locator(".corner"), "SVG")).toString();
     assert.match(drawing, /slider-crank at .* deformation ×/);
     assert.ok((drawing.match(/<path/g) ?? []).length > 50);
+    await tab.close();
+  });
+
+  test("show has the goal, the limits, and the mechanism as its drives move it", async () => {
+    const { tab } = await open("bent");
+    assert.match(await tab.locator(".hero").innerText(), /Minimize crank and rod by 2 variables under 4 limits\./);
+    assert.match(await tab.getByRole("heading", { name: "Limits" }).locator("xpath=../..").innerText(), /rod stiffness\s+rod bow\s+≤ 0\.2/);
+    const slider = () => tab.evaluate(() => window.pleuelPlayer.stage.screenPoint(2).x);
+    const before = await slider();
+    await tab.evaluate(() => window.pleuelPlayer.goTo(0.06));
+    await tab.waitForTimeout(200);
+    assert.ok(Math.abs((await slider()) - before) > 5, "the slider has moved");
+    await tab.close();
+  });
+
+  test("two runs stand beside each other: the better one is named, members and histories are of both", async () => {
+    const { tab } = await open("compare");
+    const [a, b] = [result("broken-start"), result("optimize")];
+    const hero = await tab.locator(".hero").innerText();
+    assert.match(hero, a.objective.value === b.objective.value ? /Neither is better/ : b.objective.value < a.objective.value ? /The second is better/ : /The first is better/);
+    assert.equal(await tab.locator(".build tbody tr").count(), 2);
+    const curve = await savedCurve(tab, "rod stress");
+    for (const [series, one] of [["first", a], ["second", b]]) {
+      const highest = Math.max(...curve.filter((point) => point.series === series).map((point) => point.y));
+      assert.ok(Math.abs(highest - one.responses.rod_stress.value / 1e6) < 3e-3 * highest, series);
+    }
+    await tab.close();
+  });
+
+  test("uncertainty has a row a limit, with its distance and the samples that break it", async () => {
+    const { tab } = await open("uncertainty");
+    const { limits, samples } = result("uncertainty");
+    const rows = tab.getByRole("heading", { name: "Does it still hold?" }).locator("xpath=../..").locator("tbody tr");
+    assert.equal(await rows.count(), limits.length);
+    const nearest = [...limits].sort((x, y) => x.distance - y.distance)[0];
+    const text = await rows.first().innerText();
+    assert.ok(text.includes(nearest.name.replace(/_/g, " ")) && text.includes("σ"), text);
+    assert.ok(samples > 0);
     await tab.close();
   });
 

@@ -21,7 +21,7 @@ std::string offered(const std::string& words) {
 
 TEST(Completion, OffersCommands) {
   EXPECT_EQ(offered("opt"), "optimize\n");
-  EXPECT_EQ(offered("s"), "simulate stability show schema\n");
+  EXPECT_EQ(offered("s"), "show simulate stability schema\n");
 }
 
 TEST(Completion, OffersOptionsOfTheCommand) {

@@ -111,7 +111,7 @@ void expect_number_shown(const std::string& word, double value, double digits = 
 /// The document in SI, the tables in mm and MPa.
 TEST(Optimize, ShowsTheNumbersOfItsDocumentInUnitsOfTheUser) {
   const TemporaryFolder folder;
-  const ProgramRun run = run_program(folder.path(), quick_optimization({"-o", "run"}));
+  const ProgramRun run = run_program(folder.path(), quick_optimization({"-o", "run", "--verbose"}));
   EXPECT_EQ(run.exit_code, 0) << run.err;
   const auto document = nlohmann::json::parse(read_file(folder.path() / "run/result.json"));
   EXPECT_THAT(run.out, HasSubstr("VERIFIED"));
@@ -196,7 +196,7 @@ TEST(Optimize, CannotVerifyWhatNoDesignCanKeep) {
   const TemporaryFolder folder;
   const ProgramRun run =
       run_program(folder.path(),
-                  quick_optimization({"--json", "--set", "/constraints/rod_stiffness/upper=1e-12 m",
+                  quick_optimization({"--json", "--set", "/constraints/rod_stiffness/upper=1e-9 mm",
                                       "--set", "/optimizer/max_iterations=10"}));
   EXPECT_EQ(run.exit_code, 4) << run.err;
   const nlohmann::json document = run.document();

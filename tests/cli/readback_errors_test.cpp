@@ -58,7 +58,7 @@ TEST(ReadBackErrors, OfSimulateAreThoseOfTheirResponse) {
 /// The mass is known exactly: its least value is as uncertain as the limits that decide, by their
 /// multipliers. The sum is judged as one value: not by the sum of the bars, but by bars of its own.
 TEST(ReadBackErrors, OfAnOptimumAreAboutThoseOfItsLimitsTimesTheirPrices) {
-  const Report report = run({"optimize", file});
+  const Report report = run({"optimize", file, "--verbose"});
   const json& objective = report.document.at("objective");
   double sum = 0.0;
   const std::map<std::string, std::string> responses = {{"crank_strength", "crank_stress"},

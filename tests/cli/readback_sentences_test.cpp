@@ -227,7 +227,7 @@ TEST(ReadBackSentences, OfAFrontThatIsNotVerified) {
 }
 
 TEST(ReadBackSentences, OfAccuracy) {
-  const Report report = run({"accuracy", file, "--set",
+  const Report report = run({"accuracy", file, "--verbose", "--set",
                              R"(/accuracy={"steps": ["0.4 ms", "0.2 ms"], "elements": [2, 4],
                                            "target": 0.5})"});
   const json& reference = report.document.at("reference");

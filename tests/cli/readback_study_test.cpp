@@ -46,7 +46,7 @@ TEST(ReadBack, OfPareto) {
 }
 
 TEST(ReadBack, OfAccuracy) {
-  const Report report = run({"accuracy", file, "--set",
+  const Report report = run({"accuracy", file, "--verbose", "--set",
                              R"(/accuracy={"steps": ["0.4 ms", "0.2 ms"], "elements": [2, 4]})"});
   const TextTable table(report.text, "step [ms]");
   const json& runs = report.document.at("runs");
@@ -103,7 +103,7 @@ TEST(ReadBack, OfAccuracy) {
 
 /// Of all runs that are exact enough in what counts, for values and for gradients, the cheapest.
 TEST(ReadBack, OfRecommendationsForValuesAndForGradients) {
-  const Report report = run({"accuracy", file, "--set",
+  const Report report = run({"accuracy", file, "--verbose", "--set",
                              R"(/accuracy={"steps": ["0.8 ms", "0.4 ms", "0.2 ms"],
                                            "elements": [2, 4], "target": 0.02})"});
   const json& document = report.document;

@@ -328,7 +328,7 @@ function usefulScale(stage: Stage): number {
 function legendText(picture: Picture, main: number): [string, string] | null {
   const limits = stressLimits(picture, main);
   const known = [...new Set(limits.filter((limit): limit is number => limit !== null))];
-  if (!picture.designs[main].motion || !known.length) return null;
+  if (!picture.designs[main].motion?.bodies.some((body) => body.stress) || !known.length) return null;
   const isLimit = picture.scene.bodies.some((body, i) => limits[i] !== null && body.stress_limit);
   return [
     known.length === 1 ? `${number(known[0] / 1e6, 3)} MPa` : "100 %",

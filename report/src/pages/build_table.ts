@@ -63,16 +63,18 @@ function designFile(result: Document): string {
   return JSON.stringify({ variables: Object.fromEntries(variables) }, null, 2) + "\n";
 }
 
-function massText(mass: Member["mass"]): (HTMLElement | string)[] {
+function massText(mass: Member["mass"], was: string): (HTMLElement | string)[] {
   if (!mass) return ["–"];
   if (Math.abs(mass.after - mass.before) <= 1e-9 * mass.before) return [`${number(mass.after)} kg`];
-  return [h("b", {}, `${number(mass.after)} kg`), h("div.was", {}, `was ${number(mass.before)}, ${percent(mass.after / mass.before - 1)}`)];
+  return [h("b", {}, `${number(mass.after)} kg`), h("div.was", {}, `${was} ${number(mass.before)}, ${percent(mass.after / mass.before - 1)}`)];
 }
 
-export function buildSection(data: ReportData): HTMLElement | null {
+/** @param title  of a comparison, which has no design to save */
+export function buildSection(data: ReportData, title?: string): HTMLElement | null {
   const all = members(data);
-  if (!all.length || !hasDesign(data.result)) return null;
+  if (!all.length || (!title && !hasDesign(data.result))) return null;
   const { picture, result } = data;
+  const was = title ? "first:" : "was";
   const isSize = (one: Member) => one.sizes.some((size) => size.after !== size.before);
   const copy = h("button.quiet.bordered", {}, "Copy") as HTMLButtonElement;
   copy.addEventListener("click", async () => {
@@ -83,18 +85,18 @@ export function buildSection(data: ReportData): HTMLElement | null {
     h("div.sketch", {}, profileSvgs(picture!, one.index, picture!.designs.length - 1)),
     h("b", {}, words(one.name)),
     one.sizes.length
-      ? one.sizes.map((size) => h("div", {}, isSize(one) ? h("b", {}, size.after) : size.after, size.after !== size.before && size.before ? h("div.was", {}, `was ${size.before}`) : null))
+      ? one.sizes.map((size) => h("div", {}, isSize(one) ? h("b", {}, size.after) : size.after, size.after !== size.before && size.before ? h("div.was", {}, `${was} ${size.before}`) : null))
       : "–",
     one.bounds.length ? h("span.bad", {}, one.bounds.join(", ")) : "",
     lengthText(one.length),
-    massText(one.mass),
+    massText(one.mass, was),
     one.material ?? "–",
   ]);
   const hasBounds = all.some((one) => one.bounds.length);
   const keep = (_: unknown, i: number) => i !== 3 || hasBounds;
   const part = section(
-    result.status === "verified" ? "Build this" : "The design",
-    `All members of the ${endName(result)}; the filled outline is it, the grey one the start.`,
+    title ?? (result.status === "verified" ? "Build this" : "The design"),
+    title ? "The filled outline is the second, the grey one the first." : `All members of the ${endName(result)}; the filled outline is it, the grey one the start.`,
     table(
       [
         { title: "section", left: true, short: true },
@@ -107,7 +109,7 @@ export function buildSection(data: ReportData): HTMLElement | null {
       ].filter(keep),
       rows.map((row) => row.filter(keep)),
     ),
-    h("p.buttons.saves-design", {}, copy, h("button.quiet.bordered", { title: "for pleuel simulate … --design design.json", onclick: () => download("design.json", designFile(result), "application/json") }, "Download design.json")),
+    h("p.buttons.saves-design", {}, copy, title ? null : h("button.quiet.bordered", { title: "for pleuel simulate … --design design.json", onclick: () => download("design.json", designFile(result), "application/json") }, "Download design.json")),
   );
   part.classList.add("build");
   return part;

@@ -77,7 +77,7 @@ export function makeInspector(picture: Picture, main: number, goTo: (time: numbe
     if (drawn.length > 3) {
       known.append(h("details", {}, h("summary.note", {}, `${drawn.length - 3} more`), ...drawn.slice(3)));
     }
-    const isMoving = picture.designs.some((design) => design.motion);
+    const isMoving = picture.designs.some((design) => design.responses);
     if (!charts.length && isMoving) known.append(h("p.note", {}, "No history belongs to it. Click another member or joint."));
   };
   return {

@@ -42,7 +42,7 @@ export function optimizePage(data: ReportData): HTMLElement[] {
 
 function contentsOf(data: ReportData, chooseCase?: ChooseCase): { elements: HTMLElement[]; shown: Viewing | null } {
   const { picture } = data;
-  const parts: (HTMLElement | null)[] = [headline(data), conflictSection(data)];
+  const parts: (HTMLElement | null)[] = [headline(data), conflictSection(data), buildSection(data)];
   let shown: Viewing | null = null;
   if (picture && picture.designs.length) {
     const main = picture.designs.length - 1;
@@ -53,7 +53,6 @@ function contentsOf(data: ReportData, chooseCase?: ChooseCase): { elements: HTML
     shown.pickBody(mostUsedBody(data));
   }
   parts.push(
-    buildSection(data),
     h(
       "div.columns.has-limits",
       {},

@@ -131,8 +131,12 @@ export function showPage(data: ReportData): HTMLElement[] {
         h("p.eyebrow", {}, "drawn before anything is simulated"),
         h("h1", {}, picture.name),
         h("p.lead", {}, picture.description),
+        goalSentence(picture),
         result.failure ? h("p.verdict", {}, h("span.badge.warn", {}, "! cannot be assembled")) : null,
-        free !== undefined
+        result.lock
+          ? h("p.verdict", {}, h("span.badge.warn", {}, `locks at ${seconds(result.lock.time)}`), " Rigid bodies follow the drives as far as that; the drawing stops there.")
+          : null,
+        free !== undefined && !result.lock
           ? h(
               "p.verdict",
               {},
@@ -155,6 +159,7 @@ export function showPage(data: ReportData): HTMLElement[] {
       ),
     ),
     shown.element,
+    h("div.columns", {}, asked(picture), variablesTable(picture)),
     bodiesSection(picture, result, unheld),
     section(
       "Joints",
@@ -173,12 +178,43 @@ export function showPage(data: ReportData): HTMLElement[] {
     ),
     loadsTable(picture),
     lawsSection(picture),
-    variablesTable(picture),
     effectsSection(data),
     filesSection(data),
   ];
   shown.pickBody(undefined);
   return parts.filter((part): part is HTMLElement => !!part);
+}
+
+/** What the file asks for, in a sentence. */
+function goalSentence(picture: Picture): HTMLElement | null {
+  if (!picture.objective) return null;
+  const counted = (size: number, name: string) => `${size} ${name}${size === 1 ? "" : "s"}`;
+  const limits = Object.keys(picture.limits).length;
+  return h(
+    "p.numbers",
+    {},
+    `${picture.maximizes ? "Maximize" : "Minimize"} `,
+    h("b", {}, words(picture.objective)),
+    ` by ${counted(Object.keys(picture.variables).length, "variable")}${limits ? ` under ${counted(limits, "limit")}` : ""}.`,
+  );
+}
+
+/** The limits of the file. */
+function asked(picture: Picture): HTMLElement | null {
+  const names = Object.keys(picture.limits);
+  if (!names.length) return null;
+  return section(
+    "Limits",
+    "",
+    table(
+      [{ title: "limit", left: true }, { title: "of", left: true }, { title: "allowed" }],
+      names.map((name) => {
+        const { response, lower, upper, unit } = picture.limits[name];
+        const allowed = [lower === undefined ? "" : `≥ ${withUnit(lower, unit)}`, upper === undefined ? "" : `≤ ${withUnit(upper, unit)}`];
+        return [words(name), response ? words(response) : "variables", allowed.filter(Boolean).join(", ")];
+      }),
+    ),
+  );
 }
 
 /** Two digits: more is not known before. */

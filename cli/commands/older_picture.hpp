@@ -1,0 +1,20 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cli/text/json.hpp"
+
+namespace pleuel {
+
+/// What is told of files that cannot be used.
+using Notes = std::vector<std::string>;
+
+/// What the page of an older run shows of its mechanism (run_picture()): its designs are simulated again
+/// from the run card. Null of a run of several files.
+/// @throws std::exception if that is not possible any more
+Json picture_of_run(const Json& card, const Json& result, const std::filesystem::path& folder,
+                    Notes& notes);
+
+}  // namespace pleuel
