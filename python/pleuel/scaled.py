@@ -8,6 +8,26 @@ from .problem import Problem
 from .results import Array, Evaluation
 
 
+def variable_magnitudes(problem: Problem) -> Array:
+    """Of starts or, where these are 0, of bounds; 1 at last [SI]."""
+    return _first_positive(np.abs(problem.start), _largest_bounds(problem.lower, problem.upper))
+
+
+def limit_magnitudes(problem: Problem, values: Array) -> Array:
+    """Of bounds or, where these are 0, of values; 1 at last [SI]."""
+    return _first_positive(_largest_bounds(problem.limit_lower, problem.limit_upper), np.abs(values))
+
+
+def _largest_bounds(lower: Array, upper: Array) -> Array:
+    bounds = np.abs(np.stack([lower, upper]))
+    return np.where(np.isfinite(bounds), bounds, 0.0).max(axis=0)
+
+
+def _first_positive(sizes: Array, others: Array) -> Array:
+    found = np.where(sizes > 0.0, sizes, others)
+    return np.where(found > 0.0, found, 1.0)
+
+
 class Functions:
     """minimize objective(y)   subject to   violations(y) <= 0,   lower <= y <= upper
 
@@ -50,7 +70,7 @@ class Scaled(Functions):
     """A problem for optimizers of other packages, with y between 0 and 1.
 
     y is the design between its bounds, x = lower + y (upper - lower), which must be finite. The objective is divided
-    by its magnitude at the start, each limit by its own or, if that is 0, by the value at the start.
+    by its magnitude at the start, each limit by its limit_magnitudes().
     """
 
     def __init__(self, problem: Problem) -> None:
@@ -63,9 +83,8 @@ class Scaled(Functions):
         self._unit = abs(first.objective) or 1.0
         sides = [(1.0, problem.limit_upper), (-1.0, problem.limit_lower)]
         rows = [(sign, i, limits[i]) for sign, limits in sides for i in np.flatnonzero(np.isfinite(limits))]
-        magnitudes = np.array([abs(limit) or abs(first.limits[i]) or 1.0 for _, i, limit in rows])
-        self._signs = np.array([sign for sign, _, _ in rows]) / magnitudes
         self._indices = np.array([i for _, i, _ in rows], dtype=int)
+        self._signs = np.array([sign for sign, _, _ in rows]) / limit_magnitudes(problem, first.limits)[self._indices]
         self._bounds = np.array([limit for _, _, limit in rows])
 
     def design(self, y: Array) -> Array:
