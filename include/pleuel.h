@@ -35,9 +35,9 @@ typedef enum pleuel_status {
   PLEUEL_FAULT = 1,             /**< of Pleuel itself */
   PLEUEL_BAD_INPUT = 2,         /**< of the problem file, the overrides, the options or the command line */
   PLEUEL_SIMULATION_FAILED = 3, /**< this design cannot be simulated */
-  PLEUEL_STOPPED = 4,           /**< by pleuel_stop */
+  PLEUEL_STOPPED = 4,           /**< by pleuel_stop; of a search: it is to end */
   PLEUEL_BAD_CALL = 5           /**< a wrong size, a NULL, a number that is not finite, a closed
-                            problem, an observer that throws */
+                            problem, an observer that throws, a backend that fails */
 } pleuel_status;
 
 /** Why the last call of this thread failed. Texts are UTF-8, never NULL, and empty where they are not known. */
@@ -208,6 +208,62 @@ typedef int (*pleuel_observer)(const pleuel_progress *progress, void *user);
 PLEUEL_API pleuel_status pleuel_optimize(pleuel_problem problem, const double *x, size_t variables,
                                          const char *options, pleuel_observer observer, void *user,
                                          char **result);
+
+/* ---- optimizers of the caller ---- */
+
+/**
+ * What a backend has to do, in numbers of order one:
+ *
+ *     minimize f(y)   subject to   g(y) <= 0,   h(y) = 0,   lower <= y <= upper
+ *
+ * Valid until the backend returns.
+ */
+typedef struct pleuel_search {
+  uint64_t number;          /**< for pleuel_search_evaluate */
+  size_t variables;         /**< those that may change */
+  size_t inequalities;      /**< rows of g */
+  size_t equalities;        /**< rows of h */
+  const double *start, *lower, *upper; /**< one a variable; ±HUGE_VAL where there is no bound */
+  double tolerance;         /**< relative, of f and y, at which it should end */
+} pleuel_search;
+
+/** Room for the text of a backend, with the 0 at its end. */
+#define PLEUEL_REASON_SIZE 256
+
+/**
+ * An optimizer. What it finds is judged by Pleuel as the answers of other backends are: designs are remembered, so that
+ * the best one counts wherever it ends.
+ * @param y       [in, out] from search->start to where it ended, one a variable
+ * @param reason  [out] may be filled with why it ended or failed, PLEUEL_REASON_SIZE bytes; empty at first
+ * @returns       0; else it failed, and with it the call that needed it
+ */
+typedef int (*pleuel_backend)(const pleuel_search *search, double *y, char *reason, void *user);
+
+/**
+ * Makes an optimizer known to all problems of this process, under a name that "backend" of options, problem files and
+ * commands may have. While one is known, searches from several starts run one after another in this process.
+ * @param name              letters, digits, '-' and '_'; not one that Pleuel has; one that was registered is replaced
+ * @param takes_equalities  whether it can keep h(y) = 0; else problems with such limits are refused
+ * @param backend           NULL: forgets the one of this name
+ * @param user              passed to the backend
+ */
+PLEUEL_API pleuel_status pleuel_register_backend(const char *name, int takes_equalities,
+                                                 pleuel_backend backend, void *user);
+
+/**
+ * For backends: f, the rows of g and then those of h, and their derivatives at y, which is taken between its bounds.
+ * @param search     number of a search
+ * @param y          one a variable
+ * @param objective  [out] f
+ * @param rows       [out] of g, then of h; NULL if there are none
+ * @param gradient   [out] of f, one a variable; NULL: not asked for
+ * @param jacobian   [out] rows × variables; NULL: not asked for
+ * @returns          PLEUEL_SIMULATION_FAILED: y has no values, and another should be tried; PLEUEL_STOPPED: the
+ *                   backend should return now
+ */
+PLEUEL_API pleuel_status pleuel_search_evaluate(uint64_t search, const double *y, size_t variables,
+                                                double *objective, double *rows, size_t row_count,
+                                                double *gradient, double *jacobian);
 
 /* ---- commands ---- */
 

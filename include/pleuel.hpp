@@ -9,9 +9,13 @@
 #ifndef PLEUEL_HPP
 #define PLEUEL_HPP
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdio>
 #include <exception>
 #include <functional>
+#include <list>
+#include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -213,6 +217,83 @@ class Problem {
 
   pleuel_problem number_ = 0;
 };
+
+/// A search that a backend is to make (pleuel_search), in numbers of order one:
+///
+///     minimize f(y)   subject to   g(y) ≤ 0,   h(y) = 0,   lower ≤ y ≤ upper
+class Search {
+ public:
+  explicit Search(const pleuel_search& search) : search_(search) {}
+
+  Numbers start() const { return numbers(search_.start); }
+  Numbers lower() const { return numbers(search_.lower); }
+  Numbers upper() const { return numbers(search_.upper); }
+  std::size_t inequalities() const { return search_.inequalities; }
+  std::size_t equalities() const { return search_.equalities; }
+  double tolerance() const { return search_.tolerance; }
+
+  /// f as the objective; g and then h as limits.
+  /// @throws Error  of kind PLEUEL_SIMULATION_FAILED: y has no values, another should be tried; PLEUEL_STOPPED: the
+  ///                backend should return, which it does if it does not catch this
+  Evaluation evaluate(const Numbers& y, Derivatives derivatives = Derivatives::no) const {
+    Evaluation found;
+    found.limits.resize(search_.inequalities + search_.equalities);
+    if (derivatives == Derivatives::yes) {
+      found.gradient.resize(y.size());
+      found.jacobian.resize(found.limits.size() * y.size());
+    }
+    const auto array = [](Numbers& all) { return all.empty() ? nullptr : all.data(); };
+    require(pleuel_search_evaluate(search_.number, y.data(), y.size(), &found.objective,
+                                   array(found.limits), found.limits.size(), array(found.gradient),
+                                   array(found.jacobian)));
+    return found;
+  }
+
+ private:
+  Numbers numbers(const double* from) const { return Numbers(from, from + search_.variables); }
+
+  const pleuel_search& search_;
+};
+
+/// An optimizer of the caller: the y that it comes to.
+using Backend = std::function<Numbers(const Search&)>;
+
+namespace internal {
+
+/// Exceptions are told in the error of the call that needed the backend.
+inline int call_backend(const pleuel_search* search, double* y, char* reason, void* user) noexcept {
+  try {
+    const Numbers end = (*static_cast<const Backend*>(user))(Search(*search));
+    if (end.size() != search->variables) {
+      throw std::length_error("it returned " + std::to_string(end.size()) + " numbers for " +
+                              std::to_string(search->variables) + " variables");
+    }
+    std::copy(end.begin(), end.end(), y);
+    return 0;
+  } catch (const Error& error) {
+    std::snprintf(reason, PLEUEL_REASON_SIZE, "%s", error.what());
+    return error.kind == PLEUEL_STOPPED ? 0 : 1;
+  } catch (const std::exception& error) {
+    std::snprintf(reason, PLEUEL_REASON_SIZE, "%s", error.what());
+  } catch (...) {
+    std::snprintf(reason, PLEUEL_REASON_SIZE, "it threw an exception");
+  }
+  return 1;
+}
+
+}  // namespace internal
+
+/// pleuel_register_backend; an empty function forgets the one of this name. Functions are kept until the program ends.
+inline void register_backend(const std::string& name, Backend backend,
+                             bool takes_equalities = false) {
+  static std::mutex mutex;
+  static auto& kept = *new std::list<Backend>;
+  if (!backend) return require(pleuel_register_backend(name.c_str(), 0, nullptr, nullptr));
+  const std::lock_guard<std::mutex> lock(mutex);
+  kept.push_back(std::move(backend));
+  require(pleuel_register_backend(name.c_str(), takes_equalities, &internal::call_backend,
+                                  &kept.back()));
+}
 
 }  // namespace pleuel
 

@@ -69,9 +69,9 @@ pleuel_status pleuel_history(pleuel_problem problem, const double* x, size_t var
     require_pointer(time, "time");
     require_pointer(values, "values");
     if (derivatives != nullptr) {
-      const std::optional<HistoryGradients> of_peak = open.history_gradients(design, response);
-      curve.values = of_peak->values;
-      copy_out(of_peak->gradients, derivatives);
+      const HistoryGradients of_peak = open.history_gradients(design, response).value();
+      curve.values = of_peak.values;
+      copy_out(of_peak.gradients, derivatives);
     }
     copy_out(curve.time, time);
     copy_out(curve.values, values);

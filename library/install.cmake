@@ -37,3 +37,5 @@ install(FILES ${PROJECT_BINARY_DIR}/pleuel.pc DESTINATION ${CMAKE_INSTALL_LIBDIR
 set(PLEUEL_PYTHON_FOLDER lib/python3/dist-packages CACHE PATH "Where the Python package is installed, from the prefix on")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/python/pleuel DESTINATION ${PLEUEL_PYTHON_FOLDER} COMPONENT python
         PATTERN __pycache__ EXCLUDE)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/python/examples DESTINATION share/doc/python3-pleuel COMPONENT python
+        PATTERN __pycache__ EXCLUDE)

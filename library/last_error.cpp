@@ -35,7 +35,7 @@ CallFailure handled_failure(const std::string& file) {
   try {
     throw;
   } catch (const CallError& error) {
-    CallFailure failure = divided(PLEUEL_BAD_CALL, error.what());
+    CallFailure failure = divided(error.status, error.what());
     failure.file = file;
     return failure;
   } catch (...) {

@@ -1,57 +1,32 @@
 #include "library/open_problems.hpp"
 
-#include <mutex>
-#include <unordered_map>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include "library/call_error.hpp"
+#include "library/handle_table.hpp"
 
 namespace pleuel {
 
 namespace {
 
-struct Table {
-  std::mutex mutex;
-  pleuel_problem last = 0;
-  std::unordered_map<pleuel_problem, std::shared_ptr<OpenProblem>> problems;
-};
-
 /// Never destroyed: threads of the caller may outlive what the program ends with.
-Table& table() {
-  static Table& one = *new Table;
+HandleTable<OpenProblem>& table() {
+  static auto& one = *new HandleTable<OpenProblem>(
+      "the problem {} is not open: it was closed, or never came from pleuel_open");
   return one;
-}
-
-[[noreturn]] void refuse(pleuel_problem number) {
-  throw CallError(fmt::format(
-      "the problem {} is not open: it was closed, or never came from pleuel_open", number));
 }
 
 }  // namespace
 
 pleuel_problem add_open_problem(std::shared_ptr<OpenProblem> problem) {
-  const std::lock_guard lock(table().mutex);
-  const pleuel_problem number = ++table().last;
-  table().problems.emplace(number, std::move(problem));
-  return number;
+  return table().add(std::move(problem));
 }
 
 std::shared_ptr<OpenProblem> find_open_problem(pleuel_problem number) {
-  const std::lock_guard lock(table().mutex);
-  const auto found = table().problems.find(number);
-  if (found == table().problems.end()) refuse(number);
-  return found->second;
+  return table().find(number);
 }
 
 void remove_open_problem(pleuel_problem number) {
-  std::shared_ptr<OpenProblem> removed;  // its memory is given back after the lock
-  const std::lock_guard lock(table().mutex);
-  const auto found = table().problems.find(number);
-  if (found == table().problems.end()) refuse(number);
-  removed = std::move(found->second);
-  table().problems.erase(found);
+  table().remove(number);
 }
 
 }  // namespace pleuel

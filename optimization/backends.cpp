@@ -1,7 +1,13 @@
 #include "optimization/backends.hpp"
 
+#include <algorithm>
+#include <cctype>
+#include <mutex>
+#include <utility>
+
 #include <fmt/format.h>
 
+#include "core/base/excerpt.hpp"
 #include "optimization/ipopt_optimizer.hpp"
 #include "optimization/nlopt_optimizer.hpp"
 
@@ -9,30 +15,78 @@ namespace pleuel {
 
 namespace {
 
-struct Backend {
-  std::string name;
-  std::unique_ptr<Optimizer> (*make)(const BackendOptions& options);
+using Makers = std::vector<std::pair<std::string, OptimizerMaker>>;
+
+const Makers& own_makers() {
+  static const Makers list = {{"nlopt-mma", make_nlopt_mma},
+                              {"nlopt-ccsaq", make_nlopt_ccsaq},
+                              {"nlopt-slsqp", make_nlopt_slsqp},
+                              {"ipopt", make_ipopt}};
+  return list;
+}
+
+/// Those of programs that call the library.
+struct Added {
+  std::mutex mutex;
+  Makers makers;
 };
 
-const std::vector<Backend>& backends() {
-  static const std::vector<Backend> list = {{"nlopt-mma", make_nlopt_mma},
-                                            {"nlopt-ccsaq", make_nlopt_ccsaq},
-                                            {"nlopt-slsqp", make_nlopt_slsqp},
-                                            {"ipopt", make_ipopt}};
-  return list;
+/// Never destroyed: threads of the caller may outlive what the program ends with.
+Added& added() {
+  static Added& one = *new Added;
+  return one;
+}
+
+auto with_name(const std::string& name) {
+  return [&name](const auto& maker) { return maker.first == name; };
+}
+
+Makers all_makers() {
+  Makers all = own_makers();
+  const std::lock_guard lock(added().mutex);
+  all.insert(all.end(), added().makers.begin(), added().makers.end());
+  return all;
+}
+
+void check_name(const std::string& name) {
+  const auto is_of_word = [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '-' || c == '_';
+  };
+  if (name.empty() || !std::all_of(name.begin(), name.end(), is_of_word)) {
+    throw InputError(
+        fmt::format("the name of a backend must be letters, digits, '-' and '_', got \"{}\"",
+                    excerpt(name, 60)));
+  }
+  if (std::any_of(own_makers().begin(), own_makers().end(), with_name(name))) {
+    throw InputError(fmt::format("the backend \"{}\" is one of Pleuel: take another name", name));
+  }
 }
 
 }  // namespace
 
 std::vector<std::string> optimizer_names() {
   std::vector<std::string> names;
-  for (const Backend& backend : backends()) names.push_back(backend.name);
+  for (const auto& [name, make] : all_makers()) names.push_back(name);
   return names;
 }
 
+void add_optimizer(const std::string& name, OptimizerMaker make) {
+  check_name(name);
+  const std::lock_guard lock(added().mutex);
+  std::erase_if(added().makers, with_name(name));
+  added().makers.emplace_back(name, std::move(make));
+}
+
+void remove_optimizer(const std::string& name) {
+  const std::lock_guard lock(added().mutex);
+  if (std::erase_if(added().makers, with_name(name)) == 0) {
+    throw InputError(fmt::format("no backend \"{}\" was added", excerpt(name, 60)));
+  }
+}
+
 std::unique_ptr<Optimizer> make_optimizer(const std::string& name, const BackendOptions& options) {
-  for (const Backend& backend : backends()) {
-    if (backend.name == name) return backend.make(options);
+  for (const auto& [known, make] : all_makers()) {
+    if (known == name) return make(options);
   }
   throw InputError(fmt::format("there is no optimizer backend \"{}\"; known are {}", name,
                                fmt::join(optimizer_names(), ", ")));

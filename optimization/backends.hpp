@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -8,8 +9,17 @@
 
 namespace pleuel {
 
+using OptimizerMaker = std::function<std::unique_ptr<Optimizer>(const BackendOptions& options)>;
+
 /// The names that make_optimizer() knows.
 std::vector<std::string> optimizer_names();
+
+/// From now on make_optimizer() knows one more, or has another one of this name.
+/// @throws InputError if the name is that of one below, or not made of letters, digits, '-' and '_'
+void add_optimizer(const std::string& name, OptimizerMaker make);
+
+/// Forgets one that was added. @throws InputError if none of this name was
+void remove_optimizer(const std::string& name);
 
 /// nlopt-mma and nlopt-ccsaq (Svanberg 2002: conservative convex approximations; many variables,
 /// inequalities only), nlopt-slsqp (Kraft 1988: sequential quadratic programming; few variables),

@@ -2,6 +2,7 @@
 
 #include <exception>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -58,6 +59,8 @@ class ScaledProblem {
   bool should_stop() const { return should_stop_; }
   /// The backend asked for a design that is not a number: it has lost its way, and stops.
   bool has_left_numbers() const { return has_left_numbers_; }
+  /// Why the last evaluation has no numbers; empty: it has.
+  const std::string& failure() const { return cache_.history().back().failure; }
   /// Throws what an evaluation threw, if it did.
   void rethrow() const;
 

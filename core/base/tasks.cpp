@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <exception>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -52,16 +54,18 @@ class Places {
 /// For a task that this process carries out itself.
 class CallerHere : public TaskCaller {
  public:
-  CallerHere(Tasks& tasks, int task, std::vector<std::string>& messages)
-      : tasks_(tasks), task_(task), messages_(messages) {}
+  using Told = std::function<void(const std::string& message)>;
 
-  void tell(const std::string& message) override { messages_.push_back(message); }
+  CallerHere(Tasks& tasks, int task, Told told)
+      : tasks_(tasks), task_(task), told_(std::move(told)) {}
+
+  void tell(const std::string& message) override { told_(message); }
   std::string ask(const std::string& question) override { return tasks_.reply(task_, question); }
 
  private:
   Tasks& tasks_;
   int task_;
-  std::vector<std::string>& messages_;
+  Told told_;
 };
 
 class TaskRun {
@@ -97,6 +101,7 @@ class TaskRun {
     Phase phase = Phase::waiting;
     int attempts = 0;
     std::string result;                 ///< answer, what was thrown, or why it failed
+    std::exception_ptr thrown;          ///< here
     std::vector<std::string> messages;  ///< of the latest attempt
     std::size_t heard = 0;
   };
@@ -177,21 +182,27 @@ class TaskRun {
     }
   }
 
+  /// Nothing runs: all before it is delivered, and who listens hears of it meanwhile.
   void carry_out_here(const TaskOrder& order, State& state) {
-    CallerHere caller(tasks_, order.task, state.messages);
+    deliver();
+    CallerHere caller(tasks_, order.task, [&](const std::string& message) {
+      state.messages.push_back(message);
+      if (delivered_ == static_cast<std::size_t>(order.task)) hear(delivered_);
+    });
     try {
       state.result = tasks_.run(order.task, order.needed, caller);
       state.phase = Phase::answered;
     } catch (const Stopped&) {
       throw;
     } catch (...) {
-      state.result = thrown_report();
+      state.thrown = std::current_exception();
       state.phase = Phase::threw;
     }
   }
 
   /// Waits for news from the workers.
   void listen(double seconds) {
+    if (running_.empty()) return;
     std::vector<pollfd> descriptors;
     std::vector<std::size_t> begins;
     for (const TaskPlace* place : places_.all()) {
@@ -258,9 +269,9 @@ class TaskRun {
   void hear(std::size_t task) {
     State& state = states_[task];
     // A second attempt tells the same as the first did.
-    for (; state.heard < state.messages.size(); ++state.heard) {
-      tasks_.hear(static_cast<int>(task), state.messages[state.heard]);
-      state.messages[state.heard].clear();
+    while (state.heard < state.messages.size()) {
+      const std::string message = std::move(state.messages[state.heard++]);
+      tasks_.hear(static_cast<int>(task), message);
     }
   }
 
@@ -274,6 +285,7 @@ class TaskRun {
       } else if (state.phase == Phase::failed) {
         tasks_.fail(task, state.result);
       } else if (state.phase == Phase::threw) {
+        if (state.thrown) std::rethrow_exception(state.thrown);
         throw_again(state.result);
       } else {
         return;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdint>
@@ -23,6 +24,8 @@ constexpr std::size_t header_size = 1 + sizeof(std::uint64_t);
 /// Where a worker has its connection; everything above is closed, as locks and files are not its
 /// business.
 constexpr int worker_descriptor = 3;
+
+std::atomic<int> prohibitions = 0;
 
 bool write_all_to(int descriptor, const char* data, std::size_t size) {
   while (size > 0) {
@@ -105,9 +108,18 @@ bool Channel::take(Frame& frame) {
   return true;
 }
 
+WorkersForbidden::WorkersForbidden() noexcept {
+  ++prohibitions;
+}
+
+WorkersForbidden::~WorkersForbidden() {
+  --prohibitions;
+}
+
 Worker::Worker(const std::function<void(Channel&)>& work) : Worker(forked(work)) {}
 
 Worker Worker::forked(const std::function<void(Channel&)>& work) {
+  if (prohibitions > 0) throw NoWorker("no worker process: this process makes none");
   std::array<int, 2> ends;
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) == -1) {
     throw NoWorker(fmt::format("no worker process: {}", std::strerror(errno)));

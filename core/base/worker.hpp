@@ -51,13 +51,23 @@ class NoWorker : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// As long as there is one, no worker can be made: this process has what a copy of it has no use of, as functions
+/// of a program that calls the library.
+class WorkersForbidden {
+ public:
+  WorkersForbidden() noexcept;
+  ~WorkersForbidden();
+  WorkersForbidden(const WorkersForbidden&) = delete;
+  WorkersForbidden& operator=(const WorkersForbidden&) = delete;
+};
+
 /// A process that was forked from this one: it has all that is in memory, and shares nothing. It ends
 /// with this one, whatever ends that. To be made while no other thread holds anything that the
 /// worker needs.
 class Worker {
  public:
   /// @param work  runs in the new process, which ends when it returns; nothing may be thrown
-  /// @throws std::runtime_error if the system makes no process
+  /// @throws NoWorker if the system makes no process, or if workers are forbidden
   explicit Worker(const std::function<void(Channel&)>& work);
   ~Worker();  ///< kills it, if it is still there
   Worker(Worker&& other) noexcept;

@@ -6,24 +6,29 @@ import numpy as np
 from pleuel.scaled import Scaled
 
 
-def optimum(problem):
-    """The design that it finds [SI]."""
-    scaled = Scaled(problem)
+def minimum(functions):
+    """The y that it finds of the functions of a pleuel.scaled.Scaled or a pleuel.Search."""
 
     def objective(y, gradient):
         if gradient.size:
-            gradient[:] = scaled.gradient(y)
-        return scaled.objective(y)
+            gradient[:] = functions.gradient(y)
+        return functions.objective(y)
 
     def limits(result, y, jacobian):
-        result[:] = scaled.violations(y)
+        result[:] = functions.violations(y)
         if jacobian.size:
-            jacobian[:] = scaled.jacobian(y)
+            jacobian[:] = functions.jacobian(y)
 
-    solver = nlopt.opt(nlopt.LD_SLSQP, scaled.start.size)
-    solver.set_lower_bounds(np.zeros(scaled.start.size))
-    solver.set_upper_bounds(np.ones(scaled.start.size))
+    solver = nlopt.opt(nlopt.LD_SLSQP, functions.start.size)
+    solver.set_lower_bounds(functions.lower)
+    solver.set_upper_bounds(functions.upper)
     solver.set_min_objective(objective)
-    solver.add_inequality_mconstraint(limits, np.full(scaled.violations(scaled.start).size, 1e-9))
+    solver.add_inequality_mconstraint(limits, np.full(functions.violations(functions.start).size, 1e-9))
     solver.set_ftol_rel(1e-10)
-    return scaled.design(solver.optimize(scaled.start))
+    return solver.optimize(functions.start)
+
+
+def optimum(problem):
+    """The design that it finds [SI]."""
+    scaled = Scaled(problem)
+    return scaled.design(minimum(scaled))

@@ -6,17 +6,16 @@ from petsc4py import PETSc
 from pleuel.scaled import Scaled
 
 
-def optimum(problem, weight=10.0, rounds=40):
-    """The design that it finds [SI]."""
-    scaled = Scaled(problem)
-    multipliers = np.zeros(scaled.violations(scaled.start).size)
-    y = PETSc.Vec().createWithArray(scaled.start.copy(), comm=PETSc.COMM_SELF)
-    lower, upper = (PETSc.Vec().createWithArray(np.full(y.size, bound), comm=PETSc.COMM_SELF) for bound in (0.0, 1.0))
+def minimum(functions, weight=10.0, rounds=40):
+    """The y that it finds of the functions of a pleuel.scaled.Scaled."""
+    multipliers = np.zeros(functions.violations(functions.start).size)
+    y = PETSc.Vec().createWithArray(functions.start.copy(), comm=PETSc.COMM_SELF)
+    lower, upper = (PETSc.Vec().createWithArray(at, comm=PETSc.COMM_SELF) for at in (functions.lower, functions.upper))
 
     def lagrangian(_, at, gradient):
-        forces = np.maximum(0.0, multipliers + weight * scaled.violations(at.array_r))
-        gradient.array = scaled.gradient(at.array_r) + scaled.jacobian(at.array_r).T @ forces
-        return scaled.objective(at.array_r) + (forces @ forces - multipliers @ multipliers) / (2.0 * weight)
+        forces = np.maximum(0.0, multipliers + weight * functions.violations(at.array_r))
+        gradient.array = functions.gradient(at.array_r) + functions.jacobian(at.array_r).T @ forces
+        return functions.objective(at.array_r) + (forces @ forces - multipliers @ multipliers) / (2.0 * weight)
 
     tao = PETSc.TAO().create(comm=PETSc.COMM_SELF)
     tao.setType("blmvm")
@@ -25,8 +24,14 @@ def optimum(problem, weight=10.0, rounds=40):
     tao.setTolerances(gatol=1e-8, grtol=0.0)
     for _ in range(rounds):
         tao.solve(y)
-        change = np.maximum(0.0, multipliers + weight * scaled.violations(y.array_r)) - multipliers
+        change = np.maximum(0.0, multipliers + weight * functions.violations(y.array_r)) - multipliers
         multipliers += change
         if np.abs(change).max() < 1e-8:
             break
-    return scaled.design(y.array_r)
+    return y.array_r
+
+
+def optimum(problem):
+    """The design that it finds [SI]."""
+    scaled = Scaled(problem)
+    return scaled.design(minimum(scaled))

@@ -10,13 +10,14 @@ All numbers are in SI units. docs/from-python.md says more.
 
 from ._border import library as _library
 from ._border import stop
+from .backends import Search, register_backend
 from .errors import CallError, Error, Fault, InputError, Interrupted, SimulationError, Stopped
 from .problem import Problem, load, run
 from .results import Document, Evaluation, History, Optimum, Progress
 
 __all__ = [
     "CallError", "Document", "Error", "Evaluation", "Fault", "History", "InputError", "Interrupted", "Optimum",
-    "Problem", "Progress", "SimulationError", "Stopped", "load", "run", "stop", "version",
+    "Problem", "Progress", "Search", "SimulationError", "Stopped", "load", "register_backend", "run", "stop", "version",
 ]
 
 

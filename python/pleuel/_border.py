@@ -9,6 +9,7 @@ import os
 import pathlib
 import signal
 import threading
+from typing import Optional
 
 from . import errors
 
@@ -45,6 +46,23 @@ class Progress(c.Structure):
     ]
 
 
+class Search(c.Structure):
+    """pleuel_search"""
+
+    _fields_ = [
+        ("number", c.c_uint64),
+        ("variables", c.c_size_t),
+        ("inequalities", c.c_size_t),
+        ("equalities", c.c_size_t),
+        ("start", c.POINTER(c.c_double)),
+        ("lower", c.POINTER(c.c_double)),
+        ("upper", c.POINTER(c.c_double)),
+        ("tolerance", c.c_double),
+    ]
+
+
+REASON_SIZE = 256
+BACKEND = c.CFUNCTYPE(c.c_int, c.POINTER(Search), c.POINTER(c.c_double), c.POINTER(c.c_char), c.c_void_p)
 OBSERVER = c.CFUNCTYPE(c.c_int, c.POINTER(Progress), c.c_void_p)
 
 _text, _size, _numbers, _problem = c.c_char_p, c.c_size_t, c.c_void_p, c.c_uint64
@@ -64,6 +82,8 @@ _arguments = {
     "pleuel_history": [_problem, _numbers, _size, _size, _numbers, _numbers, _size, _numbers],
     "pleuel_motion": [_problem, _numbers, _size, _owned_out],
     "pleuel_optimize": [_problem, _numbers, _size, _text, OBSERVER, c.c_void_p, _owned_out],
+    "pleuel_register_backend": [_text, c.c_int, BACKEND, c.c_void_p],
+    "pleuel_search_evaluate": [c.c_uint64, _numbers, _size, _numbers, _numbers, _size, _numbers, _numbers],
     "pleuel_run": [_texts, _size, c.POINTER(c.c_int), _owned_out],
     "pleuel_main": [c.c_int, _texts],
     "pleuel_version": [],
@@ -130,6 +150,19 @@ def was_interrupted() -> bool:
     return not _stop_was_asked.is_set() and threading.current_thread() is threading.main_thread()
 
 
+_of_callbacks = threading.local()
+
+
+def keep_failure(failure: BaseException) -> None:
+    """What a function raised that the library has called: the cause of the failure of the call that runs."""
+    _of_callbacks.failure = failure
+
+
+def _take_failure() -> Optional[BaseException]:
+    failure, _of_callbacks.failure = getattr(_of_callbacks, "failure", None), None
+    return failure
+
+
 def checked(status: int) -> None:
     """Raises what a status says."""
     if status == OK:
@@ -138,7 +171,7 @@ def checked(status: int) -> None:
         raise KeyboardInterrupt
     error = library.pleuel_last_error().contents
     texts = [getattr(error, name).decode(errors="replace") for name in ("text", "file", "pointer", "rule")]
-    raise _exceptions[status](*texts)
+    raise _exceptions[status](*texts) from _take_failure()
 
 
 def call(name: str, *arguments) -> None:

@@ -8,6 +8,8 @@ import unittest
 import numpy as np
 from sample import crank
 
+import pleuel
+
 sys.path += glob.glob("/usr/lib/petscdir/*/*-real/lib/python3/dist-packages")  # where Debian has petsc4py
 
 
@@ -30,6 +32,17 @@ class TestOptimizers(unittest.TestCase):
         cls.best = cls.problem.optimize(checks=False, tolerance=1e-9)
         assert cls.best.is_verified, cls.best["message"]
 
+    def expect_backend(self, module):
+        """Its functions, named by the options of a search: Pleuel proves what they find."""
+        pleuel.register_backend("example", module.minimum)
+        try:
+            found = self.problem.optimize(backend="example", checks=False)
+        finally:
+            pleuel.register_backend("example", None)
+        self.assertTrue(found.is_verified, found["message"])
+        self.assertEqual(found["backend"], "example")
+        self.expect_optimum(found.x, 1e-5)
+
     def expect_optimum(self, x, objective):
         """objective: its relative tolerance"""
         found = self.problem.evaluate(x)
@@ -39,15 +52,22 @@ class TestOptimizers(unittest.TestCase):
         self.assertLess((excess / magnitudes).max(), objective)
 
     def test_scipy_slsqp(self):
-        self.expect_optimum(example("scipy", "python3-scipy", "scipy_slsqp").optimum(self.problem), 1e-6)
+        module = example("scipy", "python3-scipy", "scipy_slsqp")
+        self.expect_optimum(module.optimum(self.problem), 1e-6)
+        self.expect_backend(module)
 
     def test_scipy_trust_constr(self):
-        self.expect_optimum(example("scipy", "python3-scipy", "scipy_trust_constr").optimum(self.problem), 1e-5)
+        module = example("scipy", "python3-scipy", "scipy_trust_constr")
+        self.expect_optimum(module.optimum(self.problem), 1e-5)
+        self.expect_backend(module)
 
     def test_nlopt_slsqp(self):
-        self.expect_optimum(example("nlopt", "python3-nlopt", "nlopt_slsqp").optimum(self.problem), 1e-6)
+        module = example("nlopt", "python3-nlopt", "nlopt_slsqp")
+        self.expect_optimum(module.optimum(self.problem), 1e-6)
+        self.expect_backend(module)
 
     def test_petsc_tao(self):
+        """Not as a backend: its augmented Lagrangian gets no better for longer than a search waits (docs/from-python.md)."""
         self.expect_optimum(example("petsc4py", "python3-petsc4py", "petsc_tao").optimum(self.problem), 1e-5)
 
 

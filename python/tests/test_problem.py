@@ -5,6 +5,7 @@ import json
 import os
 import pathlib
 import pickle
+import re
 import signal
 import subprocess
 import sys
@@ -193,6 +194,10 @@ class TestInterrupts(unittest.TestCase):
 
 
 class TestProgram(unittest.TestCase):
+    def test_the_package_has_the_version_of_the_library(self):
+        version = re.search(r'^version = "(.+)"$', (ROOT / "python/pyproject.toml").read_text(), re.MULTILINE)
+        self.assertEqual(pleuel.version().split()[1], version[1])
+
     def test_the_module_is_the_program(self):
         ran = subprocess.run(
             [sys.executable, "-m", "pleuel", "--version"], capture_output=True, text=True, check=True,

@@ -106,11 +106,15 @@ def merged(old: str, block: Block) -> str:
 def library_of(program: Path) -> dict[str, str]:
     """Where compilers, the loader and Python find what is installed elsewhere."""
     libraries = str(program.parent.parent / "lib")
+    python = [ROOT / "python", ROOT / "python/examples"]
+    frameworks = subprocess.run([shutil.which("python3", path="/usr/bin"), "-c", "import openmdao, pyoptsparse"], capture_output=True)
+    if frameworks.returncode != 0:
+        python.append(ROOT / "python/tests/stand_in")  # which says so
     return {
         "CPATH": str(ROOT / "include"),
         "LIBRARY_PATH": libraries,
         "LD_LIBRARY_PATH": libraries,
-        "PYTHONPATH": f"{ROOT / 'python'}:{ROOT / 'python/examples'}",
+        "PYTHONPATH": ":".join([*map(str, python), os.environ.get("PYTHONPATH", "")]),
         "PYTHONDONTWRITEBYTECODE": "1",
     }
 

@@ -70,6 +70,26 @@ static void an_observer_ends_an_optimization(pleuel_problem crank) {
   pleuel_free(result);
 }
 
+/* Counts its calls, and fails at the first. */
+static int fail_at_once(const pleuel_search *search, double *y, char *reason, void *user) {
+  double objective, rows[16];
+  expect(pleuel_search_evaluate(search->number, y, search->variables, &objective, rows, 6, NULL, NULL) == PLEUEL_OK,
+         "a search is evaluated at its start");
+  ++*(int *)user;
+  strcpy(reason, "no way down");
+  return 1;
+}
+
+static void a_backend_that_fails_is_an_error(pleuel_problem crank) {
+  char *result = NULL;
+  int calls = 0;
+  expect(pleuel_register_backend("mine", 0, fail_at_once, &calls) == PLEUEL_OK, "a backend is registered");
+  expect(pleuel_optimize(crank, NULL, 0, "{\"backend\": \"mine\"}", NULL, NULL, &result) == PLEUEL_BAD_CALL,
+         "a backend that fails");
+  expect(calls == 1 && strstr(pleuel_last_error()->text, "no way down") != NULL, "its reason");
+  expect(pleuel_register_backend("mine", 0, NULL, NULL) == PLEUEL_OK, "it is forgotten");
+}
+
 static void what_is_wrong_is_said(pleuel_problem crank) {
   double x[4] = {0.02, 0.03, NAN, 0.03}, objective, values[6];
   const char *const negative[] = {"/simulation/step=-1"};
@@ -91,6 +111,7 @@ int main(int argc, char **argv) {
   names_are_those_of_the_file(crank);
   jacobian_is_that_of_differences(crank);
   an_observer_ends_an_optimization(crank);
+  a_backend_that_fails_is_an_error(crank);
   what_is_wrong_is_said(crank);
   expect(pleuel_close(crank) == PLEUEL_OK, "it closes");
   expect(pleuel_close(crank) == PLEUEL_BAD_CALL, "once");

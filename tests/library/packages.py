@@ -40,6 +40,8 @@ def main() -> None:
             sys.exit(f"the packages are {names}")
         for package in packages:
             run("dpkg-deb", "-x", package, root)
+        for name in NAMES:
+            (root / "usr/share/doc" / name / "copyright").read_text()
         print(run(root / "usr/bin/pleuel", "show", root / "usr/share/pleuel/problems/slider_crank.json").splitlines()[0])
         environment = {
             **os.environ, "PYTHONPATH": str(root / "usr/lib/python3/dist-packages"),

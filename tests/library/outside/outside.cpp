@@ -57,6 +57,13 @@ int main(int, char** argv) {
     expect(false, "exceptions of observers come out");
   } catch (const std::out_of_range&) {
   }
+  pleuel::register_backend("mine", [](const pleuel::Search& search) -> pleuel::Numbers {
+    const auto e = search.evaluate(search.start(), pleuel::Derivatives::yes);
+    expect(e.jacobian.size() == e.limits.size() * e.gradient.size(), "functions of a search");
+    throw std::out_of_range("mine");
+  });
+  expect(status_of([&] { crank.optimize(R"({"backend": "mine"})"); }) == PLEUEL_BAD_CALL,
+         "a backend that throws");
   expect(status_of([&] { crank.evaluate({1.0}); }) == PLEUEL_BAD_CALL, "a wrong size");
   expect(status_of([] { pleuel::Problem("missing.json"); }) == PLEUEL_BAD_INPUT, "a missing file");
   expect(status_of([&] { opened.start(); }) == PLEUEL_BAD_CALL, "what was moved from is closed");
