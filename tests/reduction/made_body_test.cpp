@@ -1,0 +1,245 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/base/child_program.hpp"
+#include "core/base/error.hpp"
+#include "core/scene/aligned_body.hpp"
+#include "core/scene/continued_body.hpp"
+#include "core/scene/invariants_file.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace pleuel::test::made_body_test {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using FilePointer = std::shared_ptr<const InvariantsFile>;
+
+SparseMatrix sparse(const MatrixXd& matrix) {
+  return matrix.sparseView(1.0, 0.0);
+}
+
+VectorXd values(double x) {
+  return VectorXd::Constant(1, x);
+}
+
+/// A body of two coordinates with K = a x³ + b x² and the mass of a bar of height x; its derivatives by hand.
+BodyConstants constants_at(double a, double b, double mass) {
+  MatrixXd first(2, 2), second(2, 2), unit = MatrixXd::Identity(2, 2);
+  first << 4e5, 1e3, 1e3, 9.0;
+  second << 1e4, -200.0, -200.0, 7.0;
+  BodyConstants body;
+  body.mass = 2.0 * mass;
+  body.first_moment = mass * Eigen::Vector3d::UnitX();
+  body.second_moment = mass * Eigen::Matrix3d::Identity();
+  body.shape = sparse((MatrixXd(3, 2) << 0.3 * mass, 0.0, 0.0, 0.8 * mass, 0.0, 0.0).finished());
+  body.mixed = sparse(mass * MatrixXd::Constant(9, 2, 0.1));
+  for (std::size_t i = 0; i < 6; ++i) body.moments[i] = sparse(i < 3 ? mass * unit : 0.0 * unit);
+  body.mass_matrix = sparse(3.0 * mass * unit);
+  body.stiffness = sparse(a * first + b * second);
+  body.damping = sparse(1e-5 * (a * first + b * second));
+  body.places = {{"end", Eigen::Vector3d::UnitX(), sparse(MatrixXd::Identity(3, 2)),
+                  sparse(MatrixXd::Identity(3, 2))}};
+  return body;
+}
+
+InvariantsFile body_of(double x, double second = 1.0) {
+  InvariantsFile file;
+  file.body = "bar";
+  file.reference_condition = "clamped";
+  file.coordinates = {"stretching", "bending"};
+  file.constants = constants_at(std::pow(x, 3), second * x * x, x);
+  BodyConstants change = constants_at(3.0 * x * x, second * 2.0 * x, 1.0);
+  change.places[0].position.setZero();
+  change.places[0].displacement.setZero();
+  change.places[0].rotation.setZero();
+  file.design = {{"height", x, "m", change}};
+  return file;
+}
+
+std::shared_ptr<const BodySource> continued(const std::vector<double>& designs,
+                                            double second = 1.0) {
+  std::vector<FilePointer> files;
+  for (const double x : designs) {
+    files.push_back(std::make_shared<const InvariantsFile>(body_of(x, second)));
+  }
+  return continue_body(files);
+}
+
+double difference(const SparseMatrix& a, const SparseMatrix& b) {
+  return (MatrixXd(a) - MatrixXd(b)).cwiseAbs().maxCoeff() / MatrixXd(b).cwiseAbs().maxCoeff();
+}
+
+TEST(ContinuedBody, IsTheBodyThatWasMadeAtItsDesigns) {
+  const auto source = continued({0.8, 1.0, 1.3});
+  for (const double x : {0.8, 1.0, 1.3}) {
+    EXPECT_EQ(
+        difference(source->at(values(x))->constants.stiffness, body_of(x).constants.stiffness),
+        0.0);
+    EXPECT_EQ(source->distance(values(x)), 0.0);
+  }
+  EXPECT_NEAR(source->distance(values(0.99)), 0.01, 1e-12);
+}
+
+/// Beside a design values differ by the square of the distance, and derivatives by the distance: 1e-4.
+TEST(ContinuedBody, HasValuesAndDerivativesOfItsDesigns) {
+  const auto source = continued({0.8, 1.0, 1.3});
+  for (const double x : {0.8, 1.0, 1.3}) {
+    const FilePointer beside = source->at(values(x * (1.0 + 1e-4)));
+    const InvariantsFile exact = body_of(x * (1.0 + 1e-4));
+    EXPECT_LT(difference(beside->constants.stiffness, exact.constants.stiffness), 1e-7);
+    EXPECT_LT(
+        difference(beside->design[0].derivative->stiffness, exact.design[0].derivative->stiffness),
+        1e-3);
+  }
+}
+
+/// Central differences of the continued values; their error is h² times a third derivative.
+TEST(ContinuedBody, DerivativesBetweenDesignsAreThoseOfItsValues) {
+  const auto source = continued({0.8, 1.0, 1.3});
+  constexpr double h = 1e-5;
+  for (const double x : {0.7, 0.93, 1.1, 1.6}) {
+    BodyConstants slope = zero_constants(source->at(values(x))->constants);
+    add_constants(slope, 0.5 / h, source->at(values(x + h))->constants);
+    add_constants(slope, -0.5 / h, source->at(values(x - h))->constants);
+    const FilePointer file = source->at(values(x));
+    const BodyConstants& given = *file->design[0].derivative;
+    EXPECT_LT(difference(given.stiffness, slope.stiffness), 1e-6) << x;
+    EXPECT_LT(difference(given.damping, slope.damping), 1e-6) << x;
+    EXPECT_LT(difference(given.mass_matrix, slope.mass_matrix), 1e-6) << x;
+  }
+}
+
+/// K ~ x³ is a line in logarithms: exact for any step, where a line in x itself is below zero at 1 − 0.4.
+TEST(ContinuedBody, PowersAreContinuedExactly) {
+  const auto source = continued({1.0}, 0.0);
+  for (const double x : {0.3, 0.6, 2.0}) {
+    EXPECT_LT(
+        difference(source->at(values(x))->constants.stiffness, body_of(x, 0.0).constants.stiffness),
+        1e-12);
+  }
+}
+
+TEST(ContinuedBody, StaysStiffForAnyStep) {
+  const auto source = continued({1.0, 1.1});
+  for (const double x : {0.2, 0.5, 3.0}) {
+    const MatrixXd k(source->at(values(x))->constants.stiffness);
+    EXPECT_GT(k(0, 0) * k(1, 1) - k(0, 1) * k(1, 0), 0.0) << x;
+    EXPECT_GT(k(0, 0), 0.0) << x;
+  }
+}
+
+/// The other order and other signs of the same coordinates.
+InvariantsFile turned(const InvariantsFile& file) {
+  const SparseMatrix t = sparse((MatrixXd(2, 2) << 0.0, -1.0, 1.0, 0.0).finished());
+  InvariantsFile other = file;
+  other.constants = in_coordinates(file.constants, t);
+  return other;
+}
+
+TEST(AlignedBody, HasOrderAndSignsOfItsReference) {
+  const InvariantsFile reference = body_of(1.0), other = turned(body_of(1.01));
+  const SparseMatrix t = alignment_of(reference, other);
+  const BodyConstants aligned = in_coordinates(other.constants, t);
+  EXPECT_LT(difference(aligned.stiffness, body_of(1.01).constants.stiffness), 1e-15);
+  EXPECT_LT(difference(aligned.shape, body_of(1.01).constants.shape), 1e-15);
+}
+
+TEST(AlignedBody, NeedsTheSameCoordinates) {
+  const InvariantsFile reference = body_of(1.0);
+  InvariantsFile other = body_of(1.0);
+  other.coordinates.push_back("mode 3");
+  EXPECT_THAT([&] { alignment_of(reference, other); },
+              testing::ThrowsMessage<SimulationError>(testing::HasSubstr("3 coordinates")));
+  InvariantsFile mixed = reference;
+  const double c = std::sqrt(0.5);
+  mixed.constants.shape.setZero();
+  mixed.constants.mixed.setZero();
+  mixed.constants.places[0].displacement.setZero();
+  mixed.constants.places[0].rotation = sparse((MatrixXd(3, 2) << 0, 0, 0, 0, c, c).finished());
+  EXPECT_THAT([&] { alignment_of(reference, mixed); },
+              testing::ThrowsMessage<SimulationError>(testing::HasSubstr("stretching")));
+}
+
+/// A program that writes what stands in a file, and counts its calls.
+class CountedProgram {
+ public:
+  CountedProgram() {
+    std::ofstream(folder_.path() / "make.sh")
+        << "echo call >>calls\n"
+           "h=$(sed 's/.*\"height\":\\([^}]*\\)}.*/\\1/')\ncat \"body-$h.json\"\n";
+  }
+
+  void add(const std::string& height, const InvariantsFile& file) const {
+    std::ofstream(folder_.path() / ("body-" + height + ".json")) << write_invariants(file);
+  }
+
+  /// @param derivatives  whether they are given
+  BodyProgram program(bool derivatives) const {
+    return {"bar",
+            {"sh", "make.sh"},
+            folder_.path().string(),
+            {{"height", "m"}},
+            derivatives,
+            0.25,
+            20.0,
+            (folder_.path() / "record").string()};
+  }
+
+  int calls() const {
+    std::ifstream stream(folder_.path() / "calls");
+    return static_cast<int>(std::count(std::istreambuf_iterator<char>(stream), {}, '\n'));
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+TEST(BodyProgram, IsCalledOnceForADesignWhoeverAsks) {
+  allow_programs();
+  const CountedProgram counted;
+  counted.add("0.5", body_of(0.5));
+  for (int run = 0; run < 2; ++run) {
+    const auto source = make_program_source(counted.program(true));
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_EQ(source->at(values(0.5))->constants.mass, body_of(0.5).constants.mass);
+    }
+  }
+  EXPECT_EQ(counted.calls(), 1);
+}
+
+/// A step of a quarter: (0.625³ − 0.5³)/0.125 and the like; with modes that came in another order.
+TEST(BodyProgram, DifferencesAreThoseOfItsCalls) {
+  allow_programs();
+  const CountedProgram counted;
+  counted.add("0.5", body_of(0.5));
+  counted.add("0.625", turned(body_of(0.625)));
+  const auto file = make_program_source(counted.program(false))->at(values(0.5));
+  BodyConstants expected = zero_constants(file->constants);
+  add_constants(expected, 8.0, body_of(0.625).constants);
+  add_constants(expected, -8.0, body_of(0.5).constants);
+  EXPECT_LT(difference(file->design[0].derivative->stiffness, expected.stiffness), 1e-12);
+  EXPECT_EQ(counted.calls(), 2);
+}
+
+TEST(BodyProgram, FailsWithItsNameAndDesign) {
+  allow_programs();
+  const CountedProgram counted;
+  counted.add("1.0", body_of(0.5));
+  const auto source = make_program_source(counted.program(true));
+  using testing::AllOf;
+  using testing::HasSubstr;
+  EXPECT_THAT([&] { source->at(values(0.75)); },
+              testing::ThrowsMessage<SimulationError>(
+                  AllOf(HasSubstr("height = 0.75 m"), HasSubstr("sh make.sh"))));
+  EXPECT_THAT([&] { source->at(values(1.0)); },
+              testing::ThrowsMessage<SimulationError>(HasSubstr("wrote a body of height = 0.5")));
+}
+
+}  // namespace
+}  // namespace pleuel::test::made_body_test
