@@ -165,6 +165,7 @@ void add_compare(CLI::App& app, Arguments& arguments) {
   CLI::App* compare = add_command(app, arguments, "compare",
                                   "two runs side by side: what differs in input and outcome");
   compare->add_option("DIR", arguments.files, "the two run folders")->required()->expected(2);
+  add_programs(compare, arguments);
 }
 
 void add_export(CLI::App& app, Arguments& arguments) {
@@ -174,6 +175,7 @@ void add_export(CLI::App& app, Arguments& arguments) {
   command
       ->add_option("-o,--output", arguments.output, "where the files go (default: the run folder)")
       ->type_name("DIR");
+  add_programs(command, arguments);
   command->add_flag("--vtk", arguments.wants_vtk,
                     "write the motion of start and optimum for ParaView, too, which are simulated "
                     "again");

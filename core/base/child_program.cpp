@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::atomic<bool> programs_are_allowed = false;
+std::atomic<int> permissions = 0;
 
 constexpr int could_not_start = 127;  // as shells have it
 
@@ -147,12 +147,16 @@ int wait_for(const ChildProgram& program, pid_t process, const Streams& streams)
 
 }  // namespace
 
-void allow_programs() {
-  programs_are_allowed = true;
+ProgramPermission::ProgramPermission() {
+  ++permissions;
+}
+
+ProgramPermission::~ProgramPermission() {
+  --permissions;
 }
 
 bool may_start_programs() {
-  return programs_are_allowed;
+  return permissions > 0;
 }
 
 std::string command_text(const ChildProgram& program) {

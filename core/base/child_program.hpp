@@ -7,8 +7,15 @@
 /// Other programs that this one starts.
 namespace pleuel {
 
-/// From now on this process may start the programs that problem files name: the user said so.
-void allow_programs();
+/// As long as one of them exists, this process may start the programs that problem files name: the
+/// user said so.
+class ProgramPermission {
+ public:
+  ProgramPermission();
+  ~ProgramPermission();
+  ProgramPermission(const ProgramPermission&) = delete;
+  ProgramPermission& operator=(const ProgramPermission&) = delete;
+};
 bool may_start_programs();
 
 struct ChildProgram {

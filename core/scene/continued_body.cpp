@@ -8,6 +8,7 @@
 #include "core/base/dense_solvers.hpp"
 #include "core/base/error.hpp"
 #include "core/base/int_size.hpp"
+#include "core/scene/body_chart.hpp"
 
 namespace pleuel {
 
@@ -17,141 +18,10 @@ using FilePointer = std::shared_ptr<const InvariantsFile>;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-SparseMatrix sparse_of_dense(const MatrixXd& matrix) {
-  return matrix.sparseView(1.0, 0.0);
-}
-
-/// f(A) of a symmetric A = V diag(λ) Vᵀ, and its derivative V (f[λᵢ, λⱼ] ∘ VᵀA′V) Vᵀ with the divided
-/// differences of f (Daleckii & Krein 1965).
-class MatrixFunction {
- public:
-  enum class Kind { logarithm, exponential };
-
-  MatrixFunction(Kind kind, const MatrixXd& matrix)
-      : kind_(kind),
-        modes_(symmetric_modes(matrix)),
-        values_(modes_.values.unaryExpr(
-            [kind](double x) { return kind == Kind::logarithm ? std::log(x) : std::exp(x); })) {}
-
-  MatrixXd value() const {
-    return MatrixXd(modes_.vectors * values_.asDiagonal()) * modes_.vectors.transpose();
-  }
-
-  MatrixXd derivative(const MatrixXd& change) const {
-    MatrixXd inner = modes_.vectors.transpose() * change * modes_.vectors;
-    for (int i = 0; i < int_size(values_); ++i) {
-      for (int j = 0; j < int_size(values_); ++j) inner(i, j) *= divided_difference(i, j);
-    }
-    return modes_.vectors * inner * modes_.vectors.transpose();
-  }
-
- private:
-  double divided_difference(int i, int j) const {
-    const double a = modes_.values(i), b = modes_.values(j);
-    if (std::abs(a - b) > 1e-5 * (std::abs(a) + std::abs(b))) {
-      return (values_(i) - values_(j)) / (a - b);
-    }
-    const double middle = 0.5 * (a + b);  // to second order
-    return kind_ == Kind::logarithm ? 1.0 / middle : std::exp(middle);
-  }
-
-  Kind kind_;
-  SymmetricModes modes_;
-  VectorXd values_;
-};
-
-/// S with S Kᵢᵢ S = 1.
-VectorXd scales_of(const MatrixXd& matrix) {
-  return matrix.diagonal().cwiseSqrt().cwiseInverse();
-}
-
-MatrixXd scaled_both_ways(const VectorXd& s, const MatrixXd& matrix) {
-  return s.asDiagonal() * matrix * s.asDiagonal();
-}
-
-/// The constants with what has to stay positive as logarithms, and back.
-class Chart {
- public:
-  using Kind = MatrixFunction::Kind;
-
-  explicit Chart(const BodyConstants& first) {
-    add_scales(first.stiffness);
-    if (Cholesky(MatrixXd(first.damping)).is_positive_definite()) add_scales(first.damping);
-  }
-
-  /// Multiplies what is a logarithm.
-  void scale(BodyConstants& constants, double factor) const {
-    for (std::size_t m = 0; m < scales_.size(); ++m) constants.*member(m) *= factor;
-    if (!constants.stretching) return;
-    for (StretchedElement& element : constants.stretching->elements) {
-      element.axial_stiffness *= factor;
-    }
-  }
-
-  void take_logarithms(BodyConstants& constants, std::vector<BodyConstants>& derivatives) const {
-    for (std::size_t m = 0; m < scales_.size(); ++m) {
-      change(Kind::logarithm, member(m), scales_[m], constants, derivatives);
-    }
-    change_axial(
-        constants, derivatives, [](double k) { return std::log(k); },
-        [](double k) { return 1.0 / k; });
-  }
-
-  void take_exponentials(BodyConstants& constants, std::vector<BodyConstants>& derivatives) const {
-    for (std::size_t m = 0; m < scales_.size(); ++m) {
-      change(Kind::exponential, member(m), scales_[m], constants, derivatives);
-    }
-    change_axial(
-        constants, derivatives, [](double z) { return std::exp(z); },
-        [](double z) { return std::exp(z); });
-  }
-
- private:
-  using Member = SparseMatrix BodyConstants::*;
-
-  static Member member(std::size_t m) {
-    return m == 0 ? &BodyConstants::stiffness : &BodyConstants::damping;
-  }
-
-  void add_scales(const SparseMatrix& matrix) { scales_.push_back(scales_of(MatrixXd(matrix))); }
-
-  static void change(Kind kind, Member which, const VectorXd& scale, BodyConstants& constants,
-                     std::vector<BodyConstants>& derivatives) {
-    const bool is_logarithm = kind == Kind::logarithm;
-    const VectorXd back = scale.cwiseInverse();
-    const auto before = [&](const SparseMatrix& of) {
-      return is_logarithm ? scaled_both_ways(scale, MatrixXd(of)) : MatrixXd(of);
-    };
-    const auto after = [&](const MatrixXd& of) {
-      return sparse_of_dense(is_logarithm ? of : scaled_both_ways(back, of));
-    };
-    const MatrixFunction function(kind, before(constants.*which));
-    for (BodyConstants& one : derivatives) {
-      one.*which = after(function.derivative(before(one.*which)));
-    }
-    constants.*which = after(function.value());
-  }
-
-  template <class Function, class Slope>
-  static void change_axial(BodyConstants& constants, std::vector<BodyConstants>& derivatives,
-                           const Function& function, const Slope& slope) {
-    if (!constants.stretching) return;
-    for (std::size_t e = 0; e < constants.stretching->elements.size(); ++e) {
-      double& value = constants.stretching->elements[e].axial_stiffness;
-      for (BodyConstants& one : derivatives) {
-        one.stretching->elements[e].axial_stiffness *= slope(value);
-      }
-      value = function(value);
-    }
-  }
-
-  std::vector<VectorXd> scales_;  ///< of stiffness, and of damping if it is positive definite
-};
-
 class ContinuedBody : public BodySource {
  public:
-  explicit ContinuedBody(std::vector<FilePointer> designs)
-      : files_(std::move(designs)), chart_(files_.front()->constants) {
+  ContinuedBody(const std::string& made_by, std::vector<FilePointer> designs)
+      : identity_(made_by), files_(std::move(designs)), chart_(files_.front()->constants) {
     const int count = int_size(files_.front()->design);
     is_logarithmic_.assign(count, true);
     for (const FilePointer& file : files_) {
@@ -160,7 +30,12 @@ class ContinuedBody : public BodySource {
       }
     }
     for (const FilePointer& file : files_) expansions_.push_back(expansion_of(*file));
+    for (const FilePointer& file : files_) {
+      for (const ConstantsDerivative& of : file->design) identity_ += fmt::format(" {}", of.value);
+    }
   }
+
+  std::string identity() const override { return identity_; }
 
   FilePointer at(const VectorXd& values) const override {
     const VectorXd place = place_of(values);
@@ -242,8 +117,8 @@ class ContinuedBody : public BodySource {
   }
 
   /// A derivative of what is a line in x, or of logarithms in log x: these times a factor.
-  BodyConstants with_logarithms_times(double factor, BodyConstants slope) const {
-    chart_.scale(slope, factor);
+  static BodyConstants with_logarithms_times(double factor, BodyConstants slope) {
+    BodyChart::scale(slope, factor);
     return slope;
   }
 
@@ -286,11 +161,6 @@ class ContinuedBody : public BodySource {
 
   InvariantsFile file_of(const VectorXd& values, BodyConstants constants,
                          std::vector<BodyConstants> slopes) const {
-    if (!(constants.mass > 0.0) ||
-        !Cholesky(MatrixXd(constants.mass_matrix)).is_positive_definite()) {
-      throw SimulationError(
-          "a body that is continued from other designs has no positive mass here");
-    }
     InvariantsFile file = *files_.front();
     for (int i = 0; i < int_size(values); ++i) {
       file.design[i].value = values(i);
@@ -300,16 +170,18 @@ class ContinuedBody : public BodySource {
     return file;
   }
 
+  std::string identity_;
   std::vector<FilePointer> files_;
-  Chart chart_;
+  BodyChart chart_;
   std::vector<bool> is_logarithmic_;
   std::vector<Expansion> expansions_;
 };
 
 }  // namespace
 
-std::shared_ptr<const BodySource> continue_body(std::vector<FilePointer> designs) {
-  return std::make_shared<const ContinuedBody>(std::move(designs));
+std::shared_ptr<const BodySource> continue_body(const std::string& made_by,
+                                                std::vector<FilePointer> designs) {
+  return std::make_shared<const ContinuedBody>(made_by, std::move(designs));
 }
 
 double stiffness_distance(const BodyConstants& a, const BodyConstants& b) {

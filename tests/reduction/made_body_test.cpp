@@ -9,6 +9,7 @@
 #include "core/base/child_program.hpp"
 #include "core/base/error.hpp"
 #include "core/scene/aligned_body.hpp"
+#include "core/scene/body_generator.hpp"
 #include "core/scene/continued_body.hpp"
 #include "core/scene/invariants_file.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -68,7 +69,7 @@ std::shared_ptr<const BodySource> continued(const std::vector<double>& designs,
   for (const double x : designs) {
     files.push_back(std::make_shared<const InvariantsFile>(body_of(x, second)));
   }
-  return continue_body(files);
+  return continue_body("", files);
 }
 
 double difference(const SparseMatrix& a, const SparseMatrix& b) {
@@ -125,13 +126,68 @@ TEST(ContinuedBody, PowersAreContinuedExactly) {
   }
 }
 
-TEST(ContinuedBody, StaysStiffForAnyStep) {
-  const auto source = continued({1.0, 1.1});
-  for (const double x : {0.2, 0.5, 3.0}) {
-    const MatrixXd k(source->at(values(x))->constants.stiffness);
-    EXPECT_GT(k(0, 0) * k(1, 1) - k(0, 1) * k(1, 0), 0.0) << x;
-    EXPECT_GT(k(0, 0), 0.0) << x;
+/// G = ∫ρ φ φᵀ of particles, whose displacements are x and x³ times two functions: positive at all x > 0, where a
+/// line from 1 with the slope of x³ is negative below 2/3.
+BodyConstants particles(double x) {
+  BodyConstants body = constants_at(std::pow(x, 3), x * x, x);
+  body = zero_constants(body);
+  body.stiffness = constants_at(std::pow(x, 3), x * x, x).stiffness;
+  body.damping = constants_at(std::pow(x, 3), x * x, x).damping;
+  MatrixXd shape = MatrixXd::Zero(3, 2), mixed = MatrixXd::Zero(9, 2);
+  std::array<MatrixXd, 6> moments;
+  moments.fill(MatrixXd::Zero(2, 2));
+  for (const double place : {0.1, 0.4, 0.7, 1.0}) {
+    const Eigen::Vector3d p(place, 0.0, 0.0);
+    MatrixXd s = MatrixXd::Zero(3, 2);
+    s(0, 0) = place;              // depends on p₀: its part of φ is no new direction
+    s(1, 1) = place * place * x;  // ∫ρ S² ~ x³
+    body.mass += x;
+    body.first_moment += x * p;
+    body.second_moment += x * p * p.transpose();
+    shape += x * s;
+    for (int k = 0; k < 3; ++k) mixed.middleRows(3 * k, 3) += x * p(k) * s;
+    for (std::size_t q = 0; q < 6; ++q) {
+      const auto [k, l] = moment_pairs[q];
+      moments[q] += x * s.row(k).transpose() * s.row(l);
+    }
   }
+  body.shape = sparse(shape);
+  body.mixed = sparse(mixed);
+  for (std::size_t q = 0; q < 6; ++q) body.moments[q] = sparse(moments[q]);
+  body.mass_matrix = sparse(moments[0] + moments[1] + moments[2]);
+  return body;
+}
+
+InvariantsFile particles_with_slopes(double x) {
+  constexpr double h = 1e-6;
+  InvariantsFile file = body_of(x);
+  file.constants = particles(x);
+  BodyConstants slope = zero_constants(file.constants);
+  add_constants(slope, 0.5 / h, particles(x + h));
+  add_constants(slope, -0.5 / h, particles(x - h));
+  file.design[0].derivative = slope;
+  return file;
+}
+
+/// Mass and stiffness for any step; slopes by differences of 1e-6: 1e-9.
+TEST(ContinuedBody, StaysABodyForAnyStep) {
+  const auto made = [](double x) {
+    return std::make_shared<const InvariantsFile>(particles_with_slopes(x));
+  };
+  const auto source = continue_body("", {made(1.0), made(1.1)});
+  for (const double x : {0.2, 0.5, 3.0}) {
+    const BodyConstants body = source->at(values(x))->constants;
+    const MatrixXd k(body.stiffness), m(body.mass_matrix);
+    EXPECT_GT(k(0, 0), 0.0) << x;
+    EXPECT_GT(k(0, 0) * k(1, 1) - k(0, 1) * k(1, 0), 0.0) << x;
+    EXPECT_GT(m(0, 0), 0.0) << x;
+    EXPECT_GT(m(0, 0) * m(1, 1) - m(0, 1) * m(1, 0), 0.0) << x;
+    EXPECT_GT(body.mass, 0.0);
+  }
+  const BodyConstants beside = source->at(values(1.001))->constants;
+  EXPECT_LT(difference(beside.mass_matrix, particles(1.001).mass_matrix), 1e-6);
+  EXPECT_LT(difference(beside.mixed, particles(1.001).mixed), 1e-6);
+  EXPECT_NEAR(beside.mass, particles(1.001).mass, 1e-6);
 }
 
 /// The other order and other signs of the same coordinates.
@@ -180,15 +236,17 @@ class CountedProgram {
   }
 
   /// @param derivatives  whether they are given
-  BodyProgram program(bool derivatives) const {
-    return {"bar",
-            {"sh", "make.sh"},
-            folder_.path().string(),
-            {{"height", "m"}},
-            derivatives,
-            0.25,
-            20.0,
-            (folder_.path() / "record").string()};
+  BodyGenerator generator(bool derivatives) const {
+    BodyGenerator generator;
+    generator.body = "bar";
+    generator.command = {"sh", "make.sh"};
+    generator.folder = folder_.path().string();
+    generator.variables = {{"height", "m"}};
+    generator.gives_derivatives = derivatives;
+    generator.step = 0.25;
+    generator.time_limit = 20.0;
+    generator.record = (folder_.path() / "record").string();
+    return generator;
   }
 
   int calls() const {
@@ -200,12 +258,12 @@ class CountedProgram {
   TemporaryFolder folder_;
 };
 
-TEST(BodyProgram, IsCalledOnceForADesignWhoeverAsks) {
-  allow_programs();
+TEST(BodyGenerator, IsCalledOnceForADesignWhoeverAsks) {
+  const ProgramPermission permission;
   const CountedProgram counted;
   counted.add("0.5", body_of(0.5));
   for (int run = 0; run < 2; ++run) {
-    const auto source = make_program_source(counted.program(true));
+    const auto source = make_body_source(counted.generator(true));
     for (int i = 0; i < 3; ++i) {
       EXPECT_EQ(source->at(values(0.5))->constants.mass, body_of(0.5).constants.mass);
     }
@@ -214,12 +272,12 @@ TEST(BodyProgram, IsCalledOnceForADesignWhoeverAsks) {
 }
 
 /// A step of a quarter: (0.625³ − 0.5³)/0.125 and the like; with modes that came in another order.
-TEST(BodyProgram, DifferencesAreThoseOfItsCalls) {
-  allow_programs();
+TEST(BodyGenerator, DifferencesAreThoseOfItsCalls) {
+  const ProgramPermission permission;
   const CountedProgram counted;
   counted.add("0.5", body_of(0.5));
   counted.add("0.625", turned(body_of(0.625)));
-  const auto file = make_program_source(counted.program(false))->at(values(0.5));
+  const auto file = make_body_source(counted.generator(false))->at(values(0.5));
   BodyConstants expected = zero_constants(file->constants);
   add_constants(expected, 8.0, body_of(0.625).constants);
   add_constants(expected, -8.0, body_of(0.5).constants);
@@ -227,11 +285,11 @@ TEST(BodyProgram, DifferencesAreThoseOfItsCalls) {
   EXPECT_EQ(counted.calls(), 2);
 }
 
-TEST(BodyProgram, FailsWithItsNameAndDesign) {
-  allow_programs();
+TEST(BodyGenerator, FailsWithItsNameAndDesign) {
+  const ProgramPermission permission;
   const CountedProgram counted;
   counted.add("1.0", body_of(0.5));
-  const auto source = make_program_source(counted.program(true));
+  const auto source = make_body_source(counted.generator(true));
   using testing::AllOf;
   using testing::HasSubstr;
   EXPECT_THAT([&] { source->at(values(0.75)); },
