@@ -30,6 +30,8 @@ class MadeBodies {
   /// Designs they were made for.
   int designs() const { return designs_; }
 
+  const ProblemFile& original() const { return file_; }
+
   /// The problem, or one that differs from it in its setting only, with continued bodies.
   ProblemFile continued(ProblemFile file) const;
   ProblemFile continued() const { return continued(file_); }

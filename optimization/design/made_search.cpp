@@ -13,13 +13,13 @@ namespace pleuel {
 namespace {
 
 /// Half the width of the region, in logarithms of the variables.
-constexpr double first_radius = 0.5, largest_radius = 1.0, least_radius = 1e-3;
+constexpr double first_radius = 0.7, largest_radius = 1.4, least_radius = 1e-3;
 /// Errors of the stiffness that was foretold, below which the region grows, above which it shrinks.
-constexpr double good_error = 0.05, bad_error = 0.3;
+constexpr double good_error = 0.2, bad_error = 0.5;
 /// A design that moves by less stays.
 constexpr double small_step = 1e-3;
-/// Relative tolerance of the searches: nobody asks for more of a design that the bodies are not made for.
-constexpr double search_tolerance = 1e-5;
+/// Violation of limits that a search may leave: what the next bodies change comes on top.
+constexpr double tight_violation = 1e-7;
 constexpr int most_designs = 30;
 
 /// The largest change of a variable, relative to its value.
@@ -35,9 +35,9 @@ Eigen::VectorXd search_region(const MadeBodies& bodies, const Eigen::VectorXd& x
   DesignProblem problem(bodies.continued_around(x, radius), execution.tasks.jobs, execution.store);
   problem.start_from(x);
   const ProblemFile& file = problem.file();
-  SolveOptions coarse = options;
-  coarse.tolerance = std::max(options.tolerance, search_tolerance);
-  Result result = search(problem, coarse, [&](const EvaluationRecord& record) {
+  SolveOptions strict = options;
+  strict.verdict.violation = tight_violation;
+  Result result = search(problem, strict, [&](const EvaluationRecord& record) {
     observer(simulated_with(file, record));
   });
   for (EvaluationRecord& record : result.history) record = simulated_with(file, std::move(record));

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/eager_matrices.hpp"
+#include "core/base/error.hpp"
 #include "core/base/int_size.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/response/effect_measurement.hpp"
@@ -222,15 +223,14 @@ class MadeSolve {
     options_.takes_verified_start = true;
   }
 
-  /// @throws SimulationError if the bodies cannot be made at x
   StagedSolution run(Eigen::VectorXd x) {
-    bodies_.make_at(x);
+    if (!make_at(x)) return solve(bodies_.original(), x);
     x = search_between_calls(bodies_, x, options_, execution_, before_, observer_, notice_);
     StagedSolution solution = solve(bodies_.continued(), x);
     for (int round = 1; round < most_rounds_with_bodies && has_left(solution); ++round) {
       x = solution.result.x;
-      bodies_.make_at(x);
-      if (notice_) notice_("bodies were made for the design that was found, which is judged again");
+      if (!make_at(x)) break;
+      tell("bodies were made for the design that was found, which is judged again");
       ProblemFile next = solution.problem->file();
       next.accuracy.chooses_setting = false;  // that is done
       std::vector<Stage> stages = std::move(solution.stages);
@@ -243,6 +243,21 @@ class MadeSolve {
 
  private:
   static constexpr int most_rounds_with_bodies = 5;
+
+  void tell(const std::string& text) const {
+    if (notice_) notice_(text);
+  }
+
+  /// @returns whether there are bodies
+  bool make_at(const Eigen::VectorXd& x) {
+    try {
+      bodies_.make_at(x);
+      return true;
+    } catch (const SimulationError& failure) {
+      tell(failure.what());
+      return false;
+    }
+  }
 
   bool has_left(const StagedSolution& solution) const {
     return solution.result.evaluation.has_gradients() && !bodies_.are_made_at(solution.result.x);
