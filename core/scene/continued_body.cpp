@@ -9,6 +9,7 @@
 #include "core/base/error.hpp"
 #include "core/base/int_size.hpp"
 #include "core/scene/body_chart.hpp"
+#include "core/scene/expansion_mean.hpp"
 
 namespace pleuel {
 
@@ -18,41 +19,49 @@ using FilePointer = std::shared_ptr<const InvariantsFile>;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+VectorXd values_of(const InvariantsFile& file) {
+  VectorXd values(int_size(file.design));
+  for (int i = 0; i < int_size(values); ++i) values(i) = file.design[i].value;
+  return values;
+}
+
 class ContinuedBody : public BodySource {
  public:
   ContinuedBody(const std::string& made_by, std::vector<FilePointer> designs)
       : identity_(made_by), files_(std::move(designs)), chart_(files_.front()->constants) {
-    const int count = int_size(files_.front()->design);
-    is_logarithmic_.assign(count, true);
+    unit_ = values_of(*files_.front()).cwiseAbs();
+    for (double& one : unit_) one = one > 0.0 ? one : 1.0;
+    is_positive_.assign(unit_.size(), true);
     for (const FilePointer& file : files_) {
-      for (int i = 0; i < count; ++i) {
-        is_logarithmic_[i] = is_logarithmic_[i] && file->design[i].value > 0.0;
+      const VectorXd x = values_of(*file);
+      for (int i = 0; i < int_size(x); ++i) {
+        is_positive_[i] = is_positive_[i] && x(i) > 0.0;
+        identity_ += fmt::format(" {}", x(i));
       }
     }
-    for (const FilePointer& file : files_) expansions_.push_back(expansion_of(*file));
-    for (const FilePointer& file : files_) {
-      for (const ConstantsDerivative& of : file->design) identity_ += fmt::format(" {}", of.value);
-    }
+    std::vector<Expansion> logarithms, others;
+    for (const FilePointer& file : files_) add_expansions(*file, logarithms, others);
+    logarithms_ = std::make_unique<ExpansionMean>(std::move(logarithms));
+    others_ = std::make_unique<ExpansionMean>(std::move(others));
   }
 
   std::string identity() const override { return identity_; }
 
-  FilePointer at(const VectorXd& values) const override {
-    const VectorXd place = place_of(values);
-    for (std::size_t j = 0; j < files_.size(); ++j) {
-      if ((place - expansions_[j].place).norm() < 1e-12) return files_[j];
+  FilePointer at(const VectorXd& x) const override {
+    for (const FilePointer& file : files_) {
+      if (values_of(*file) == x) return file;
     }
-    return std::make_shared<const InvariantsFile>(between(values, place));
+    return std::make_shared<const InvariantsFile>(between(x));
   }
 
-  double distance(const VectorXd& values) const override {
+  double distance(const VectorXd& x) const override {
     double nearest = 1e300;
     for (const FilePointer& file : files_) {
+      const VectorXd made = values_of(*file);
       double farthest = 0.0;
-      for (int i = 0; i < int_size(values); ++i) {
-        const double made = file->design[i].value;
-        farthest =
-            std::max(farthest, std::abs(values(i) - made) / (made != 0.0 ? std::abs(made) : 1.0));
+      for (int i = 0; i < int_size(x); ++i) {
+        const double size = made(i) != 0.0 ? std::abs(made(i)) : 1.0;
+        farthest = std::max(farthest, std::abs(x(i) - made(i)) / size);
       }
       nearest = std::min(nearest, farthest);
     }
@@ -60,121 +69,71 @@ class ContinuedBody : public BodySource {
   }
 
  private:
-  /// Of a body in the chart, with its derivatives by x.
-  struct Expansion {
-    VectorXd place;
-    BodyConstants value;
-    std::vector<BodyConstants> slopes;
-  };
-
-  /// Weights and their derivatives by ξ, designs × variables.
-  struct Weights {
-    VectorXd values;
-    MatrixXd slopes;
-  };
-
-  VectorXd place_of(const VectorXd& values) const {
-    VectorXd place = values;
-    for (int i = 0; i < int_size(values); ++i) {
-      if (!is_logarithmic_[i]) continue;
-      if (!(values(i) > 0.0)) {
+  /// ξ = log x, or x as a multiple of its unit.
+  VectorXd logarithmic_place(const VectorXd& x) const {
+    VectorXd place = x.cwiseQuotient(unit_);
+    for (int i = 0; i < int_size(x); ++i) {
+      if (!is_positive_[i]) continue;
+      if (!(x(i) > 0.0)) {
         throw SimulationError(
-            fmt::format("a body cannot be continued from positive values of \"{}\" "
-                        "to {:.6g}",
-                        files_.front()->design[i].variable, values(i)));
+            fmt::format("a body cannot be continued from positive values of \"{}\" to {:.6g}",
+                        files_.front()->design[i].variable, x(i)));
       }
-      place(i) = std::log(values(i));
+      place(i) = std::log(place(i));
     }
     return place;
   }
 
-  Expansion expansion_of(const InvariantsFile& file) const {
-    Expansion expansion{VectorXd(int_size(file.design)), file.constants, {}};
-    for (int i = 0; i < int_size(file.design); ++i) {
-      const ConstantsDerivative& of = file.design[i];
-      expansion.place(i) = is_logarithmic_[i] ? std::log(of.value) : of.value;
-      expansion.slopes.push_back(*of.derivative);
+  /// dx/dξ
+  double stretch(const VectorXd& x, int i) const { return is_positive_[i] ? x(i) : unit_(i); }
+
+  void add_expansions(const InvariantsFile& file, std::vector<Expansion>& logarithms,
+                      std::vector<Expansion>& others) const {
+    const VectorXd x = values_of(file);
+    BodyConstants value = file.constants;
+    std::vector<BodyConstants> slopes;
+    for (const ConstantsDerivative& of : file.design) slopes.push_back(*of.derivative);
+    chart_.take_logarithms(value, slopes);
+    Expansion& inside = logarithms.emplace_back(Expansion{logarithmic_place(x), value, {}});
+    Expansion& outside = others.emplace_back(Expansion{x.cwiseQuotient(unit_), value, {}});
+    BodyChart::scale(outside.value, 0.0);
+    add_constants(inside.value, -1.0, outside.value);
+    for (int i = 0; i < int_size(x); ++i) {
+      BodyConstants other = slopes[i];
+      BodyChart::scale(other, 0.0);
+      add_constants(slopes[i], -1.0, other);
+      inside.slopes.push_back(scaled(slopes[i], stretch(x, i)));
+      outside.slopes.push_back(scaled(other, unit_(i)));
     }
-    chart_.take_logarithms(expansion.value, expansion.slopes);
-    return expansion;
   }
 
-  Weights weights_at(const VectorXd& place) const {
-    const int count = int_size(expansions_);
-    Weights weights{VectorXd(count), MatrixXd(count, place.size())};
-    for (int j = 0; j < count; ++j) {
-      const VectorXd away = place - expansions_[j].place;
-      const double square = away.squaredNorm();
-      weights.values(j) = 1.0 / (square * square);
-      weights.slopes.row(j) = (-4.0 / square) * away.transpose();
-    }
-    weights.values /= weights.values.sum();
-    const Eigen::RowVectorXd mean = weights.values.transpose() * weights.slopes;
-    for (int j = 0; j < count; ++j) {
-      weights.slopes.row(j) = weights.values(j) * (weights.slopes.row(j) - mean);
-    }
-    return weights;
+  static BodyConstants scaled(const BodyConstants& constants, double factor) {
+    BodyConstants all = zero_constants(constants);
+    add_constants(all, factor, constants);
+    return all;
   }
 
-  /// A derivative of what is a line in x, or of logarithms in log x: these times a factor.
-  static BodyConstants with_logarithms_times(double factor, BodyConstants slope) {
-    BodyChart::scale(slope, factor);
-    return slope;
-  }
-
-  /// The Taylor expansion about a design, and its derivatives by x.
-  BodyConstants tangent_at(std::size_t design, const VectorXd& values, const VectorXd& place,
-                           std::vector<BodyConstants>& slopes) const {
-    const Expansion& from = expansions_[design];
-    BodyConstants tangent = from.value;
-    for (int i = 0; i < int_size(values); ++i) {
-      const double made = files_[design]->design[i].value, away = values(i) - made;
-      // x₀ (log x − log x₀) in place of x − x₀, and its derivative x₀/x.
-      const double ratio =
-          is_logarithmic_[i] && away != 0.0 ? made * (place(i) - from.place(i)) / away : 1.0;
-      const double slope_ratio = is_logarithmic_[i] ? made / values(i) : 1.0;
-      add_constants(tangent, away, with_logarithms_times(ratio, from.slopes[i]));
-      slopes.push_back(with_logarithms_times(slope_ratio, from.slopes[i]));
-    }
-    return tangent;
-  }
-
-  InvariantsFile between(const VectorXd& values, const VectorXd& place) const {
-    const Weights weights = weights_at(place);
-    const int count = int_size(values);
-    BodyConstants sum = zero_constants(expansions_.front().value);
-    std::vector<BodyConstants> slopes(count, sum);
-    for (std::size_t j = 0; j < expansions_.size(); ++j) {
-      const int row = static_cast<int>(j);
-      std::vector<BodyConstants> own;
-      const BodyConstants tangent = tangent_at(j, values, place, own);
-      add_constants(sum, weights.values(row), tangent);
-      for (int i = 0; i < count; ++i) {
-        const double slope = weights.slopes(row, i) / (is_logarithmic_[i] ? values(i) : 1.0);
-        add_constants(slopes[i], weights.values(row), own[i]);
-        add_constants(slopes[i], slope, tangent);
-      }
-    }
-    chart_.take_exponentials(sum, slopes);
-    return file_of(values, std::move(sum), std::move(slopes));
-  }
-
-  InvariantsFile file_of(const VectorXd& values, BodyConstants constants,
-                         std::vector<BodyConstants> slopes) const {
+  InvariantsFile between(const VectorXd& x) const {
+    Expansion inside = logarithms_->at(logarithmic_place(x));
+    const Expansion outside = others_->at(x.cwiseQuotient(unit_));
+    chart_.take_exponentials(inside.value, inside.slopes);
     InvariantsFile file = *files_.front();
-    for (int i = 0; i < int_size(values); ++i) {
-      file.design[i].value = values(i);
-      file.design[i].derivative = std::move(slopes[i]);
+    file.constants = outside.value;
+    add_constants(file.constants, 1.0, inside.value);
+    for (int i = 0; i < int_size(x); ++i) {
+      file.design[i].value = x(i);
+      file.design[i].derivative = scaled(outside.slopes[i], 1.0 / unit_(i));
+      add_constants(*file.design[i].derivative, 1.0 / stretch(x, i), inside.slopes[i]);
     }
-    file.constants = std::move(constants);
     return file;
   }
 
   std::string identity_;
   std::vector<FilePointer> files_;
   BodyChart chart_;
-  std::vector<bool> is_logarithmic_;
-  std::vector<Expansion> expansions_;
+  VectorXd unit_;                  ///< of the variables: their values at the first design
+  std::vector<bool> is_positive_;  ///< at all designs
+  std::unique_ptr<ExpansionMean> logarithms_, others_;
 };
 
 }  // namespace

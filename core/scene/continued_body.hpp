@@ -5,12 +5,10 @@
 namespace pleuel {
 
 /// A body between the designs that it was made for: values and derivatives are those of the bodies there,
-/// and what lies between is a mean of their Taylor expansions,
-///     z(x) = Σ wⱼ (zⱼ + zⱼ′ (ξ − ξⱼ)),   wⱼ ∝ 1/|log x − log xⱼ|⁴,   Σ wⱼ = 1
-/// (Shepard 1968; with derivatives Farwig 1986): the weights are flat at the designs. Of inertia,
-/// stiffness and damping z is the logarithm (BodyChart), over ξ = log x where a variable is positive at
-/// all designs: they stay positive for any step, and powers are continued exactly. Places and stress are
-/// continued as they are, over ξ = x.
+/// and what lies between is a mean of Taylor polynomials (ExpansionMean). Of inertia, stiffness and
+/// damping it is that of their logarithms (BodyChart), over log x where a variable is positive at all
+/// designs: they stay positive for any step, and powers are continued exactly. Places and stress are
+/// continued as they are, over x.
 ///
 /// @param made_by  identity of the source that made them
 /// @param designs  at least one, all with derivatives, the same variables and coordinates

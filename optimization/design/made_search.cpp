@@ -16,6 +16,9 @@ namespace {
 constexpr double first_radius = 0.7, largest_radius = 1.4, least_radius = 1e-3;
 /// Errors of the stiffness that was foretold, below which the region grows, above which it shrinks.
 constexpr double good_error = 0.2, bad_error = 0.5;
+/// A step is no longer than so many times the one before: what was foretold of a short one tells little of a
+/// long one.
+constexpr double longest_next_step = 4.0;
 /// A design that moves by less stays.
 constexpr double small_step = 1e-3;
 /// Violation of limits that a search may leave: what the next bodies change comes on top.
@@ -72,6 +75,7 @@ Eigen::VectorXd search_between_calls(MadeBodies& bodies, const Eigen::VectorXd& 
                       bodies.designs(), 100.0 * step, 100.0 * error));
       if (error < good_error) radius = std::min(2.0 * radius, largest_radius);
       if (error > bad_error) radius *= 0.5;
+      radius = std::min(radius, longest_next_step * step);
       best = next;
     } catch (const SimulationError& failure) {
       tell(fmt::format("{}: the next step is shorter", failure.what()));

@@ -116,6 +116,18 @@ TEST(ContinuedBody, DerivativesBetweenDesignsAreThoseOfItsValues) {
   }
 }
 
+/// With slopes of other designs its second derivatives are right to first order: beside a design the error
+/// goes with the third power of the distance, where that of a tangent goes with the second.
+TEST(ContinuedBody, FollowsTheBendThatSlopesOfOtherDesignsTell) {
+  const auto error = [](const std::vector<double>& designs, double x) {
+    return difference(continued(designs)->at(values(x))->constants.stiffness,
+                      body_of(x).constants.stiffness);
+  };
+  EXPECT_LT(error({1.0}, 1.1), 3e-3);  // b x² beside a x³: not a line in logarithms
+  EXPECT_LT(error({1.2, 1.0}, 1.05), 0.1 * error({1.0}, 1.05));
+  EXPECT_LT(error({1.2, 1.0}, 1.1), 0.1 * error({1.0}, 1.1));
+}
+
 /// K ~ x³ is a line in logarithms: exact for any step, where a line in x itself is below zero at 1 − 0.4.
 TEST(ContinuedBody, PowersAreContinuedExactly) {
   const auto source = continued({1.0}, 0.0);
