@@ -1,10 +1,12 @@
 #include "cli/run_command.hpp"
 
 #include <map>
+#include <optional>
 #include <string>
 
 #include "cli/commands/commands.hpp"
 #include "cli/commands/each_case.hpp"
+#include "core/base/child_program.hpp"
 #include "core/base/error.hpp"
 
 namespace pleuel {
@@ -43,6 +45,8 @@ std::string with_file(const std::string& message, const Arguments& arguments) {
 }  // namespace
 
 Outcome run_command(const Arguments& arguments) {
+  std::optional<ProgramPermission> permission;
+  if (arguments.allows_programs) permission.emplace();
   try {
     return run_named(arguments);
   } catch (const InputError& error) {

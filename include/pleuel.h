@@ -265,6 +265,30 @@ PLEUEL_API pleuel_status pleuel_search_evaluate(uint64_t search, const double *y
                                                 double *objective, double *rows, size_t row_count,
                                                 double *gradient, double *jacobian);
 
+/* ---- bodies that are made for each design ---- */
+
+/**
+ * Makes an elastic body for a design. May be called by any thread; calls for one problem one after the other. An
+ * optimization from several starts calls it in processes that are forked for them.
+ * @param values  of the variables that the generator of the body names, in their order
+ * @param text    [out] a file of invariants (docs/invariants.md), valid until the next call; after a failure, why
+ *                there is no body
+ * @returns 0; else the design cannot be simulated, and the text is the reason
+ */
+typedef int (*pleuel_body_maker)(const double *values, size_t variables, const char **text,
+                                 void *user);
+
+/**
+ * From now on, problems that are opened have their body of this name made by a function, in place of the program that
+ * its "generator" may name.
+ * @param make  used as long as such a problem is open; NULL: no function any more
+ * @param user  passed to it
+ */
+PLEUEL_API pleuel_status pleuel_register_body(const char *body, pleuel_body_maker make, void *user);
+
+/** @param allowed  whether problems that are opened from now on may run programs, as with --allow-programs; at first not */
+PLEUEL_API pleuel_status pleuel_allow_programs(int allowed);
+
 /* ---- commands ---- */
 
 /**

@@ -82,6 +82,45 @@ inline std::string run(const std::vector<std::string>& words, int* exit_code = n
   return taken(document);
 }
 
+/// Makes a body for a design: a file of invariants (docs/invariants.md). What it throws fails the design.
+using BodyFunction = std::function<std::string(const Numbers& values)>;
+
+/// Problems that are opened have their body of this name made by a function, as long as this exists. It outlives
+/// them.
+class RegisteredBody {
+ public:
+  RegisteredBody(std::string body, BodyFunction function)
+      : body_(std::move(body)), function_(std::move(function)) {
+    require(pleuel_register_body(body_.c_str(), &make, this));
+  }
+  ~RegisteredBody() { pleuel_register_body(body_.c_str(), nullptr, nullptr); }
+  RegisteredBody(const RegisteredBody&) = delete;
+  RegisteredBody& operator=(const RegisteredBody&) = delete;
+
+ private:
+  /// The text stays until the next call.
+  static int make(const double* values, std::size_t variables, const char** text,
+                  void* user) noexcept {
+    auto& self = *static_cast<RegisteredBody*>(user);
+    static thread_local std::string kept;
+    int code = 0;
+    try {
+      kept = self.function_(Numbers(values, values + variables));
+    } catch (const std::exception& error) {
+      kept = error.what();
+      code = 1;
+    } catch (...) {
+      kept = "it threw what is no std::exception";
+      code = 1;
+    }
+    *text = kept.c_str();
+    return code;
+  }
+
+  std::string body_;
+  BodyFunction function_;
+};
+
 /// An open problem. It is moved, not copied.
 class Problem {
  public:

@@ -43,6 +43,8 @@ struct SolveOptions {
   Tolerances verdict{};
   /// Whether what speaks against the numbers of the answer is looked for.
   bool checks_numbers = true;
+  /// Whether a start that is verified is the answer: no other design is looked for.
+  bool takes_verified_start = false;
   /// What an earlier part of the same run has used already, for messages.
   struct Used {
     int iterations = 0;

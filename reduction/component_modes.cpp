@@ -10,6 +10,7 @@
 #include "core/base/error.hpp"
 #include "core/base/int_size.hpp"
 #include "reduction/fixed_modes.hpp"
+#include "reduction/inertia_responses.hpp"
 #include "reduction/symmetric_solver.hpp"
 
 namespace pleuel {
@@ -75,18 +76,36 @@ class HeldBody {
   }
 
   LowestModes fixed_modes(int count) const {
-    const StaticSolution statics = [&](const Eigen::MatrixXd& load) -> Eigen::MatrixXd {
+    return of_all_nodes(
+        lowest_modes(statics(), mass_, std::min(count, free_ - int_size(means_.col(0)))));
+  }
+
+  LowestModes responses(const Eigen::Matrix3Xd& positions, int generations) const {
+    InterfaceSet all{"", {}, positions.rowwise().mean(), true};
+    for (int node = 0; node < int_size(column_); ++node) all.nodes.push_back(node);
+    const Eigen::MatrixXd rows = rigid_rows(all, positions);
+    Eigen::MatrixXd rigid = Eigen::MatrixXd::Zero(free_, 6);
+    for (int node = 0; node < int_size(column_); ++node) {
+      const int column = column_[node] - prescribed_;
+      if (column >= 0) rigid.middleRows<3>(column) = rows.middleRows<3>(3 * node);
+    }
+    return of_all_nodes(inertia_responses(statics(), stiffness_, mass_, rigid, generations));
+  }
+
+ private:
+  StaticSolution statics() const {
+    return [this](const Eigen::MatrixXd& load) -> Eigen::MatrixXd {
       return solve(load, Eigen::MatrixXd::Zero(means_.rows(), load.cols()));
     };
-    LowestModes modes =
-        lowest_modes(statics, mass_, std::min(count, free_ - int_size(means_.col(0))));
+  }
+
+  LowestModes of_all_nodes(LowestModes modes) const {
     Eigen::MatrixXd all = Eigen::MatrixXd::Zero(prescribed_ + free_, modes.shapes.cols());
     all.bottomRows(free_) = modes.shapes;
     modes.shapes = transformation_ * all;
     return modes;
   }
 
- private:
   void set_transformation(const Eigen::Matrix3Xd& positions) {
     const int nodes = static_cast<int>(positions.cols());
     const std::vector<int> owners = rigid_owners(interfaces_, nodes);
@@ -175,7 +194,9 @@ class HeldBody {
 };
 
 /// So many that one more than asked for is known.
-LowestModes wanted_modes(const HeldBody& body, const ModeCount& modes) {
+LowestModes wanted_modes(const HeldBody& body, const Eigen::Matrix3Xd& positions,
+                         const ModeCount& modes) {
+  if (modes.generations > 0) return body.responses(positions, modes.generations);
   int count = modes.frequency > 0.0 ? 8 : modes.number + 1;
   LowestModes found = body.fixed_modes(count);
   while (modes.frequency > 0.0 && int_size(found.squares) == count &&
@@ -187,6 +208,7 @@ LowestModes wanted_modes(const HeldBody& body, const ModeCount& modes) {
 }
 
 int kept_modes(const LowestModes& found, const ModeCount& modes) {
+  if (modes.generations > 0) return int_size(found.squares);
   if (!(modes.frequency > 0.0)) return std::min(modes.number, int_size(found.squares));
   const double most = modes.frequency * modes.frequency;
   return static_cast<int>((found.squares.array() < most).count());
@@ -208,7 +230,7 @@ ComponentModes component_modes(const SolidMatrices& matrices, const Eigen::Matri
                                const ModeCount& count) {
   constexpr std::array<const char*, 6> names = {"u", "v", "w", "rx", "ry", "rz"};
   const HeldBody body(matrices, positions, interfaces);
-  LowestModes found = wanted_modes(body, count);
+  LowestModes found = wanted_modes(body, positions, count);
   const int kept = kept_modes(found, count);
   const int prescribed = 6 * (int_size(interfaces) - 1);
   ComponentModes modes;
@@ -219,9 +241,11 @@ ComponentModes component_modes(const SolidMatrices& matrices, const Eigen::Matri
       modes.names.push_back(fmt::format("{} of {}", name, interfaces[f].name));
     }
   }
-  set_signs(found.shapes);
+  if (count.generations == 0) set_signs(found.shapes);
   modes.shape.rightCols(kept) = found.shapes.leftCols(kept);
-  for (int i = 0; i < kept; ++i) modes.names.push_back(fmt::format("mode {}", i + 1));
+  for (int i = 0; i < kept; ++i) {
+    modes.names.push_back(fmt::format("{} {}", count.generations > 0 ? "response" : "mode", i + 1));
+  }
   modes.frequencies = found.squares.head(kept).cwiseSqrt();
   if (int_size(found.squares) > kept) modes.next_frequency = std::sqrt(found.squares(kept));
   return modes;

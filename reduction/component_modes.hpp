@@ -7,10 +7,11 @@
 
 namespace pleuel {
 
-/// How many modes of the body with all its interfaces held are coordinates.
+/// Which modes of the body with all its interfaces held are coordinates.
 struct ModeCount {
   int number = 0;          ///< the lowest ones
   double frequency = 0.0;  ///< if positive instead: all below it [rad/s]
+  int generations = 0;     ///< if positive instead: no modes, but so many of inertia_responses()
 };
 
 /// Displacements of all nodes per coordinate: u = shape q.

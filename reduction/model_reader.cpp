@@ -171,17 +171,20 @@ class ModelReader {
     }
   }
 
-  /// A number, or {"below": "2 kHz"}.
+  /// A number, {"below": "2 kHz"}, or {"inertia_responses": 2}.
   void read_modes(const JsonNode& node) {
-    if (node.value().is_object()) {
-      node.allow_keys({"below"});
+    if (node.value().is_object() && node.find("inertia_responses")) {
+      node.allow_keys({"inertia_responses"});
+      model_.modes.generations = node.at("inertia_responses").whole_number(1, 20);
+    } else if (node.value().is_object()) {
+      node.allow_keys({"below", "inertia_responses"});
       model_.modes.frequency =
           numbers_.fixed(node.at("below"), quantities::angular_frequency, Range::positive);
     } else {
       model_.modes.number = node.whole_number(0, 1000);
     }
     if (model_.interfaces.size() == 1 && model_.modes.number == 0 &&
-        model_.modes.frequency == 0.0) {
+        model_.modes.frequency == 0.0 && model_.modes.generations == 0) {
       node.fail("must be positive with one interface: else nothing of the body is elastic");
     }
   }

@@ -1,5 +1,7 @@
 #include "reduction/reduce.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
@@ -58,7 +60,7 @@ StressRecovery stress_of(const ReductionModel& model, const Eigen::MatrixXd& sha
   return stress;
 }
 
-/// Those coordinates alone that keep the body in the plane of its motion.
+/// Takes those coordinates alone that keep the body in the plane of its motion.
 void keep_in_plane(const ReductionModel& model, ComponentModes& modes) {
   const BodyConstants all = nodal_invariants(model.matrices, model.mesh.positions, modes.shape);
   const int prescribed = 6 * (int_size(model.interfaces) - 1);
@@ -72,6 +74,34 @@ void keep_in_plane(const ReductionModel& model, ComponentModes& modes) {
   }
   modes.names = names;
   modes.frequencies = Eigen::Map<Eigen::VectorXd>(frequencies.data(), int_size(frequencies));
+}
+
+/// So many modes of the plane, whatever others lie between them: another design has as many.
+void keep_lowest(int number, int prescribed, ComponentModes& modes) {
+  if (int_size(modes.frequencies) > number) modes.next_frequency = modes.frequencies(number);
+  modes.frequencies = Eigen::VectorXd(modes.frequencies.head(number));
+  modes.shape = Eigen::MatrixXd(modes.shape.leftCols(prescribed + number));
+  modes.names.resize(prescribed + number);
+  for (int i = 0; i < number; ++i) modes.names[prescribed + i] = fmt::format("mode {}", i + 1);
+}
+
+ComponentModes modes_in_plane(const ReductionModel& model) {
+  ModeCount asked = model.modes;
+  asked.number = 2 * asked.number + 2;
+  while (true) {
+    ComponentModes modes =
+        component_modes(model.matrices, model.mesh.positions, model.interfaces, asked);
+    const bool are_all = int_size(modes.frequencies) < asked.number;
+    keep_in_plane(model, modes);
+    const int count = int_size(modes.frequencies);
+    if (asked.frequency > 0.0 || asked.generations > 0) return modes;
+    if (count >= model.modes.number || are_all) {
+      const int prescribed = int_size(modes.names) - count;
+      keep_lowest(std::min(model.modes.number, count), prescribed, modes);
+      return modes;
+    }
+    asked.number *= 2;
+  }
 }
 
 BodyConstants constants_of(const ReductionModel& model, const Eigen::MatrixXd& shape) {
@@ -91,9 +121,9 @@ BodyConstants constants_of(const ReductionModel& model, const Eigen::MatrixXd& s
 
 ReducedBody reduce(const ReductionModel& model) {
   check_model(model);
-  ComponentModes modes =
-      component_modes(model.matrices, model.mesh.positions, model.interfaces, model.modes);
-  if (model.plane) keep_in_plane(model, modes);
+  const ComponentModes modes = model.plane ? modes_in_plane(model)
+                                           : component_modes(model.matrices, model.mesh.positions,
+                                                             model.interfaces, model.modes);
   ReducedBody body;
   body.frequencies = modes.frequencies;
   body.next_frequency = modes.next_frequency;

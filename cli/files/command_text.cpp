@@ -43,6 +43,7 @@ std::string command_at(const std::string& command, const Arguments& arguments,
   for (const std::string& assignment : arguments.overrides) {
     text += " --set " + shell_word(with_pointer(assignment));
   }
+  if (arguments.allows_programs) text += " --allow-programs";
   if (command != "simulate") {
     for (const std::string& method : arguments.methods) text += " --method " + method;
   }

@@ -47,6 +47,7 @@ struct Arguments {
   bool wants_vtk = false;          ///< the motion as files for ParaView
   bool leaves_out_report = false;  ///< no report.html
   bool overwrites = false;         ///< an older run of the same command in the folder
+  bool allows_programs = false;    ///< those that the problem names
   bool resumes = false;            ///< goes on with such a run, as far as it came
   std::vector<std::string> words;  ///< the command line as it was
 

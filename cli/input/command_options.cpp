@@ -10,6 +10,12 @@ void add_overrides(CLI::App* command, Arguments& arguments) {
           "a variable: --set \"rod_height=12 mm\"; repeatable")
       ->type_name("PLACE=VALUE")
       ->allow_extra_args(false);
+  add_programs(command, arguments);
+}
+
+void add_programs(CLI::App* command, Arguments& arguments) {
+  command->add_flag("--allow-programs", arguments.allows_programs,
+                    "let programs run that the problem names (\"generator\" of bodies)");
 }
 
 void add_case(CLI::App* command, Arguments& arguments) {

@@ -10,6 +10,8 @@
 namespace pleuel {
 
 void add_overrides(CLI::App* command, Arguments& arguments);
+/// Part of add_overrides().
+void add_programs(CLI::App* command, Arguments& arguments);
 void add_case(CLI::App* command, Arguments& arguments);
 void add_overwrite(CLI::App* command, Arguments& arguments);
 void add_resume(CLI::App* command, Arguments& arguments);

@@ -171,6 +171,7 @@ void add_compare(CLI::App& app, Arguments& arguments) {
                    "the page to write (default: the first of runs/compare.html, …-2 that is not "
                    "there)")
       ->type_name("FILE.html");
+  add_programs(compare, arguments);
 }
 
 void add_export(CLI::App& app, Arguments& arguments) {
@@ -180,6 +181,7 @@ void add_export(CLI::App& app, Arguments& arguments) {
   command
       ->add_option("-o,--output", arguments.output, "where the files go (default: the run folder)")
       ->type_name("DIR");
+  add_programs(command, arguments);
   command->add_flag("--vtk", arguments.wants_vtk,
                     "write the motion of start and optimum for ParaView, too, which are simulated "
                     "again");

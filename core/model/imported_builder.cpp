@@ -161,10 +161,11 @@ void set_imported(const ImportedBody& imported, const Body& body, const BuildCon
   const EffectSettings& settings = context.effects;
   model.kind = BodyKind::imported;
   model.is_elastic = settings.elasticity != EffectChoice::off;
-  const BodyConstants constants = constants_at(imported, body, context.design);
+  const std::shared_ptr<const InvariantsFile> file = body_at(imported, body, context.design);
+  const BodyConstants& constants = file->constants;
   std::vector<std::pair<int, const BodyConstants*>> changes;
   for (const ImportedVariable& of : imported.variables) {
-    changes.emplace_back(of.number.variable, &*imported.file->design[of.in_design].derivative);
+    changes.emplace_back(of.number.variable, &*file->design[of.in_design].derivative);
   }
   // Value and derivatives of a part that is made of the constants.
   const auto set = [&](auto& value, auto& derivatives, const auto& make) {

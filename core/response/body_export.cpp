@@ -121,9 +121,8 @@ std::vector<std::string> coordinate_names(const BodyModel& body) {
 InvariantsFile pass_on(const ImportedBody& imported, const Body& body, const ProblemFile& problem) {
   Design<double> start;
   for (const DesignVariable& variable : problem.variables) start.push_back(variable.start);
-  InvariantsFile file = *imported.file;
+  InvariantsFile file = *body_at(imported, body, start);
   file.body = body.name;
-  file.constants = constants_at(imported, body, start);
   return file;
 }
 

@@ -2,6 +2,8 @@
 
 #include <set>
 
+#include "core/base/child_program.hpp"
+#include "core/scene/body_generator.hpp"
 #include "core/scene/invariants_file.hpp"
 
 /// What does not go member by member.
@@ -44,6 +46,20 @@ void transfer(Unpacker& archive, InvariantsFile& file) {
   std::string text;
   archive(text);
   file = read_invariants_text(text, "invariants of another process");
+}
+
+/// A source goes as the program behind it: what that wrote is in its record.
+void transfer(Packer& archive, std::shared_ptr<const BodySource>& source) {
+  std::optional<BodyGenerator> generator;
+  if (source) generator = program_behind(*source);
+  archive(generator);
+}
+
+void transfer(Unpacker& archive, std::shared_ptr<const BodySource>& source) {
+  std::optional<BodyGenerator> generator;
+  archive(generator);
+  const ProgramPermission permission;  // who sent it had it
+  source = generator ? make_body_source(std::move(*generator)) : nullptr;
 }
 
 /// Of a struct with a base there is no list of all members: what is not named here is seen here.

@@ -14,6 +14,8 @@
 /// What the user asked for: plain structs, no mathematics. Order is the order of the file.
 namespace pleuel {
 
+class BodySource;
+
 struct Material {
   std::string name;
   Number young;                                  ///< E [Pa]
@@ -178,8 +180,11 @@ struct ImportedBody {
   Point to;    ///< a point on its local x axis
   /// As of a beam.
   std::optional<std::array<double, 3>> reference;
-  std::string source;  ///< the file, for messages
+  std::string source;  ///< the file or the program, for messages
+  /// What was read, or what was made for the start.
   std::shared_ptr<const InvariantsFile> file;
+  /// Makes the body for other designs; null: `file` is all that is known.
+  std::shared_ptr<const BodySource> maker;
   std::vector<ImportedVariable> variables;
   /// Whether the constants may be continued linearly to other designs than that of the file.
   bool is_linear = false;

@@ -81,10 +81,8 @@ struct ShapeNumbers {
     all(body.inertia, quantities::inertia, visit);
   }
   void operator()(const ImportedBody& body) const {
-    const auto& [from, to, reference, source, file, variables, is_linear] = body;
-    all(from, quantities::length, visit);
-    all(to, quantities::length, visit);
-    for (const ImportedVariable& of : variables) visit(of.number, of.quantity);
+    keyed(body, visit);
+    for (const ImportedVariable& of : body.variables) visit(of.number, of.quantity);
   }
   void operator()(const PointMass& body) const { keyed(body, visit); }
 };

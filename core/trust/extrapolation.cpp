@@ -6,6 +6,8 @@
 #include <fmt/ranges.h>
 
 #include "core/base/eager_matrices.hpp"
+#include "core/model/imported_constants.hpp"
+#include "core/scene/body_source.hpp"
 
 namespace pleuel {
 
@@ -36,8 +38,16 @@ std::string moved_variables(const ImportedBody& imported, const ProblemFile& pro
 
 std::vector<Doubt> doubt_extrapolation(const TrustedRun& run) {
   std::vector<Doubt> doubts;
+  const Design<double> design(run.x.begin(), run.x.end());
   for (const Body& body : run.problem.scene.bodies) {
     const auto* imported = std::get_if<ImportedBody>(&body.shape);
+    if (imported && imported->maker &&
+        imported->maker->distance(body_values(*imported, design)) > 0.0) {
+      doubts.push_back({fmt::format("the constants of \"{}\" are continued from other designs: {} "
+                                    "has not made it for this one",
+                                    body.name, imported->source),
+                        true});
+    }
     if (!imported || !imported->is_linear) continue;
     const std::string moved = moved_variables(*imported, run.problem, run.x);
     if (moved.empty()) continue;

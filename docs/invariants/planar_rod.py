@@ -11,6 +11,7 @@ by central differences. It needs the standard library only.
 import argparse
 import json
 import math
+import sys
 
 GAUSS = [  # places in 0 ... 1 and weights; exact up to degree 7
     (0.5 - math.sqrt(3 / 7 + 2 / 7 * math.sqrt(6 / 5)) / 2, (18 - math.sqrt(30)) / 72),
@@ -192,7 +193,8 @@ def as_json(value):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("output")
+    parser.add_argument("output", help="a file; or -: reads {\"variables\": {NAME: height}} from standard input and "
+                                       "writes to standard output, as the generator of a body does")
     parser.add_argument("--length", type=float, default=0.18, help="[m]")
     parser.add_argument("--width", type=float, default=0.02, help="across the plane [m]")
     parser.add_argument("--height", type=float, default=0.03, help="in the plane [m]")
@@ -202,6 +204,9 @@ def main():
     parser.add_argument("--elements", type=int, default=6)
     parser.add_argument("--variable", default="rod_height", help="the design variable of the height")
     arguments = parser.parse_args()
+    is_generator = arguments.output == "-"
+    if is_generator:
+        arguments.height = json.load(sys.stdin)["variables"][arguments.variable]
     rod = Rod(arguments, arguments.height)
     step = 1e-4 * arguments.height
     above, below = Rod(arguments, arguments.height + step), Rod(arguments, arguments.height - step)
@@ -210,7 +215,7 @@ def main():
                 "design": {arguments.variable: {"value": arguments.height, "unit": "m"}},
                 "derivatives": {arguments.variable:
                                 difference(above.blocks(), below.blocks(), 2 * step)}}
-    with open(arguments.output, "w", encoding="utf-8") as stream:
+    with sys.stdout if is_generator else open(arguments.output, "w", encoding="utf-8") as stream:
         json.dump(as_json(document), stream, indent=1)
 
 

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "core/scene/body_source.hpp"
+
 namespace pleuel {
 
 namespace {
@@ -55,6 +57,10 @@ std::string setting_text(const ProblemFile& file) {
                   simulation.local_error, simulation.smallest_step, simulation.newton_tolerance);
   for (const Body& body : file.scene.bodies) {
     if (const auto* beam = std::get_if<BeamBody>(&body.shape)) text += beam_text(body.name, *beam);
+    const auto* imported = std::get_if<ImportedBody>(&body.shape);
+    if (imported && imported->maker) {
+      text += fmt::format("; {} made by {}", body.name, imported->maker->identity());
+    }
   }
   text +=
       effects_text(file.effects) + "; gradients " + to_string(file.sensitivity.method) + "; start";

@@ -8,10 +8,12 @@
 #include <fmt/format.h>
 
 #include "core/base/eager_matrices.hpp"
+#include "core/base/error.hpp"
 #include "core/base/int_size.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/response/effect_measurement.hpp"
 #include "core/scene/load_cases.hpp"
+#include "optimization/design/made_search.hpp"
 
 namespace pleuel {
 
@@ -205,11 +207,85 @@ class StagedSolve {
   StagedSolution solution_;
 };
 
+/// Bodies that are made anew for each design are made for few. The verdict is over a design that they were
+/// made for: where the audited search ends elsewhere, they are made there, and it begins again.
+class MadeSolve {
+ public:
+  MadeSolve(const ProblemFile& file, const SolveOptions& options, const Execution& execution,
+            const Observer& observer, const Notice& notice)
+      : bodies_(file),
+        options_(options),
+        execution_(execution),
+        observer_([&](const EvaluationRecord& record) {
+          if (observer) observer(following(record, before_));
+        }),
+        notice_(notice) {
+    options_.takes_verified_start = true;
+  }
+
+  StagedSolution run(Eigen::VectorXd x) {
+    if (!make_at(x)) return solve(bodies_.original(), x);
+    x = search_between_calls(bodies_, x, options_, execution_, before_, observer_, notice_);
+    StagedSolution solution = solve(bodies_.continued(), x);
+    for (int round = 1; round < most_rounds_with_bodies && has_left(solution); ++round) {
+      x = solution.result.x;
+      if (!make_at(x)) break;
+      tell("bodies were made for the design that was found, which is judged again");
+      ProblemFile next = solution.problem->file();
+      next.accuracy.chooses_setting = false;  // that is done
+      std::vector<Stage> stages = std::move(solution.stages);
+      solution = solve(bodies_.continued(std::move(next)), x);
+      stages.insert(stages.end(), solution.stages.begin(), solution.stages.end());
+      solution.stages = std::move(stages);
+    }
+    return solution;
+  }
+
+ private:
+  static constexpr int most_rounds_with_bodies = 5;
+
+  void tell(const std::string& text) const {
+    if (notice_) notice_(text);
+  }
+
+  /// @returns whether there are bodies
+  bool make_at(const Eigen::VectorXd& x) {
+    try {
+      bodies_.make_at(x);
+      return true;
+    } catch (const SimulationError& failure) {
+      tell(failure.what());
+      return false;
+    }
+  }
+
+  bool has_left(const StagedSolution& solution) const {
+    return solution.result.evaluation.has_gradients() && !bodies_.are_made_at(solution.result.x);
+  }
+
+  StagedSolution solve(const ProblemFile& file, const Eigen::VectorXd& x) {
+    StagedSolution solution = StagedSolve(file, options_, execution_, observer_, notice_).run(x);
+    continue_from(before_, solution.result);
+    before_ = solution.result;
+    return solution;
+  }
+
+  MadeBodies bodies_;
+  SolveOptions options_;
+  const Execution& execution_;
+  Result before_;  ///< effort and history so far
+  const Observer observer_;
+  const Notice& notice_;
+};
+
 }  // namespace
 
 StagedSolution solve_in_stages(const ProblemFile& file, const Eigen::VectorXd& start,
                                const SolveOptions& options, const Execution& execution,
                                const Observer& observer, const Notice& notice) {
+  if (has_made_bodies(file)) {
+    return MadeSolve(file, options, execution, observer, notice).run(start);
+  }
   return StagedSolve(file, options, execution, observer, notice).run(start);
 }
 

@@ -64,6 +64,7 @@ class Search(c.Structure):
 REASON_SIZE = 256
 BACKEND = c.CFUNCTYPE(c.c_int, c.POINTER(Search), c.POINTER(c.c_double), c.POINTER(c.c_char), c.c_void_p)
 OBSERVER = c.CFUNCTYPE(c.c_int, c.POINTER(Progress), c.c_void_p)
+BODY_MAKER = c.CFUNCTYPE(c.c_int, c.POINTER(c.c_double), c.c_size_t, c.POINTER(c.c_char_p), c.c_void_p)
 
 _text, _size, _numbers, _problem = c.c_char_p, c.c_size_t, c.c_void_p, c.c_uint64
 _texts, _size_out, _text_out = c.POINTER(c.c_char_p), c.POINTER(c.c_size_t), c.POINTER(c.c_char_p)
@@ -84,6 +85,8 @@ _arguments = {
     "pleuel_optimize": [_problem, _numbers, _size, _text, OBSERVER, c.c_void_p, _owned_out],
     "pleuel_register_backend": [_text, c.c_int, BACKEND, c.c_void_p],
     "pleuel_search_evaluate": [c.c_uint64, _numbers, _size, _numbers, _numbers, _size, _numbers, _numbers],
+    "pleuel_register_body": [_text, BODY_MAKER, c.c_void_p],
+    "pleuel_allow_programs": [c.c_int],
     "pleuel_run": [_texts, _size, c.POINTER(c.c_int), _owned_out],
     "pleuel_main": [c.c_int, _texts],
     "pleuel_version": [],

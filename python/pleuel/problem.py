@@ -18,6 +18,7 @@ from .errors import Interrupted
 from .results import Array, Document, Evaluation, History, Optimum, Progress, shown, table
 
 Design = Union[npt.ArrayLike, Mapping[str, float]]
+BodyFunction = Callable[[Array], Union[str, Mapping[str, Any]]]
 
 
 def _override(name: str, value: Any) -> str:
@@ -241,6 +242,37 @@ class Problem:
             return run(command, file, *sets, *cases, "-o", str(pathlib.Path(folder) / "run"), "--no-report", *words)
 
 
+#: Functions that the library knows: they stay as long as it may call them.
+_body_makers: list[Any] = []
+
+
+def register_body(body: str, function: BodyFunction) -> None:
+    """Has the body of this name made by a function, in problems that are opened from now on: load(bodies=…)."""
+    kept = [b""]  # the text of the last call
+
+    def make(values: Any, variables: int, text: Any, _: Any) -> int:
+        try:
+            made = function(np.ctypeslib.as_array(values, (variables,)).copy())
+            kept[0] = (made if isinstance(made, str) else json.dumps(made, default=_plain)).encode()
+        except BaseException as failure:  # the design fails
+            kept[0] = f"{type(failure).__name__}: {failure}".encode()
+            return 1
+        finally:
+            text[0] = kept[0]
+        return 0
+
+    maker = border.BODY_MAKER(make)
+    _body_makers.append(maker)
+    border.call("pleuel_register_body", body.encode(), maker, None)
+
+
+def _plain(value: Any) -> Any:
+    """Arrays and numbers of NumPy as JSON has them."""
+    if isinstance(value, (np.ndarray, np.generic)):
+        return value.tolist()
+    raise TypeError(f"{type(value).__name__} is nothing that a file of invariants has")
+
+
 class _Listener:
     """A callback as the library calls it: its exceptions wait here until the search has ended."""
 
@@ -268,6 +300,8 @@ def load(
     set: Optional[Mapping[str, Any]] = None,  # noqa: A002  the word of the command
     case: Optional[str] = None,
     folder: Union[str, os.PathLike] = ".",
+    bodies: Optional[Mapping[str, BodyFunction]] = None,
+    allow_programs: bool = False,
 ) -> Problem:
     """Reads and checks a problem.
 
@@ -275,7 +309,14 @@ def load(
     set:     {"/json/pointer" or variable: value}, as --set of the command: {"/simulation/step": "0.1 ms"}
     case:    the only load case that is meant; None: all
     folder:  where files are looked for that a dict names
+    bodies:  {body: function} in place of the programs of their generators: the function takes the values of the
+             generator's variables as an array, in their order, and returns a file of invariants, as a dict or a text
+             (docs/invariants.md). What it raises fails the design. It stays for later problems, too.
+    allow_programs: whether programs that the problem names may run
     """
+    for body, function in (bodies or {}).items():
+        register_body(body, function)
+    border.call("pleuel_allow_programs", int(allow_programs))
     overrides = [_override(name, value) for name, value in (set or {}).items()]
     if isinstance(problem, Mapping):
         return Problem(str(pathlib.Path(folder) / "problem.json"), json.dumps(problem), overrides, case)

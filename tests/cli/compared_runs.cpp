@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
 #include <sqlite3.h>
 
 namespace pleuel::test {
@@ -49,6 +50,21 @@ std::string quick_line() {
   std::string line;
   for (const std::string& word : quick()) line += " '" + word + "'";
   return line;
+}
+
+void ComparedRuns::kill_and_end(const std::string& words, const std::string& name, int kills,
+                                std::mt19937& random, int exit_code) const {
+  std::uniform_real_distribution<double> seconds(0.02, 0.6);
+  std::string line = "--version >/dev/null";
+  for (int i = 0; i < kills; ++i) {
+    line += fmt::format(
+        "\n{{ {} {} -o {} --resume & p=$!; sleep {:.3f}; kill -9 $p; wait $p; }} "
+        ">/dev/null 2>&1",
+        PLEUEL_PROGRAM, words, name, seconds(random));
+  }
+  run_line(folder_.path(), line);
+  const ProgramRun run = run_line(folder_.path(), words + " -o " + name + " --resume");
+  EXPECT_EQ(run.exit_code, exit_code) << run.out << run.err;
 }
 
 nlohmann::json ComparedRuns::result(const std::string& name) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <random>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -26,6 +27,10 @@ class ComparedRuns : public testing::Test {
   /// The same result, the same table, and as many evaluations.
   void expect_same(const std::string& name, const std::string& other,
                    const std::string& file) const;
+
+  /// Kills a command so many times after other times, and lets it end then.
+  void kill_and_end(const std::string& words, const std::string& name, int kills,
+                    std::mt19937& random, int exit_code = 0) const;
 
   const TemporaryFolder folder_;
 };

@@ -1,8 +1,10 @@
 #include <fstream>
+#include <map>
 
 #include <gmock/gmock.h>
 
 #include "tests/cli/program.hpp"
+#include "tests/support/source_folder.hpp"
 
 namespace pleuel::test::invariants_test {
 namespace {
@@ -95,6 +97,50 @@ TEST(Invariants, HoldPointsAtTheirPlaces) {
   EXPECT_THAT(run.err,
               HasSubstr("/scene/joints/slider_pin/at must be at a place of the body \"rod\""));
   EXPECT_THAT(run.err, HasSubstr("with the variable \"reach\" at its lower bound"));
+}
+
+/// A body that gets thicker and thinner, as solids do by Poisson's effect: the rod of another program with inertia
+/// of displacements across the plane. In space its motion is the same, to round-off of many more equations.
+TEST(Invariants, ThatGetThickerMoveInAPlane) {
+  const TemporaryFolder folder;
+  const std::string docs = source_folder() + "/docs/invariants";
+  const std::string made = (folder.path() / "rod.json").string();
+  ASSERT_EQ(
+      std::system(("python3 '" + docs + "/planar_rod.py' '" + made + "' --elements 2").c_str()), 0);
+  auto body = nlohmann::json::parse(read_file(made));
+  body.erase("derivatives");
+  body.erase("design");
+  auto& of = body.at("invariants");
+  of["moment_zz"] = of.at("moment_yy");
+  std::map<std::pair<int, int>, double> mass;
+  for (const char* part : {"moment_xx", "moment_yy", "moment_zz"}) {
+    for (const auto& entry : of.at(part)) mass[{entry[0], entry[1]}] += entry[2].get<double>();
+  }
+  of["mass_matrix"] = nlohmann::json::array();
+  for (const auto& [place, value] : mass) {
+    of["mass_matrix"].push_back({place.first, place.second, value});
+  }
+  std::ofstream(made) << body;
+  auto document = nlohmann::json::parse(read_file(docs + "/slider_crank.json"));
+  document["responses"]["rod_bow"]["at"] = "node 1";
+  document["variables"].erase("rod_height");
+  std::ofstream(folder.path() / "crank.json") << document;
+  const auto values = [&](const std::string& motion) {
+    const ProgramRun run = run_program(
+        folder.path(), joined({"simulate", "crank.json", "--json", "--no-report", "--no-checks",
+                               "--overwrite", "--set", "/effects/spatial_motion=" + motion},
+                              quick()));
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return run.document();
+  };
+  const auto plane = values("auto"), space = values("on");
+  EXPECT_LT(plane.at("coordinates"), space.at("coordinates"));
+  for (const auto& response : space.at("responses").items()) {
+    const double expected = response.value().at("value");
+    EXPECT_NEAR(plane.at("responses").at(response.key()).at("value"), expected,
+                1e-8 * std::abs(expected))
+        << response.key();
+  }
 }
 
 TEST(Invariants, RefuseWhatHasNone) {

@@ -19,24 +19,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-class Resumed : public ComparedRuns {
- protected:
-  /// Kills a command so many times after other times, and lets it end then.
-  void kill_and_end(const std::string& words, const std::string& name, int kills,
-                    std::mt19937& random, int exit_code = 0) const {
-    std::uniform_real_distribution<double> seconds(0.02, 0.6);
-    std::string line = "--version >/dev/null";
-    for (int i = 0; i < kills; ++i) {
-      line += fmt::format(
-          "\n{{ {} {} -o {} --resume & p=$!; sleep {:.3f}; kill -9 $p; wait $p; }} "
-          ">/dev/null 2>&1",
-          PLEUEL_PROGRAM, words, name, seconds(random));
-    }
-    run_line(folder_.path(), line);
-    const ProgramRun run = run_line(folder_.path(), words + " -o " + name + " --resume");
-    EXPECT_EQ(run.exit_code, exit_code) << run.out << run.err;
-  }
-};
+using Resumed = ComparedRuns;
 
 TEST_F(Resumed, OptimizationEndsAsIfItHadNotBeenKilled) {
   const std::string words = "optimize " + problem("slider_crank_round") + quick_line();

@@ -145,6 +145,47 @@ TEST(Reduction, KeepsAllModesBelowAFrequency) {
   EXPECT_GT(few.next_frequency, 6000.0 * std::numbers::pi);
 }
 
+/// Frequencies of the body that is held at one end only, of all of its coordinates.
+Eigen::VectorXd clamped_frequencies(const ReducedBody& body) {
+  const BodyConstants& constants = body.file.constants;
+  return eigenvalues_of_symmetric(Eigen::MatrixXd(constants.stiffness),
+                                  Eigen::MatrixXd(constants.mass_matrix))
+      .cwiseSqrt();
+}
+
+/// In place of modes: above the frequencies by many modes (Rayleigh), the lowest four, two of bending in each
+/// plane, by less than 1e-4; a third generation adds digits.
+TEST(Reduction, ResponsesToInertiaAreAsGoodAsModes) {
+  const auto by = [](const std::string& modes) {
+    return clamped_frequencies(reduced(Block(), "rigid", ", \"modes\": " + modes));
+  };
+  const Eigen::VectorXd exact = by("60"), two = by("{\"inertia_responses\": 2}"),
+                        three = by("{\"inertia_responses\": 3}");
+  ASSERT_EQ(two.size(), 6 + 12);
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_GT(two(i), exact(i) * (1.0 - 1e-8)) << i;
+    EXPECT_LT(two(i), exact(i) * (1.0 + 1e-4)) << i;
+    EXPECT_LT(three(i), two(i) * (1.0 + 1e-10)) << i;
+  }
+}
+
+/// From 40 to 30 mm of height the third mode in the plane changes from bending to stretching. Responses go
+/// on: a step of 1e-4 changes numbers by the third power of 1e-4, not more.
+TEST(Reduction, ResponsesToInertiaGoContinuouslyWithTheBody) {
+  const auto stiffness_at = [](double height) {
+    Block block;
+    block.height = height;
+    return stiffness_of(reduced(block, "rigid", ", \"modes\": {\"inertia_responses\": 2}"));
+  };
+  for (double height = 0.03; height < 0.041; height += 0.002) {
+    const Eigen::MatrixXd here = stiffness_at(height), beside = stiffness_at(height * (1.0 + 1e-4));
+    const Eigen::VectorXd size = here.diagonal().cwiseSqrt();
+    const Eigen::MatrixXd change =
+        (beside - here).cwiseAbs().array() / (size * size.transpose()).array();
+    EXPECT_LT(change.maxCoeff(), 1e-3) << height;
+  }
+}
+
 /// In mm, t and s the same body has other numbers, and reads as the same in SI.
 TEST(Reduction, OfMillimetresAndTonnesIsTheSame) {
   Block block;

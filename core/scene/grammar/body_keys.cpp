@@ -55,6 +55,48 @@ void describe(Keys& keys, PointMass& s) {
   keys.number("mass", s.mass, {quantities::mass, Range::positive}, "{}.");
 }
 
+void describe(Keys& keys, ImportedBody& s) {
+  constexpr Choice<bool> elsewhere[] = {{"refuse", false}, {"linear", true}};
+  keys.about(
+      "A flexible body from any finite-element code, by its invariants (docs/invariants.md).");
+  keys.one_at_least({"file", "generator"});
+  keys.exclusive("file", "generator");
+  keys.exclusive("generator", "other_designs");
+  keys.other(optional_key("file"), "name", "From the folder of the problem file on.");
+  keys.other(optional_key("generator"), "generator", "");
+  keys.point("from", s.from, quantities::length, "Origin of the body frame at the start {}.");
+  keys.point("to", s.to, quantities::length, "A point on its local x axis {}.");
+  keys.direction(optional_key("reference"), s.reference,
+                 "Local y is the part of this vector normal to local x; as of a beam.");
+  keys.choice(optional_key("other_designs"), s.is_linear, elsewhere,
+              "At other designs than that of the file: an error, or its numbers continued "
+              "linearly.");
+}
+
+void describe(Keys& keys, BodyGenerator& s) {
+  constexpr Choice<bool> derivatives[] = {{"given", true}, {"differences", false}};
+  keys.about(
+      "A program that makes the body for each design, with --allow-programs only, in the folder of "
+      "the problem file: it reads {\"body\", \"variables\": {name: SI value}} from standard input "
+      "and writes a file of invariants to standard output (docs/invariants.md).");
+  keys.other(optional_key("command"), "words",
+             "The program and its arguments. A function that is registered in the library takes "
+             "its place.");
+  keys.other("variables", "units_of_variables",
+             "The design variables that the body depends on, each with its SI unit.");
+  keys.choice("derivatives", s.gives_derivatives, derivatives,
+              "Whether the body has them with it, or they are forward differences, of one call "
+              "more for each variable.");
+  keys.fixed(optional_key("step"), s.step, {quantities::pure_number, Range::positive},
+             "Of the differences, relative.");
+  keys.fixed(optional_key("time_limit"), s.time_limit, {quantities::time, Range::positive},
+             "Of a call {}.");
+  keys.other(optional_key("files"), "words",
+             "That the program reads, besides those that its command names: where one of them "
+             "changes, what was made before is forgotten.");
+  keys.must("step", s.step <= 0.1, "must be at most 0.1: it is relative", Shown::rule_and_value);
+}
+
 void describe(Keys& keys, InitialDeflection& s) {
   keys.point("at", s.at, quantities::length, "A place on the undeformed body at the start {}.");
   keys.unit_vector("direction", s.direction, "Of the displacement, global axes at the start.");

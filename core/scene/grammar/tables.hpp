@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/scene/along_coordinate.hpp"
+#include "core/scene/body_generator.hpp"
 #include "core/scene/grammar/keys.hpp"
 #include "core/scene/problem_file.hpp"
 #include "core/scene/scene.hpp"
@@ -29,6 +30,8 @@ void describe(Keys& keys, Material& material);
 void describe(Keys& keys, Damping& damping);
 void describe(Keys& keys, RigidBody& body);
 void describe(Keys& keys, PointMass& body);
+void describe(Keys& keys, ImportedBody& body);
+void describe(Keys& keys, BodyGenerator& generator);
 void describe(Keys& keys, InitialDeflection& deflection);
 
 void describe(Keys& keys, CraigBampton& reduction);

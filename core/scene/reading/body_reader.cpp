@@ -196,7 +196,7 @@ Body read_body(const std::string& name, const JsonNode& node,
   } else if (type == BodyType::rigid) {
     body.shape = read_rigid(node, numbers);
   } else if (type == BodyType::imported) {
-    body.shape = read_imported_body(node, numbers);
+    body.shape = read_imported_body(name, node, numbers);
   } else {
     body.shape = read_point_mass(node, numbers);
   }

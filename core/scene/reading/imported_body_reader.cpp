@@ -1,7 +1,11 @@
 #include <filesystem>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "core/base/error.hpp"
+#include "core/base/int_size.hpp"
+#include "core/scene/body_generator.hpp"
 #include "core/scene/invariants_file.hpp"
 #include "core/scene/named_quantities.hpp"
 #include "core/scene/reading/scene_reader.hpp"
@@ -51,24 +55,81 @@ std::vector<ImportedVariable> find_variables(const JsonNode& name, const Invaria
   return variables;
 }
 
+std::vector<std::string> read_texts(const JsonNode& list) {
+  std::vector<std::string> texts;
+  for (const JsonNode& item : list.items()) texts.push_back(item.text());
+  if (texts.empty()) list.fail("must not be empty");
+  return texts;
+}
+
+BodyGenerator read_generator(const std::string& name, const JsonNode& node, NumberReader& numbers) {
+  BodyGenerator generator;
+  read_keys(node, numbers, generator);
+  generator.body = name;
+  generator.folder = fs::absolute(node.file()).parent_path().string();
+  generator.record = fs::absolute("runs/bodies").string();
+  if (const auto command = node.find("command")) generator.command = read_texts(*command);
+  if (const auto files = node.find("files")) generator.files = read_texts(*files);
+  const JsonNode variables = node.at("variables");
+  for (const auto& [variable, unit] : variables.members()) {
+    generator.variables.push_back({variable, unit.text()});
+  }
+  if (generator.variables.empty()) {
+    variables.fail("must name a design variable; without one, use \"file\"");
+  }
+  return generator;
+}
+
+/// Binds the body to its variables. @returns their start [SI]
+Eigen::VectorXd bind_variables(const JsonNode& node, const BodyGenerator& generator,
+                               NumberReader& numbers, ImportedBody& body) {
+  Eigen::VectorXd start(int_size(generator.variables));
+  for (int i = 0; i < int_size(start); ++i) {
+    const auto& [name, unit] = generator.variables[i];
+    const JsonNode place = node.at("variables").at(name);
+    const std::optional<Quantity> quantity = pleuel::find_quantity(unit);
+    if (!quantity) place.fail_with_value("must be the SI unit of the variable, such as \"m\"");
+    const Number number = Number::bound(numbers.variable(place, name));
+    start(i) = numbers.start_of(name, *quantity);
+    numbers.add_use({number, *quantity, Range::any, place});
+    body.variables.push_back({number, *quantity, static_cast<std::size_t>(i)});
+  }
+  return start;
+}
+
+/// Has the body made at the start.
+void generate(const std::string& name, const JsonNode& node, NumberReader& numbers,
+              ImportedBody& body) {
+  const BodyGenerator generator = read_generator(name, node, numbers);
+  const Eigen::VectorXd start = bind_variables(node, generator, numbers, body);
+  body.source = generator.command.empty()
+                    ? "its function"
+                    : fmt::format("\"{}\"", fmt::join(generator.command, " "));
+  try {
+    body.maker = make_body_source(generator);
+    body.file = body.maker->at(start);
+  } catch (const InputError& error) {
+    node.fail(error.what());
+  } catch (const SimulationError& error) {
+    node.fail(fmt::format("could not make the body at the start: {}", error.what()));
+  }
+}
+
 }  // namespace
 
-ImportedBody read_imported_body(const JsonNode& node, NumberReader& numbers) {
-  node.allow_keys({"type", "file", "from", "to", "reference", "other_designs", "velocity",
-                   "angular_velocity", "initial_deflections"});
+ImportedBody read_imported_body(const std::string& name, const JsonNode& node,
+                                NumberReader& numbers) {
   ImportedBody body;
-  const JsonNode name = node.at("file");
-  body.source = name.text();
-  body.file = std::make_shared<const InvariantsFile>(read_invariants(find_file(name)));
-  body.variables = find_variables(name, *body.file, numbers);
-  body.from = numbers.triple(node.at("from"), quantities::length);
-  body.to = numbers.triple(node.at("to"), quantities::length);
-  if (const auto reference = node.find("reference")) {
-    body.reference = numbers.direction(*reference);
+  read_keys(node, numbers, [&](Keys& keys) { describe(keys, body); },
+            {"type", "velocity", "angular_velocity", "initial_deflections"});
+  if (const auto generator = node.find("generator")) {
+    generate(name, *generator, numbers, body);
+    return body;
   }
-  if (const auto elsewhere = node.find("other_designs")) {
-    body.is_linear = read_choice<bool>(*elsewhere, {{"refuse", false}, {"linear", true}});
-  }
+  const JsonNode file = node.at("file");
+  body.source = file.text();
+  body.file = std::make_shared<const InvariantsFile>(read_invariants(find_file(file)));
+  body.variables = find_variables(file, *body.file, numbers);
   return body;
 }
 

@@ -277,6 +277,14 @@ void take_loads(Json& definition, const AlongCoordinate& either) {
   schema.add("joint", JointForce(), either);
 }
 
+/// An elastic body with what its motion begins with.
+Json moving(Json body) {
+  for (const char* key : {"velocity", "angular_velocity", "initial_deflections"}) {
+    body["properties"][key] = reference(key);
+  }
+  return body;
+}
+
 /// Units of what acts along an angle, and along a displacement.
 AlongCoordinate along_either() {
   constexpr const char* name = "a quantity";
@@ -296,6 +304,8 @@ Json with_tables(Json schema) {
   take_responses(all["response"]);
   all["material"] = schema_of("", Material());
   all["damping"] = schema_of("", Damping());
+  all["imported"] = moving(schema_of("invariants", ImportedBody()));
+  all["generator"] = schema_of("", BodyGenerator());
   all["initial_deflections"]["items"] = schema_of("", InitialDeflection());
   const AlongCoordinate either = along_either();
   take_loads(all["load"], either);

@@ -76,6 +76,7 @@ Number NumberReader::designable(const JsonNode& node, const Quantity& quantity, 
 
 void NumberReader::declare(const JsonNode& root) {
   symbols_ = read_symbols(root, *units_);
+  root_ = root;
 }
 
 ReadExpression NumberReader::formula(const JsonNode& node, const std::vector<Symbol>& more) {
@@ -219,6 +220,10 @@ int NumberReader::variable(const JsonNode& node, const std::string& name) const 
   const std::optional<int> found = find_variable(name);
   if (!found) fail_unknown_name(node, "variable", name, variables_);
   return *found;
+}
+
+double NumberReader::start_of(const std::string& name, const Quantity& quantity) const {
+  return fixed(root_->at("variables").at(name).at("start"), quantity);
 }
 
 std::optional<int> NumberReader::find_variable(const std::string& name) const {

@@ -80,6 +80,9 @@ class NumberReader {
   /// Index of the variable with this name, which the document has at `node`.
   int variable(const JsonNode& node, const std::string& name) const;
 
+  /// The start of a variable that is there, in the document. @throws InputError if it has none
+  double start_of(const std::string& name, const Quantity& quantity) const;
+
   /// Index of the variable with this name, if there is one.
   std::optional<int> find_variable(const std::string& name) const;
 
@@ -127,6 +130,7 @@ class NumberReader {
   const UnitSystem* units_;
   std::vector<std::string> variables_;
   std::vector<Symbol> symbols_;
+  std::optional<JsonNode> root_;
   std::vector<VariableMention> mentions_;
   std::vector<int> used_elsewhere_;
   std::vector<VariableUse> uses_;

@@ -19,8 +19,9 @@ Scene read_scene(const JsonNode& node, NumberReader& numbers);
 Body read_body(const std::string& name, const JsonNode& node,
                const std::vector<std::string>& materials, NumberReader& numbers);
 
-/// A body from a file of invariants. @throws InputError
-ImportedBody read_imported_body(const JsonNode& node, NumberReader& numbers);
+/// A body from a file of invariants, or one that is made for each design. @throws InputError
+ImportedBody read_imported_body(const std::string& name, const JsonNode& node,
+                                NumberReader& numbers);
 
 /// `bodies` are the names there are, "ground" among them. @throws InputError
 Joint read_joint(const std::string& name, const JsonNode& node,
