@@ -1,5 +1,8 @@
 #include "picture/rigid_motion.hpp"
 
+#include <utility>
+
+#include "core/base/error.hpp"
 #include "core/mobility/lock.hpp"
 
 namespace pleuel {
@@ -18,6 +21,19 @@ RigidMotion rigid_motion(const Scene& scene, const Model& model, double end, dou
                                [&](Eigen::Index i, State& state) { state.q = positions[i]; });
   for (BodyTrack& body : rigid.motion.bodies) body.stress.resize(0, 0);
   return rigid;
+}
+
+Motion rigid_motion(const ProblemFile& problem, const Eigen::VectorXd& x) {
+  const Eigen::VectorXd start = start_design(problem);
+  try {
+    const Model model = build_model(problem.scene, problem.effects, {start.begin(), start.end()},
+                                    {x.begin(), x.end()}, problem.sensitivity.invariants);
+    RigidMotion rigid =
+        rigid_motion(problem.scene, model, problem.simulation.end_time, problem.simulation.step);
+    return rigid.motion.time.size() > 1 ? std::move(rigid.motion) : Motion();
+  } catch (const SimulationError&) {
+    return {};
+  }
 }
 
 }  // namespace pleuel

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/mobility/rigid_path.hpp"
+#include "core/scene/problem_file.hpp"
 #include "picture/motion.hpp"
 
 namespace pleuel {
@@ -15,5 +16,8 @@ struct RigidMotion {
 /// @param end   [s]
 /// @param step  [s] of the simulation
 RigidMotion rigid_motion(const Scene& scene, const Model& model, double end, double step);
+
+/// Of the mechanism of a problem at a design; nothing where nothing is driven or it cannot be assembled.
+Motion rigid_motion(const ProblemFile& problem, const Eigen::VectorXd& x);
 
 }  // namespace pleuel

@@ -71,16 +71,15 @@ Json optimum_pictures(const Json& card, const Json& result, const fs::path& fold
   return picture_of_cases(problem_of(card, result, ""), std::move(cases), first);
 }
 
-Json front_picture(const ProblemFile& problem, const Json& result, Notes& notes) {
-  std::vector<Redone> designs;
+Json front_picture(const ProblemFile& problem, const Json& result) {
+  std::vector<std::pair<std::string, Eigen::VectorXd>> designs;
   int number = 0;
   for (const Json& point : result.at("points")) {
     ++number;
     const auto x = design_in(point, problem, "");
-    if (x && !point.at("objectives").empty())
-      designs.push_back({std::to_string(number), *x, nullptr});
+    if (x && !point.at("objectives").empty()) designs.emplace_back(std::to_string(number), *x);
   }
-  return picture_of(problem, designs, notes);
+  return rigid_picture(problem, designs);
 }
 
 /// @param result  of a simulation, which says what was simulated; others took the start, or the
@@ -110,7 +109,7 @@ Json picture_of_run(const Json& card, const Json& result, const fs::path& folder
   const std::string command = card.at("command").get<std::string>();
   if (command == "optimize") return optimum_pictures(card, result, folder, notes);
   const ProblemFile problem = problem_of(card, result);
-  if (command == "pareto") return front_picture(problem, result, notes);
+  if (command == "pareto") return front_picture(problem, result);
   const bool has_motion = command == "simulate" || command == "gradient";
   return single_picture(problem, card, result, has_motion ? folder / "trajectory.csv" : fs::path(),
                         notes);

@@ -342,11 +342,11 @@ std::string warnings_of_points(const ProblemFile& problem, const std::vector<Par
 
 /// The mechanisms of the front, by their numbers from 1.
 Json front_picture(const ProblemFile& problem, const std::vector<ParetoPoint>& points) {
-  std::vector<ShownDesign> designs;
+  std::vector<std::pair<std::string, Eigen::VectorXd>> designs;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].has_design()) designs.push_back({std::to_string(i + 1), points[i].result.x});
+    if (points[i].has_design()) designs.emplace_back(std::to_string(i + 1), points[i].result.x);
   }
-  return run_picture(*simulated_problems(problem).front(), designs);
+  return rigid_picture(*simulated_problems(problem).front(), designs);
 }
 
 void show_progress(std::FILE* out, const ProblemFile& problem, const ParetoPoint& point) {

@@ -17,6 +17,7 @@
 #include "picture/companions.hpp"
 #include "picture/frames_of_motion.hpp"
 #include "picture/motion.hpp"
+#include "picture/rigid_motion.hpp"
 #include "picture/thinned.hpp"
 
 namespace pleuel {
@@ -237,6 +238,18 @@ Json run_picture(const ProblemFile& problem, const std::vector<ShownDesign>& des
     document["designs"].push_back(design_document(problem, design, designs.size(), room));
   }
   return document;
+}
+
+Json rigid_picture(const ProblemFile& problem,
+                   const std::vector<std::pair<std::string, Eigen::VectorXd>>& designs) {
+  std::vector<Motion> motions;
+  for (const auto& [name, x] : designs) motions.push_back(rigid_motion(problem, x));
+  std::vector<ShownDesign> shown;
+  for (std::size_t i = 0; i < designs.size(); ++i) {
+    shown.push_back({designs[i].first, designs[i].second});
+    if (motions[i].time.size() > 0) shown.back().rigid = &motions[i];
+  }
+  return run_picture(problem, shown);
 }
 
 Json picture_of_cases(const ProblemFile& joined, std::vector<Json> cases, std::size_t shown) {

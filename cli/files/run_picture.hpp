@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cli/reports/design_influence.hpp"
@@ -28,6 +29,10 @@ struct ShownDesign {
 ///                  points each
 Json run_picture(const ProblemFile& problem, const std::vector<ShownDesign>& designs,
                  std::size_t pictures = 1);
+
+/// Of designs that are not simulated: their drives move them, with rigid bodies.
+Json rigid_picture(const ProblemFile& problem,
+                   const std::vector<std::pair<std::string, Eigen::VectorXd>>& designs);
 
 /// One picture of the pictures of all load cases (none empty): that of `shown`, with the others
 /// under "other_cases" in the order of the file, and under "units" those of the responses and limits

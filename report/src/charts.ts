@@ -469,6 +469,7 @@ export function lineChart(options: ChartOptions): Chart {
     chart.on("click", (event: any) => options.onPick?.(event.seriesIndex, event.dataIndex));
     // eslint-disable-next-line @typescript-eslint/no-explicit-any
     chart.on("mouseover", (event: any) => options.onHover?.(event.seriesIndex, event.dataIndex));
+    chart.on("datazoom", placeCursor);
     placeCursor();
   };
   // Charts measure their place: they begin when they have one, and where there are many when they

@@ -1,11 +1,11 @@
 // Gradients of one design: what each variable changes, and what the methods cost.
 import { lineChart, type Series } from "../charts";
-import type { Document, ReportData } from "../data";
+import type { Document, Picture, ReportData } from "../data";
 import { h, section, table } from "../dom";
 import { number, seconds, words } from "../format";
 import { influenceNotes, influenceOf, influenceTable } from "./influence";
 import { viewing } from "./viewing";
-import { fact, filesSection } from "./parts";
+import { fact, filesSection, unitOf } from "./parts";
 import { csvCharts, hero } from "./studies";
 
 interface Compared {
@@ -104,20 +104,23 @@ export function gradientPage(data: ReportData): HTMLElement[] {
     compared.length ? effortSection(compared) : null,
     compared.some((one) => one.step !== null) ? stepsSection(compared, Object.keys(responses)) : null,
     ...csvCharts(data),
-    gradientsTable(responses, methods, picture?.variables ?? {}),
+    gradientsTable(responses, methods, picture),
     filesSection(data),
   ].filter((part): part is HTMLElement => !!part);
 }
 
-function gradientsTable(responses: Record<string, Document>, methods: string[], variables: Record<string, unknown>): HTMLElement | null {
-  const names = Object.keys(variables);
-  if (!methods.length || !names.length) return null;
-  return section(
-    "All derivatives",
-    "In SI units.",
-    table(
-      [{ title: "response", left: true }, { title: "variable", left: true }, ...methods.map((method) => ({ title: method }))],
-      Object.entries(responses).flatMap(([name, one]) => names.map((variable, j) => [j ? "" : words(name), words(variable), ...methods.map((method) => number(one.gradients?.[method]?.[variable], 6))])),
-    ),
-  );
+/** In the units of the file. */
+function gradientsTable(responses: Record<string, Document>, methods: string[], picture: Picture | null): HTMLElement | null {
+  const variables = Object.entries(picture?.variables ?? {});
+  if (!methods.length || !variables.length) return null;
+  const rows = Object.entries(responses).flatMap(([name, one]) => {
+    const unit = unitOf(picture, name, one.unit);
+    return variables.map(([variable, { unit: by }], j) => [
+      j ? "" : words(name),
+      words(variable),
+      ...methods.map((method) => number((one.gradients?.[method]?.[variable] * by.factor) / unit.factor, 6)),
+      by.name === "1" ? unit.name : `${unit.name}/${by.name}`,
+    ]);
+  });
+  return section("All derivatives", "", table([{ title: "response", left: true }, { title: "variable", left: true }, ...methods.map((method) => ({ title: method })), { title: "unit", left: true }], rows));
 }

@@ -45,7 +45,8 @@ export function paretoPage(data: ReportData): HTMLElement[] {
   // Between two responses no limit of the file is varied: the search allows the second one so much.
   const isOfResponses = !!data.card.problem?.pareto?.responses;
   const limitTitle = isOfResponses ? `${words(limited ?? "")} allowed` : "limit";
-  const marks = (point: Document) => `${point.status}${point.dominated ? ", dominated" : ""}${point.knee ? ", knee" : ""}`;
+  const bounds = (point: Document) => boundsReached(picture, point.variables ?? {});
+  const marks = (point: Document) => [point.status, point.dominated ? "dominated" : "", point.knee ? "knee" : "", ...bounds(point)].filter(Boolean).join(", ");
   const known = points.map((point, i) => ({ point, number: i + 1 })).filter(({ point }) => point.objectives?.[objective] !== undefined);
   const verified = points.filter((point) => point.status === "verified").length;
   const drawing = h("div.front-drawing", {});
@@ -80,6 +81,7 @@ export function paretoPage(data: ReportData): HTMLElement[] {
         y,
         color: "accent",
         dots: true,
+        hollow: known.map(({ point }) => bounds(point).length > 0),
         labels: known.map(({ point, number: n }) => `point ${n}: ${marks(point)}`),
       },
       ...(knee >= 0 ? [{ name: "knee", x: [x[knee]], y: [y[knee]], color: "good", dots: true, silent: true }] : []),
@@ -93,7 +95,7 @@ export function paretoPage(data: ReportData): HTMLElement[] {
   const isPartly = result.status === "done" && verified < points.length;
   return [
     hero({ ...data, result: { ...result, status: isPartly ? "partly" : result.status } }, `${words(objective ?? "")} against ${isOfResponses ? words(limited ?? "") : `the limit of ${words(result.constraint ?? "")}`}: ${verified} of ${points.length} points verified.`, [], pointWarnings(points)),
-    h("section.card.front", { "aria-label": "front" }, h("div", {}, h("p.note", {}, "Point at a mark to see its mechanism.", knee >= 0 ? ` The knee is point ${known[knee].number}: a further gain of either goal costs more of the other.` : ""), front.element), drawing),
+    h("section.card.front", { "aria-label": "front" }, h("div", {}, h("p.note", {}, "Point at a mark to see its mechanism.", known.some(({ point }) => bounds(point).length) ? " Rings: a variable is at its bound." : "", knee >= 0 ? ` The knee is point ${known[knee].number}: a further gain of either goal costs more of the other.` : ""), front.element), drawing),
     section(
       "Points",
       "",
@@ -114,6 +116,15 @@ export function paretoPage(data: ReportData): HTMLElement[] {
     ),
     filesSection(data),
   ];
+}
+
+/** "rod width at its lower bound" */
+function boundsReached(picture: Picture | null, values: Record<string, number>): string[] {
+  const nearly = 1e-6; // of the range, or of sizes where bounds are far away, as the terminal has it
+  return Object.entries(picture?.variables ?? {}).flatMap(([name, { start, lower, upper }]) => {
+    const at = (bound: number) => Math.abs(values[name] - bound) <= nearly * Math.min(upper - lower, Math.abs(bound) + Math.abs(start) || Infinity);
+    return upper > lower && (at(lower) || at(upper)) ? [`${words(name)} at its ${at(lower) ? "lower" : "upper"} bound`] : [];
+  });
 }
 
 /** Why points are not verified. */
