@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
+#include <iterator>
 
 #include <gmock/gmock.h>
 
@@ -120,7 +122,8 @@ TEST_F(GeneratedBody, FailuresAreToldWithDesignAndReason) {
 /// At another design a failure is that of the simulation.
 TEST_F(GeneratedBody, FailsAtADesignAsASimulation) {
   set_command(planar_rod + " - --elements $((5 - $(wc -l <calls)))");
-  std::ofstream(folder_.path() / "design.json") << R"({"crank_width": 0.02, "crank_height": 0.03, "rod_height": 0.02})";
+  std::ofstream(folder_.path() / "design.json")
+      << R"({"crank_width": 0.02, "crank_height": 0.03, "rod_height": 0.02})";
   const ProgramRun failed = run("simulate", "--no-report --design design.json");
   EXPECT_EQ(failed.exit_code, 3) << failed.err;
   EXPECT_THAT(unwrapped(failed.err),
@@ -176,6 +179,26 @@ TEST_F(GeneratedOptimum, KilledFiveTimesItMakesNoBodyTwice) {
   kill_and_end(words(), "killed", kills, random);
   expect_same("killed", "whole", "history.csv");
   EXPECT_LE(calls(), whole + kills);  // a call that was killed itself is made again
+}
+
+/// The block of problems/conrod, which CalculiX assembles: two calls for a design of one variable, as derivatives
+/// are differences.
+TEST(SolidRod, IsVerifiedAfterFewCallsOfTheFiniteElementProgram) {
+  if (std::system("command -v ccx >/dev/null") != 0) GTEST_SKIP() << "ccx is not installed";
+  const TemporaryFolder folder;
+  ::setenv("PLEUEL", PLEUEL_PROGRAM, 1);  // that the generator reduces with
+  const std::string file = source_folder() + "/problems/conrod/block.json";
+  const ProgramRun run = run_line(
+      folder.path(),
+      "optimize '" + file +
+          "' --allow-programs --no-report --json"
+          R"( --set '/variables={"height": {"start": "30 mm", "lower": "6 mm", "upper": "60 mm"}}')"
+          R"( --set '/scene/bodies/rod/generator/variables={"height": "m"}')"
+          R"( --set '/constraints={"stiffness": {"response": "rod_bow", "upper": "0.2 mm"}}')");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.document().at("status"), "verified");
+  const fs::directory_iterator bodies(folder.path() / "runs" / "bodies");
+  EXPECT_LE(std::distance(begin(bodies), end(bodies)), 12);
 }
 
 }  // namespace
