@@ -124,7 +124,9 @@ class Calls {
     for (std::vector<double>* one : {&a_, &b_, &c_, &d_}) one->assign(room, untouched);
     draw_.begin();
     const pleuel_status status = make();
-    if (draw_.has_drawn_nonsense()) EXPECT_NE(status, PLEUEL_OK);
+    if (draw_.has_drawn_nonsense()) {
+      EXPECT_NE(status, PLEUEL_OK);
+    }
     for (const std::vector<double>* one : {&a_, &b_, &c_, &d_}) {
       const auto first = one->begin() + static_cast<long>(status == PLEUEL_OK ? most : 0);
       EXPECT_TRUE(std::all_of(first, one->end(), [](double x) { return x == untouched; }));
