@@ -95,7 +95,8 @@ pid_t start(const ChildProgram& program, const Streams& streams) {
 }
 
 /// The last lines, which tell most.
-std::string tail_of(const std::string& text) {
+std::string tail_of(std::string text) {
+  text.erase(text.find_last_not_of(" \n") + 1);
   constexpr std::size_t most = 600;
   const std::string end = text.size() > most ? "…" + text.substr(text.size() - most) : text;
   return end.empty() ? "it wrote nothing to standard error"

@@ -181,6 +181,18 @@ TEST_F(GeneratedOptimum, KilledFiveTimesItMakesNoBodyTwice) {
   EXPECT_LE(calls(), whole + kills);  // a call that was killed itself is made again
 }
 
+/// A search keeps to where bodies can be made; that the optimum is elsewhere is no verdict.
+TEST_F(GeneratedOptimum, WhereNoBodyCanBeMadeIsNotVerified) {
+  set_command(
+      "x=$(cat); h=$(echo \"$x\" | sed 's/.*rod_height\":\\([0-9.e-]*\\).*/\\1/'); "
+      "awk \"BEGIN{exit !($h < 0.02)}\" && { echo too thin >&2; exit 1; }; echo \"$x\" | " +
+      planar_rod + " - --elements 4");
+  const ProgramRun failed = run("optimize", "--no-report");
+  EXPECT_EQ(failed.exit_code, 4);
+  EXPECT_THAT(unwrapped(failed.out), AllOf(HasSubstr("too thin: the next step is shorter"),
+                                           HasSubstr("has not made it for this one")));
+}
+
 /// The block of problems/conrod, which CalculiX assembles: two calls for a design of one variable, as derivatives
 /// are differences.
 TEST(SolidRod, IsVerifiedAfterFewCallsOfTheFiniteElementProgram) {

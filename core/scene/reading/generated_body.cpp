@@ -68,10 +68,16 @@ class GeneratedBody : public BodySource {
     const std::lock_guard<std::mutex> lock(mutex_);
     const auto known = made_.find(key);
     if (known != made_.end()) return known->second;
-    const FilePointer file = std::make_shared<const InvariantsFile>(make(values));
-    if (!first_) first_ = file;
-    made_[key] = file;
-    return file;
+    const auto failed = failures_.find(key);
+    if (failed != failures_.end()) throw SimulationError(failed->second);
+    try {
+      const FilePointer file = std::make_shared<const InvariantsFile>(make(values));
+      if (!first_) first_ = file;
+      return made_[key] = file;
+    } catch (const SimulationError& failure) {
+      failures_[key] = failure.what();
+      throw;
+    }
   }
 
  private:
@@ -200,6 +206,7 @@ class GeneratedBody : public BodySource {
   CallRecord record_;
   mutable std::mutex mutex_;
   mutable std::map<std::vector<double>, FilePointer> made_;
+  mutable std::map<std::vector<double>, std::string> failures_;
   mutable FilePointer first_;
 };
 
