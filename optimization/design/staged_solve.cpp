@@ -223,18 +223,20 @@ class MadeSolve {
     options_.takes_verified_start = true;
   }
 
-  StagedSolution run(Eigen::VectorXd x) {
+  StagedSolution run(const Eigen::VectorXd& x) {
     if (!make_at(x)) return solve(bodies_.original(), x);
-    x = search_between_calls(bodies_, x, options_, execution_, before_, observer_, notice_);
-    StagedSolution solution = solve(bodies_.continued(), x);
-    for (int round = 1; round < most_rounds_with_bodies && has_left(solution); ++round) {
-      x = solution.result.x;
-      if (!make_at(x)) break;
-      tell("bodies were made for the design that was found, which is judged again");
+    made_for_ = search_between_calls(bodies_, x, options_, execution_, before_, observer_, notice_);
+    StagedSolution solution = solve(bodies_.continued(), made_for_);
+    bool can_go_on = true;
+    for (int round = 1; round < most_judgements && can_go_on && has_left(solution); ++round) {
+      can_go_on = make_at(solution.result.x);
+      tell(can_go_on ? "bodies were made for the design that was found, which is judged again"
+                     : "the last design that bodies were made for is judged in its place");
+      if (!can_go_on) options_.max_iterations = 1;
       ProblemFile next = solution.problem->file();
       next.accuracy.chooses_setting = false;  // that is done
       std::vector<Stage> stages = std::move(solution.stages);
-      solution = solve(bodies_.continued(std::move(next)), x);
+      solution = solve(bodies_.continued(std::move(next)), made_for_);
       stages.insert(stages.end(), solution.stages.begin(), solution.stages.end());
       solution.stages = std::move(stages);
     }
@@ -242,7 +244,7 @@ class MadeSolve {
   }
 
  private:
-  static constexpr int most_rounds_with_bodies = 5;
+  static constexpr int most_judgements = 5;
 
   void tell(const std::string& text) const {
     if (notice_) notice_(text);
@@ -252,6 +254,7 @@ class MadeSolve {
   bool make_at(const Eigen::VectorXd& x) {
     try {
       bodies_.make_at(x);
+      made_for_ = x;
       return true;
     } catch (const SimulationError& failure) {
       tell(failure.what());
@@ -273,7 +276,8 @@ class MadeSolve {
   MadeBodies bodies_;
   SolveOptions options_;
   const Execution& execution_;
-  Result before_;  ///< effort and history so far
+  Result before_;             ///< effort and history so far
+  Eigen::VectorXd made_for_;  ///< the last design with bodies
   const Observer observer_;
   const Notice& notice_;
 };
