@@ -268,8 +268,8 @@ PLEUEL_API pleuel_status pleuel_search_evaluate(uint64_t search, const double *y
 /* ---- bodies that are made for each design ---- */
 
 /**
- * Makes an elastic body for a design. May be called by any thread; calls for one problem one after the other. An
- * optimization from several starts calls it in processes that are forked for them.
+ * Makes an elastic body for a design. May be called by any thread; calls for one problem one after the other. While
+ * one is known, searches from several starts run one after another in this process.
  * @param values  of the variables that the generator of the body names, in their order
  * @param text    [out] a file of invariants (docs/invariants.md), valid until the next call; after a failure, why
  *                there is no body

@@ -1,10 +1,12 @@
 // Bodies that functions of the caller make, and permission for programs (include/pleuel.h).
 
+#include <memory>
 #include <mutex>
 #include <optional>
 
 #include "core/base/child_program.hpp"
 #include "core/base/error.hpp"
+#include "core/base/worker.hpp"
 #include "core/scene/body_generator.hpp"
 #include "library/guarded_call.hpp"
 
@@ -38,7 +40,8 @@ pleuel_status pleuel_register_body(const char* body, pleuel_body_maker make, voi
     require_pointer(body, "body");
     BodyFunction function;
     if (make != nullptr) {
-      function = [make, user](const Eigen::VectorXd& values) {
+      const auto here = std::make_shared<WorkersForbidden>();  // as long as it is registered
+      function = [make, user, here](const Eigen::VectorXd& values) {
         return guarded_text_of(make, user, values);
       };
     }
