@@ -28,7 +28,7 @@ MECHANISMS = {
 
 def simulate(program, name, turns, overrides):
     arguments = [program, "simulate", str(PROBLEMS / f"{name}.json"), "--json"]
-    for override in overrides + [f"/simulation/end_time={turns * TURN!r}", "/simulation/resolution_check=false"]:
+    for override in overrides + [f"/simulation/end_time={turns * TURN!r} s", "/simulation/resolution_check=false"]:
         arguments += ["--set", override]
     runs = [json.loads(subprocess.run(arguments, check=True, capture_output=True, text=True).stdout) for _ in range(2)]
     return min(runs, key=lambda run: run["seconds"])

@@ -57,7 +57,7 @@ def optimize(program, problem, backend, overrides, folder):
     command = [program, "optimize", problem.file, "--json", "--no-report", "--overwrite", "-o", folder,
                "--set", "/simulation/resolution_check=false"]
     if problem.step:
-        command += ["--set", f"/simulation/step={problem.step}"]
+        command += ["--set", f"/simulation/step={problem.step} s"]
     if backend != "-":
         command += ["--backend", backend]
     for override in overrides:
