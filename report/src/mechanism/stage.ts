@@ -500,7 +500,7 @@ export class Stage {
 }
 
 /** Of the drawing on paper [px]. */
-const paperStage = { width: 690, height: 210 };
+const paperStage = { width: 690, height: 200 };
 
 function isShown(object: { visible: boolean; parent: unknown }): boolean {
   for (let one: { visible: boolean; parent: unknown } | null = object; one; one = one.parent as typeof one) {
