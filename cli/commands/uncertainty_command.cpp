@@ -191,10 +191,14 @@ std::string responses_text(const ProblemFile& problem, const UncertaintyStudy& s
 
 /// "the limits hold in all 200 samples; nearest: crank_strength, 4.2 deviations away"
 std::string answer_text(const ProblemFile& problem, const UncertaintyStudy& study) {
-  if (study.limits.empty()) return "";
-  const auto nearest = std::min_element(
-      study.limits.begin(), study.limits.end(),
-      [](const LimitScatter& a, const LimitScatter& b) { return a.distance < b.distance; });
+  const auto distance_of = [](const LimitScatter& limit) {  // of one that does not scatter, none
+    return std::isfinite(limit.distance) ? limit.distance : HUGE_VAL;
+  };
+  const auto nearest = std::min_element(study.limits.begin(), study.limits.end(),
+                                        [&](const LimitScatter& a, const LimitScatter& b) {
+                                          return distance_of(a) < distance_of(b);
+                                        });
+  if (distance_of(*nearest) == HUGE_VAL) return "";
   const auto most = std::max_element(
       study.limits.begin(), study.limits.end(),
       [](const LimitScatter& a, const LimitScatter& b) { return a.broken < b.broken; });

@@ -82,6 +82,8 @@ TEST(BadInput, OverrideWithoutTheUnitOfTheFileHasTwoReadings) {
       "the file has \"0.2 mm\" there: write \"0.1 mm\", or \"100 mm\" if the number is in SI");
   expect_complaint({"simulate", problem("slider_crank"), "--set", "rod_height=0.012"},
                    "write \"0.012 mm\", or \"12 mm\" if");
+  // What is no place of the file is refused as that.
+  expect_complaint({"simulate", problem("slider_crank"), "--set", "/scene/a~2=1"}, "neither ~0");
   // A number in place of a number says what it is.
   expect_complaint({"simulate", problem("slider_crank"), "--set", "/scene/bodies/rod/elements=0"},
                    "/scene/bodies/rod/elements must be");

@@ -166,9 +166,13 @@ void require_unit(const Json& document, const std::string& assignment, const std
   const std::size_t equals = assignment.find('=');
   if (equals == std::string::npos) return;
   const Json value = read_value(assignment.substr(equals + 1));
-  const Json::json_pointer place(assigned_pointer(assignment));
-  if (!value.is_number() || value == 0 || !document.contains(place)) return;
-  const Json& written = document.at(place);
+  if (!value.is_number() || value == 0) return;
+  Json written;
+  try {
+    written = document.at(Json::json_pointer(assigned_pointer(assignment)));
+  } catch (const Json::exception&) {
+    return;  // it is not there, or no pointer: who sets it says so
+  }
   const std::string unit = written.is_string() ? unit_of_text(written) : "";
   if (unit.empty()) return;
   const double number = value.get<double>();

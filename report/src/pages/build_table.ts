@@ -19,7 +19,7 @@ interface Member {
 /** Names of the variables that a part of the problem file asks for, alone or in formulas. */
 function variablesIn(part: unknown, names: string[]): string[] {
   const text = JSON.stringify(part ?? null);
-  return names.filter((name) => new RegExp(`(^|[^A-Za-z0-9_])${name}([^A-Za-z0-9_]|$)`).test(text));
+  return names.filter((name) => new RegExp(`(^|[^A-Za-z0-9_])${name.replace(/[^A-Za-z0-9_]/g, "\\$&")}([^A-Za-z0-9_]|$)`).test(text));
 }
 
 function members(data: ReportData): Member[] {

@@ -52,7 +52,7 @@ function headline(data: ReportData): HTMLElement {
   const isOneQuestion = a?.value !== undefined && b?.value !== undefined && a.name === b.name && a.unit === b.unit;
   const verified = runs.map((run) => run.status === "verified");
   const unit = isOneQuestion ? unitOf(picture, a.name, a.unit) : null;
-  const isMax = !!picture?.maximizes;
+  const isMax = data.card.problem?.objective?.maximize !== undefined; // known where no picture can be made, too
   const better = isOneQuestion && a.value !== b.value ? (b.value < a.value !== isMax ? 1 : 0) : -1;
   const answer =
     verified[0] !== verified[1] ? `Only the ${verified[0] ? "first" : "second"} is verified` : better < 0 ? "Neither is better" : `The ${better ? "second" : "first"} is better${verified[0] ? "" : "; neither is verified"}`;
