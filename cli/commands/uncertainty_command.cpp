@@ -198,7 +198,7 @@ std::string answer_text(const ProblemFile& problem, const UncertaintyStudy& stud
                                         [&](const LimitScatter& a, const LimitScatter& b) {
                                           return distance_of(a) < distance_of(b);
                                         });
-  if (distance_of(*nearest) == HUGE_VAL) return "";
+  if (nearest == study.limits.end() || distance_of(*nearest) == HUGE_VAL) return "";
   const auto most = std::max_element(
       study.limits.begin(), study.limits.end(),
       [](const LimitScatter& a, const LimitScatter& b) { return a.broken < b.broken; });
