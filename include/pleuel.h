@@ -175,6 +175,16 @@ PLEUEL_API pleuel_status pleuel_history(pleuel_problem problem, const double *x,
 PLEUEL_API pleuel_status pleuel_motion(pleuel_problem problem, const double *x, size_t variables,
                                        char **document);
 
+/**
+ * Derivatives of all responses by each number of an elastic body of the type "invariants", as
+ * `pleuel gradient --by-invariants` has them (docs/invariants.md): for finite-element programs that know how these numbers
+ * depend on variables of their own.
+ * @param body      its name
+ * @param document  [out] JSON; to be given back by pleuel_free
+ */
+PLEUEL_API pleuel_status pleuel_by_invariants(pleuel_problem problem, const double *x,
+                                              size_t variables, const char *body, char **document);
+
 /* ---- optimization ---- */
 
 /** One evaluation of an optimization. Its arrays are valid during the call only. */

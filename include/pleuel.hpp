@@ -207,6 +207,13 @@ class Problem {
     return taken(document);
   }
 
+  /// Derivatives of all responses by each number of a body: JSON.
+  std::string by_invariants(const Numbers& x, const std::string& body) const {
+    char* document = nullptr;
+    require(pleuel_by_invariants(number_, x.data(), x.size(), body.c_str(), &document));
+    return taken(document);
+  }
+
   /// @param options  JSON
   /// @returns        the document of `pleuel optimize`
   std::string optimize(const std::string& options = "{}", const Observer& observer = {}) const {

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "cli/reports/constant_gradients_report.hpp"
 #include "cli/text/json.hpp"
 #include "core/scene/load_cases.hpp"
 #include "library/guarded_call.hpp"
@@ -84,5 +85,16 @@ pleuel_status pleuel_motion(pleuel_problem problem, const double* x, size_t vari
     const Eigen::VectorXd design = checked_design(open, x, variables);
     require_pointer(document, "document");
     *document = text_out(to_text(motion_document(open.file(), design)));
+  });
+}
+
+pleuel_status pleuel_by_invariants(pleuel_problem problem, const double* x, size_t variables,
+                                   const char* body, char** document) {
+  return guarded_call(problem, [&](const OpenProblem& open) {
+    const Eigen::VectorXd design = checked_design(open, x, variables);
+    require_pointer(body, "body");
+    require_pointer(document, "document");
+    const ConstantGradients found = constant_gradients(open.file(), design, body);
+    *document = text_out(to_text(constant_gradients_document(open.file(), body, found)));
   });
 }

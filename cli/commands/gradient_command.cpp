@@ -12,6 +12,7 @@
 #include "cli/files/run_record.hpp"
 #include "cli/files/trajectory_csv.hpp"
 #include "cli/reports/analysis_report.hpp"
+#include "cli/reports/constant_gradients_report.hpp"
 #include "cli/reports/ties.hpp"
 #include "cli/reports/warnings.hpp"
 #include "cli/text/table.hpp"
@@ -213,6 +214,7 @@ double spread(const std::vector<MethodResult>& results, Eigen::Index i, Eigen::I
 }
 
 std::string gradients_text(const ProblemFile& problem, const std::vector<MethodResult>& results) {
+  if (results.empty()) return "";
   const std::vector<ShownUnit> variable_unit = variable_units(problem);
   Table table(method_columns(results), 2);
   for (std::size_t i = 0; i < problem.responses.size(); ++i) {
@@ -292,6 +294,16 @@ Outcome make_outcome(const Arguments& arguments, const ProblemFile& problem,
                       seconds_text(findings.results, findings.simulation_seconds))};
 }
 
+/// Derivatives by each number of a body.
+void add_by_invariants(const Arguments& arguments, const ProblemInput& input,
+                       const MethodFindings& findings, Outcome& outcome) {
+  const std::string& body = *arguments.differentiated_body;
+  const ConstantGradients found = constant_gradients(input.problem, input.design, body);
+  outcome.document["by_invariants"] = constant_gradients_document(input.problem, body, found);
+  outcome.text +=
+      constant_gradients_text(input.problem, body, found, values_of(*findings.analysis));
+}
+
 }  // namespace
 
 Outcome run_gradient(const Arguments& arguments) {
@@ -299,7 +311,10 @@ Outcome run_gradient(const Arguments& arguments) {
   const ProblemFile& problem = input.problem;
   std::vector<GradientMethod> methods = chosen_methods(arguments, problem);
   if (problem.variables.empty()) {
-    throw InputError("/variables is missing: there is nothing to differentiate for");
+    if (!arguments.differentiated_body) {
+      throw InputError("/variables is missing: there is nothing to differentiate for");
+    }
+    methods.clear();
   }
   std::optional<RunRecord> record;  // before the work: the folder may not be free
   if (arguments.wants_histories || arguments.compares_methods || arguments.output) {
@@ -337,6 +352,7 @@ Outcome run_gradient(const Arguments& arguments) {
   if (!arguments.wants_all_warnings) findings.consequences = count_consequences(trust.doubts);
   findings.errors = std::move(trust.errors);
   Outcome outcome = make_outcome(arguments, problem, findings);
+  if (arguments.differentiated_body) add_by_invariants(arguments, input, findings, outcome);
   if (record) write_run(*record, arguments, input, *findings.analysis, outcome);
   return outcome;
 }

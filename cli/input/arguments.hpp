@@ -28,6 +28,7 @@ struct Arguments {
   std::optional<std::string> backend;
   std::optional<int> starts;        ///< designs that an optimization begins at
   std::optional<std::string> body;  ///< whose invariants are written; by default of all
+  std::optional<std::string> differentiated_body;  ///< for whose invariants gradients are, too
   std::vector<std::string> methods;
   std::optional<double> difference_step;    ///< relative
   int jobs = available_threads();           ///< simulations at a time, of each rank

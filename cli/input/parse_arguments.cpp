@@ -90,6 +90,11 @@ void add_gradient(CLI::App& app, Arguments& arguments) {
   add_checks(gradient, arguments);
   gradient->add_flag("--histories", arguments.wants_histories,
                      "write the derivatives of all histories into a run folder");
+  gradient
+      ->add_option("--by-invariants", arguments.differentiated_body,
+                   "also derivatives by each number of this body, which is of the type "
+                   "\"invariants\": a finite-element program makes those by its variables of them")
+      ->type_name("BODY");
   gradient->add_flag("--compare", arguments.compares_methods,
                      "effort and accuracy of all methods, of differences with steps from 1e-2 to "
                      "1e-8, into a run folder");

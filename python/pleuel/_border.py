@@ -82,6 +82,7 @@ _arguments = {
     "pleuel_history_size": [_problem, _numbers, _size, _size, _size_out],
     "pleuel_history": [_problem, _numbers, _size, _size, _numbers, _numbers, _size, _numbers],
     "pleuel_motion": [_problem, _numbers, _size, _owned_out],
+    "pleuel_by_invariants": [_problem, _numbers, _size, _text, _owned_out],
     "pleuel_optimize": [_problem, _numbers, _size, _text, OBSERVER, c.c_void_p, _owned_out],
     "pleuel_register_backend": [_text, c.c_int, BACKEND, c.c_void_p],
     "pleuel_search_evaluate": [c.c_uint64, _numbers, _size, _numbers, _numbers, _size, _numbers, _numbers],

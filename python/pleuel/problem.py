@@ -102,6 +102,15 @@ class Problem:
         border.call("pleuel_motion", self._number, _pointer(x), x.size, c.byref(document))
         return border.taken(document)
 
+    def by_invariants(self, body: str, x: Optional[Design] = None) -> dict[str, dict[str, Any]]:
+        """Derivatives of all responses by each number of a body of the type "invariants": {response: {"invariants",
+        "places", …}}, arranged as the derivatives of a file of invariants, by which a finite-element program has those by
+        its own variables (docs/invariants.md)."""
+        x = self.design(x)
+        document = c.c_void_p()
+        border.call("pleuel_by_invariants", self._number, _pointer(x), x.size, body.encode(), c.byref(document))
+        return border.taken(document)["responses"]
+
     def unit(self, name: str) -> str:
         """The SI unit of a variable, a response or a limit; empty for plain numbers."""
         for kind, names in ((border.VARIABLES, self.variables), (border.RESPONSES, self.responses), (border.LIMITS, self.limits)):

@@ -143,6 +143,46 @@ TEST(Invariants, ThatGetThickerMoveInAPlane) {
   }
 }
 
+/// A factor on all inertia, a density, changes bow and stress of a rod that bends by its own inertia as much as the inverse
+/// of one on its stiffness does.
+TEST(Invariants, HaveGradientsOfTheirOwn) {
+  const TemporaryFolder folder;
+  const std::string docs = source_folder() + "/docs/invariants";
+  const std::string made = (folder.path() / "rod.json").string();
+  ASSERT_EQ(
+      std::system(("python3 '" + docs + "/planar_rod.py' '" + made + "' --elements 2").c_str()), 0);
+  auto document = nlohmann::json::parse(read_file(docs + "/slider_crank.json"));
+  document["responses"]["rod_bow"]["at"] = "node 1";
+  for (const char* side : {"width", "height"}) {
+    document["scene"]["bodies"]["crank"]["section"][side] = "25 mm";
+  }
+  document.erase("variables");
+  std::ofstream(folder.path() / "crank.json") << document;
+  const auto run = [&](const std::string& body) {
+    return run_program(folder.path(), joined({"gradient", "crank.json", "--json", "--no-checks",
+                                              "--by-invariants", body},
+                                             quick()));
+  };
+  const ProgramRun found = run("rod");
+  ASSERT_EQ(found.exit_code, 0) << found.err;
+  const nlohmann::json bow = found.document().at("by_invariants").at("responses").at("rod_bow");
+  EXPECT_EQ(bow.at("unit"), "m");
+  const auto body = nlohmann::json::parse(read_file(made));
+  double of_stiffness = 0.0;
+  const auto gradient = bow.at("invariants").at("stiffness");
+  for (const nlohmann::json& entry : body.at("invariants").at("stiffness")) {
+    for (const nlohmann::json& slope : gradient) {
+      if (slope[0] == entry[0] && slope[1] == entry[1]) {
+        of_stiffness += entry[2].get<double>() * slope[2].get<double>();
+      }
+    }
+  }
+  const double value = found.document().at("responses").at("rod_bow").at("value");
+  EXPECT_NEAR(of_stiffness / value, -1.0, 0.05) << "a slow vibration would be -1";
+  EXPECT_THAT(run("crank").err, HasSubstr("is no body of the type \"invariants\""));
+  EXPECT_THAT(run("rood").err, HasSubstr("has no body \"rood\""));
+}
+
 TEST(Invariants, RefuseWhatHasNone) {
   const TemporaryFolder folder;
   const auto complaint = [&](const std::vector<std::string>& words) {

@@ -192,7 +192,7 @@ class Calls {
   pleuel_status call_wrongly(pleuel_problem problem) {
     const double* x = draw_.design(start_);
     const size_t wrong = draw_.up_to(3) == 0 ? SIZE_MAX : 3;
-    switch (draw_.up_to(5)) {
+    switch (draw_.up_to(6)) {
       case 0:
         return pleuel_evaluate(problem, x, wrong, draw_.array(a_), draw_.array(b_), 6, nullptr,
                                nullptr);
@@ -204,6 +204,8 @@ class Calls {
         return pleuel_history_size(problem, x, 4, wrong + 20, &count_);
       case 4:
         return pleuel_motion(problem, x, 4, nullptr);
+      case 5:
+        return pleuel_by_invariants(problem, x, 4, draw_.text().c_str(), nullptr);
       default:
         return pleuel_optimize(problem, nullptr, 0, ("{" + draw_.text()).c_str(), end_at_once,
                                nullptr, nullptr);

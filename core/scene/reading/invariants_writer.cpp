@@ -1,7 +1,8 @@
+#include "core/scene/reading/invariants_writer.hpp"
+
 #include <fmt/format.h>
 
 #include "core/scene/invariants_file.hpp"
-#include "core/scene/reading/json_text.hpp"
 
 namespace pleuel {
 
@@ -89,13 +90,15 @@ Json stiffening_json(const Stretching& stretching, bool is_derivative) {
   return json;
 }
 
-void add_blocks(Json& json, const BodyConstants& constants, bool is_derivative) {
+Json blocks_json(const BodyConstants& constants, bool is_derivative) {
+  Json json;
   json["invariants"] = invariants_json(constants);
   json["places"] = places_json(constants);
   if (constants.stress) json["stress"] = stress_json(*constants.stress, is_derivative);
   if (constants.stretching) {
     json["stiffening"] = stiffening_json(*constants.stretching, is_derivative);
   }
+  return json;
 }
 
 /// Objects over several lines, each list on one.
@@ -116,6 +119,10 @@ void write(const Json& json, const std::string& indent, std::string& text) {
 
 }  // namespace
 
+Json derivative_json(const BodyConstants& change) {
+  return blocks_json(change, true);
+}
+
 std::string write_invariants(const InvariantsFile& file) {
   Json json;
   json["format"] = "pleuel-invariants";
@@ -125,17 +132,14 @@ std::string write_invariants(const InvariantsFile& file) {
   json["units"] = "SI";
   json["reference_condition"] = file.reference_condition;
   json["coordinates"] = file.coordinates;
-  add_blocks(json, file.constants, false);
+  json.update(blocks_json(file.constants, false));
   json["design"] = Json::object();
   for (const ConstantsDerivative& of : file.design) {
     json["design"][of.variable] = {{"value", of.value}, {"unit", of.unit}};
   }
   json["derivatives"] = Json::object();
   for (const ConstantsDerivative& of : file.design) {
-    if (!of.derivative) continue;
-    Json& change = json["derivatives"][of.variable];
-    change = Json::object();
-    add_blocks(change, *of.derivative, true);
+    if (of.derivative) json["derivatives"][of.variable] = derivative_json(*of.derivative);
   }
   std::string text;
   write(json, "", text);

@@ -9,6 +9,8 @@
 #include "core/base/error.hpp"
 #include "core/response/body_export.hpp"
 #include "core/scene/invariants_file.hpp"
+#include "core/scene/visit_constants.hpp"
+#include "sensitivity/constant_gradients.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/support/parameter_name.hpp"
 #include "tests/support/problem_runs.hpp"
@@ -170,6 +172,22 @@ class Exchange : public testing::Test {
   TemporaryFolder folder_;
 };
 
+double size_of_product(double a, double b) {
+  return std::abs(a * b);
+}
+template <class Matrix>
+double size_of_product(const Matrix& a, const Matrix& b) {
+  return a.cwiseProduct(b).cwiseAbs().sum();
+}
+
+/// Σ |dJ/dI · dI/dx|
+double sizes_along(const BodyConstants& gradient, const BodyConstants& change) {
+  double sum = 0.0;
+  visit_constants(gradient, change,
+                  [&](const auto& a, const auto& b) { sum += size_of_product(a, b); });
+  return sum;
+}
+
 class ExchangeOf : public Exchange, public testing::WithParamInterface<std::string> {};
 
 /// Edits of the problem, one a case: planar, in space, without stiffening, reduced on a mean axis.
@@ -194,6 +212,31 @@ INSTANTIATE_TEST_SUITE_P(
         R"({"scene": {"bodies": {"rod": {"frame": "mean-axis", "reduction": {"modes": 3}}}}, )"
         R"("responses": {"rod_frequency": null}})"),
     named_by_value());
+
+/// Σ dJ/dI · dI/dx over all numbers of the rod is dJ/dx of the variables that only the rod has. Parts of the sum may be larger
+/// than it: errors are relative to the sum of their sizes.
+TEST_F(Exchange, HasGradientsByItsNumbersThatAddUpToThoseByVariables) {
+  Json document = slider_crank();
+  document["simulation"]["end_time"] = 2e-3;
+  document["scene"]["bodies"]["rod"]["elements"] = 2;
+  document["responses"].erase("crank_stress");
+  const ProblemFile problem = read("imported.json", exchanged(document));
+  const Eigen::VectorXd x = start_design(problem);
+  const auto analysis = analyze(problem, x);
+  const Eigen::MatrixXd expected = gradients(problem, x, *analysis, GradientMethod::adjoint);
+  const ConstantGradients found = constant_gradients(problem, x, "rod");
+  const auto& rod = std::get<ImportedBody>(problem.scene.bodies[1].shape);
+  ASSERT_EQ(rod.variables.size(), 2U) << "height and width of the rod";
+  for (const ImportedVariable& of : rod.variables) {
+    const BodyConstants& change = *rod.file->design[of.in_design].derivative;
+    for (std::size_t i = 0; i < problem.responses.size(); ++i) {
+      const double sum = along(found.numbers[i], change);
+      const double slope = expected(static_cast<Eigen::Index>(i), of.number.variable);
+      EXPECT_NEAR(sum, slope, 1e-12 * sizes_along(found.numbers[i], change))
+          << problem.responses[i].name;
+    }
+  }
+}
 
 /// A chord between two other places against the straight line by hand: u_P − (1 − s) u_A − s u_B with
 /// s = (0.4 − 0.2)/(0.8 − 0.2) = 1/3.
