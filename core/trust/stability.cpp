@@ -14,6 +14,7 @@
 #include "core/linear/elastic_stability.hpp"
 #include "core/linear/modes.hpp"
 #include "core/linear/turning.hpp"
+#include "core/model/state_in_space.hpp"
 #include "core/response/full_mechanism.hpp"
 #include "core/response/lateral_buckling_signal.hpp"
 #include "core/start/equilibrium.hpp"
@@ -288,8 +289,30 @@ ProblemFile problem_in_space(const TrustedRun& run) {
   return space;
 }
 
-std::vector<Doubt> judge_in_space(const TrustedRun& run) {
+/// Whether nothing may grow in space at these instants of a motion in the plane, which is one in space.
+bool is_firm_in_space(const ProblemFile& space, const TrustedRun& run,
+                      const std::set<int>& instants) {
+  const Eigen::VectorXd start_values = start_design(space);
+  const Design<double> start(start_values.begin(), start_values.end());
+  const Design<double> design(run.x.begin(), run.x.end());
+  try {
+    Model model = build_model(space.scene, space.effects, start, design);
+    return std::ranges::none_of(instants, [&](int instant) {
+      State state;
+      run.analysis.trajectory.states->load(instant, state);
+      const std::optional<State> here = state_in_space(run.analysis.model, state, model);
+      return !here || may_grow(model.mechanism, *here);
+    });
+  } catch (const SimulationError&) {  // the run in space says why
+  } catch (const InputError&) {
+  }
+  return false;
+}
+
+/// @param instants  at which it is worth while to look
+std::vector<Doubt> judge_in_space(const TrustedRun& run, const std::set<int>& instants) {
   const ProblemFile space = problem_in_space(run);
+  if (is_firm_in_space(space, run, instants)) return {};
   std::string failure;
   // Disturbances need no fine steps; where twice the step is too long, that of the file is not.
   for (const double step : {2.0, 1.0}) {
@@ -320,7 +343,7 @@ std::vector<Doubt> judge_members(const TrustedRun& run, const CriticalInstants& 
     }
   }
   if (!instants.may_buckle && !first_doubtful(instants.all, analysis)) return {};
-  return judge_in_space(run);
+  return judge_in_space(run, instants.all);
 }
 
 /// Of the mechanism in space.
