@@ -69,19 +69,11 @@ std::map<pleuel_list, std::vector<std::string>> units_in(const ProblemFile& file
   return units;
 }
 
-/// Responses by themselves, as rows of the cases that they are of.
-NamedRows response_rows(const ProblemFile& file, std::size_t cases) {
-  NamedRows rows{"responses", std::vector<CaseRows>(cases)};
+/// Responses by themselves.
+NamedRows response_rows(const ProblemFile& file) {
+  NamedRows rows{"responses", {}};
   for (std::size_t i = 0; i < file.responses.size(); ++i) {
-    const auto place = static_cast<Eigen::Index>(i);
-    if (is_over_cases(file, i)) {
-      rows.over_cases.push_back({i, place});
-      continue;
-    }
-    const OfCase of_case = case_of_response(file, i);
-    CaseRows& own = rows.cases[of_case.load_case];
-    own.of.push_back({std::nullopt, of_case.index, std::nullopt, 1.0});
-    own.places.push_back(place);
+    rows.sources.push_back(response_row(file, i));
   }
   return rows;
 }
@@ -132,7 +124,7 @@ Evaluation OpenProblem::evaluate(const Eigen::VectorXd& x, Request request) {
 
 Evaluation OpenProblem::evaluate_responses(const Eigen::VectorXd& x, Request request) {
   const std::lock_guard lock(mutex_);
-  return finite(problem().evaluate_rows(x, request, response_rows(file_, problem().case_count())));
+  return finite(problem().evaluate_rows(x, request, response_rows(file_)));
 }
 
 std::optional<OfCase> OpenProblem::place_of(std::size_t response) const {

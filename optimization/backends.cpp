@@ -8,8 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/excerpt.hpp"
-#include "optimization/ipopt_optimizer.hpp"
-#include "optimization/nlopt_optimizer.hpp"
+#include "optimization/own_backends.hpp"
 
 namespace pleuel {
 

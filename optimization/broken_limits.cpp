@@ -1,22 +1,20 @@
 #include "optimization/broken_limits.hpp"
 
 #include <algorithm>
-#include <vector>
+#include <cmath>
+#include <functional>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/eager_matrices.hpp"
+#include "core/base/number_text.hpp"
 
 namespace pleuel {
 
 namespace {
 
-struct BrokenLimit {
-  std::string name, text;
-  double violation = 0.0;  ///< relative
-};
-
-std::string describe(const Problem& problem, std::size_t row, double value) {
+std::string broken_text(const Problem& problem, std::size_t row, double value) {
   const Constraint& limits = problem.constraints()[row];
   const bool is_above = value > limits.upper;
   return fmt::format("{} = {} {} {}", limits.name, problem.constraint_text(row, value),
@@ -24,28 +22,80 @@ std::string describe(const Problem& problem, std::size_t row, double value) {
                      problem.constraint_text(row, is_above ? limits.upper : limits.lower));
 }
 
+/// 0.0713 of 0.07124 for an upper limit: what is named suffices.
+double rounded_outward(double value, bool is_upper) {
+  if (value == 0.0) return 0.0;
+  const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 3.0);
+  const double slack = 1e-4 * unit;  // 0.5 is not to become 0.5001 by rounding errors
+  return unit * (is_upper ? std::ceil((value - slack) / unit) : std::floor((value + slack) / unit));
+}
+
+std::string limit_text(const Problem& problem, const ExceededLimit& one, double value) {
+  return fmt::format("{} {} {}", problem.constraints()[one.constraint].name,
+                     one.is_upper ? "≤" : "≥", problem.constraint_text(one.constraint, value));
+}
+
+std::string changed_text(const Problem& problem, const ExceededLimit& one, double value) {
+  return limit_text(problem, one, rounded_outward(value, one.is_upper));
+}
+
+/// "by 25.0 %", "by 340 times the limit"
+std::string violation_text(double violation) {
+  constexpr double hard_to_read = 10.0;
+  return violation < hard_to_read ? "by " + percent(violation)
+                                  : fmt::format("by {:.3g} times the limit", violation);
+}
+
+std::string joined(const std::vector<std::string>& texts, const std::string& last) {
+  if (texts.size() == 1) return texts.front();
+  const std::vector<std::string> first(texts.begin(), texts.end() - 1);
+  return fmt::format("{}{}{}", fmt::join(first, ", "), last, texts.back());
+}
+
 }  // namespace
 
 std::string broken_limits(const Problem& problem, const Eigen::VectorXd& constraints,
                           const Eigen::VectorXd& scales, double allowed) {
-  std::vector<BrokenLimit> broken;
+  std::vector<std::pair<double, std::size_t>> broken;  // relative violation, row
   for (std::size_t row = 0; row < problem.constraints().size(); ++row) {
-    const Constraint& limits = problem.constraints()[row];
-    const double excess = limits.excess(constraints[row]);
-    if (excess <= allowed * scales[row]) continue;
-    broken.push_back({limits.name, describe(problem, row, constraints[row]), excess / scales[row]});
+    const double excess = problem.constraints()[row].excess(constraints[row]);
+    if (excess > allowed * scales[row]) broken.emplace_back(excess / scales[row], row);
   }
-  std::stable_sort(broken.begin(), broken.end(),
-                   [](const BrokenLimit& one, const BrokenLimit& other) {
-                     return one.violation > other.violation;
-                   });
+  std::ranges::stable_sort(broken, std::greater(), [](const auto& one) { return one.first; });
   std::vector<std::string> names, texts;
-  for (const BrokenLimit& limit : broken) {
-    if (std::find(names.begin(), names.end(), limit.name) != names.end()) continue;
-    names.push_back(limit.name);
-    texts.push_back(limit.text);
+  for (const auto& [violation, row] : broken) {
+    const std::string& name = problem.constraints()[row].name;
+    if (std::ranges::find(names, name) != names.end()) continue;
+    names.push_back(name);
+    texts.push_back(broken_text(problem, row, constraints[row]));
   }
   return fmt::format("{}", fmt::join(texts, ", "));
+}
+
+std::string describe(const LeastViolation& least, const Problem& problem) {
+  if (least.limits.empty()) return "";
+  std::vector<std::string> conflict, alone, hopeless, together;
+  for (const ExceededLimit& one : least.limits) {
+    if (one.is_in_conflict) conflict.push_back(limit_text(problem, one, one.limit));
+    if (one.alone) {
+      alone.push_back(changed_text(problem, one, *one.alone));
+    } else if (one.is_in_conflict) {
+      hopeless.push_back(problem.constraints()[one.constraint].name);
+    }
+    together.push_back(changed_text(problem, one, one.together));
+  }
+  std::string text = joined(conflict, " and ") + " cannot be kept";
+  if (conflict.size() > 1) text += " at once";
+  text += fmt::format("; this design breaks its limits least, {}{}",
+                      violation_text(least.violation), least.limits.size() > 1 ? " at most" : "");
+  if (!alone.empty()) text += ". One change would do: " + joined(alone, ", or ");
+  if (!alone.empty() && alone.size() < conflict.size()) {
+    text +=
+        fmt::format("; for {} alone no value was found that would do", joined(hopeless, " and "));
+  }
+  if (!alone.empty() && least.limits.size() == 1) return text;
+  text += alone.empty() ? ". What would do together: " : "; or all of these: ";
+  return text + joined(together, " and ");
 }
 
 }  // namespace pleuel

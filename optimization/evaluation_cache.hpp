@@ -2,7 +2,6 @@
 
 #include <deque>
 #include <optional>
-#include <string>
 
 #include <Eigen/Core>
 
@@ -12,16 +11,6 @@
 #include "optimization/problem.hpp"
 
 namespace pleuel {
-
-/// The outcome of an evaluation that may fail: the evaluation, or why there is none.
-struct Attempt {
-  std::optional<Evaluation> evaluation;
-  std::string failure;
-};
-
-/// Evaluates and turns a SimulationError, or a number that is not finite, into a failure.
-/// Anything else that is thrown is a fault of the program and passes through.
-Attempt attempt_evaluation(Problem& problem, const Eigen::VectorXd& x, Request request);
 
 /// A design together with what is known of it.
 struct EvaluatedDesign {
@@ -65,7 +54,7 @@ class EvaluationCache {
   int gradient_evaluations() const { return gradient_evaluations_; }
   int iterations() const { return iterations_; }
   int consecutive_failures() const { return consecutive_failures_; }
-  double seconds() const;
+  double seconds() const { return watch_.time.seconds(); }
 
  private:
   struct Entry {
@@ -77,7 +66,7 @@ class EvaluationCache {
   bool has_values(const Eigen::VectorXd& x) const;
   const Entry* find(const Eigen::VectorXd& x, Request request) const;
   const Entry& remember(const Eigen::VectorXd& x, Request request, Attempt attempt);
-  void record(const Entry& entry, const std::string& failure);
+  void record(const Eigen::VectorXd& x, Request request, const Attempt& attempt);
 
   Problem& problem_;
   Scales scales_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -10,16 +9,11 @@
 #include <fmt/format.h>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/base/int_size.hpp"
-#include "core/base/number_text.hpp"
 #include "optimization/backends.hpp"
-#include "optimization/broken_limits.hpp"
-#include "optimization/designs_to_try.hpp"
-#include "optimization/kkt_audit.hpp"
-#include "optimization/objective_bend.hpp"
+#include "optimization/prices.hpp"
+#include "optimization/problem_decorator.hpp"
 #include "optimization/recorded_problem.hpp"
 #include "optimization/scaling.hpp"
-#include "optimization/smooth_problem.hpp"
 
 namespace pleuel {
 
@@ -39,33 +33,31 @@ constexpr double part_of_reference = 1e-3;
 constexpr int most_restorations = 2;
 /// Iterations of each optimization that looks for the least violation.
 constexpr int least_violation_iterations = 60;
+
 /// A backend, and the size of its first steps.
-struct Way {
+struct BackendSetup {
   std::string backend;
   double first_step = 1.0;
 };
 
-bool takes_equalities(const std::string& backend) {
-  return make_optimizer(backend, {})->takes_equalities();
-}
-
 class Search {
  public:
-  Search(SearchedProblem& searched, const SolveOptions& options, const Observer& observer,
+  Search(const SearchedProblem& searched, const SolveOptions& options, const Observer& observer,
          const Notice& notice)
       : searched_(searched),
-        problem_(searched.problem()),
+        problem_(searched.problem),
         options_(options),
         observer_(observer),
         notice_(notice),
         start_(start_of(problem_)) {
-    const auto& limits = problem_.constraints();
     const bool has_equalities =
-        std::any_of(limits.begin(), limits.end(), std::mem_fn(&Constraint::is_equality));
+        std::ranges::any_of(problem_.constraints(), &Constraint::is_equality);
     for (const std::string& backend : options.other_backends) {
-      if (!has_equalities || takes_equalities(backend)) ways_.push_back({backend});
+      if (!has_equalities || make_optimizer(backend, {})->takes_equalities()) {
+        others_.push_back({backend});
+      }
     }
-    ways_.push_back({options.backend, short_first_step});
+    others_.push_back({options.backend, short_first_step});
   }
 
   Result run() {
@@ -88,11 +80,12 @@ class Search {
           break;
         }
         attempt({options_.backend}, *inside);
-      } else if (next_way_ < ways_.size() && !total_.gradients_are_disproved) {
-        const Way& way = ways_[next_way_++];
-        tell(fmt::format("not verified with {}: the search goes on with {}{}", total_.backend,
-                         way.backend, way.first_step < 1.0 ? " and shorter steps" : ""));
-        attempt(way, total_.x);
+      } else if (next_other_ < others_.size() && !total_.gradients_are_disproved) {
+        const BackendSetup& next = others_[next_other_++];
+        notify(notice_,
+               fmt::format("not verified with {}: the search goes on with {}{}", total_.backend,
+                           next.backend, next.first_step < 1.0 ? " and shorter steps" : ""));
+        attempt(next, total_.x);
       } else {
         break;
       }
@@ -111,7 +104,7 @@ class Search {
       beside = attempt_evaluation(problem_, x, Request::values_and_gradients);
       return beside.evaluation ? &*beside.evaluation : nullptr;
     };
-    return objective_bend(problem_, total_.x, total_.evaluation, evaluate) < much;
+    return objective_curvature(problem_, total_.x, total_.evaluation, evaluate) < much;
   }
 
   /// What is small is measured by the end of the search so far, where it begins anew. Where that
@@ -121,8 +114,9 @@ class Search {
     const std::string message = total_.message;
     reference_ = before;
     total_.status = Status::stalled;
-    next_way_ = 0;
-    tell(
+    next_other_ = 0;
+    notify(
+        notice_,
         "what is small was measured by the start, where the objective is many times as large: the "
         "search begins anew at its end");
     attempt({options_.backend}, total_.x);
@@ -144,41 +138,25 @@ class Search {
     return !is_outside() && total_.iterations >= options_.max_iterations;
   }
 
-  void tell(const std::string& sentence) const {
-    if (notice_) notice_(sentence);
-  }
-
-  Observer following_observer() const {
-    if (!observer_) return {};
-    return [this](const EvaluationRecord& record) { observer_(following(record, total_)); };
-  }
-
-  void attempt(const Way& way, const Eigen::VectorXd& from) {
+  /// Joins the run with what was before it; the better design is the answer.
+  void attempt(const BackendSetup& setup, const Eigen::VectorXd& from) {
     SolveOptions options = options_;
-    options.backend = way.backend;
-    options.first_step = way.first_step;
+    options.backend = setup.backend;
+    options.first_step = setup.first_step;
     options.patience = options_.patience > 0 ? options_.patience : patience;
     options.max_iterations = std::max(1, options_.max_iterations - total_.iterations);
     options.earlier.iterations += total_.iterations;
-    if (!total_.history.empty()) options.earlier.restarts += total_.restarts + 1;
-    add(searched_.attempt(from, options, following_observer()), way.backend);
-  }
-
-  /// Joins the run with what was before it; the better design is the answer.
-  void add(Result next, const std::string& method) {
+    const bool is_first = total_.history.empty();
+    if (!is_first) options.earlier.restarts += total_.restarts + 1;
+    Result next = run_after(total_, observer_, [&](const Observer& observer) {
+      return searched_.attempt(from, options, observer);
+    });
     std::vector<SearchPart> parts = std::move(total_.parts);
-    parts.push_back({method, next.status, next.evaluations});
-    if (total_.history.empty()) {
-      total_ = std::move(next);
-    } else {
-      const bool is_first = !has_design();
-      Result before = std::move(total_);
-      continue_from(before, next);
-      ++next.restarts;
-      total_ = is_first || is_better(next, before)
-                   ? std::move(next)
-                   : with_effort_of(std::move(next), std::move(before));
-    }
+    parts.push_back({setup.backend, next.status, next.evaluations - total_.evaluations});
+    if (!is_first) ++next.restarts;
+    total_ = !has_design() || is_better(next, total_)
+                 ? std::move(next)
+                 : with_effort_of(std::move(next), std::move(total_));
     total_.parts = std::move(parts);
   }
 
@@ -194,51 +172,38 @@ class Search {
     return difference <= same_to_rounding * std::abs(other.evaluation.objective);
   }
 
+  /// Does something with the rows of the limits, its evaluations as a part of the search.
+  template <class Work>
+  auto with_limit_rows(const std::string& method, const Work& work) {
+    LimitRows rows = searched_.limit_rows();
+    const auto completed = [&](EvaluationRecord record) {
+      record.constraints =
+          worst_values(rows.constraint_of_row, record.constraints, problem_.constraints());
+      if (magnitudes_.size() > 0) {
+        record.max_violation = max_violation(problem_, record.constraints, magnitudes_);
+      }
+      return record;
+    };
+    RecordedProblem recorded(*rows.problem, total_, completed, observer_);
+    const int evaluations = total_.evaluations;
+    auto outcome = work(LimitRows{&recorded, rows.constraint_of_row});
+    total_.parts.push_back({method, Status::stalled, total_.evaluations - evaluations});
+    return outcome;
+  }
+
   /// The start cannot be evaluated.
   void begin_elsewhere() {
-    const auto [other, part] = recorded<std::optional<Eigen::VectorXd>>(
-        [&](const LimitRows& rows) { return evaluable_design(*rows.problem); });
-    total_.parts.push_back(part);
+    const auto other = with_limit_rows(
+        "restoration", [](const LimitRows& rows) { return evaluable_design(*rows.problem); });
     if (!other) {
-      total_.message +=
-          fmt::format("; nor can {} other designs between the bounds", part.evaluations);
+      total_.message += fmt::format("; nor can {} other designs between the bounds",
+                                    total_.parts.back().evaluations);
       return;
     }
-    tell(fmt::format("the start cannot be evaluated: the search begins at {}",
-                     describe_design(problem_, *other)));
+    notify(notice_, fmt::format("the start cannot be evaluated: the search begins at {}",
+                                describe_design(problem_, *other)));
     attempt({options_.backend}, *other);
     begun_elsewhere_ = true;
-  }
-
-  /// Does something with the rows of the limits, its evaluations as a part of the search.
-  template <class Outcome>
-  std::pair<Outcome, SearchPart> recorded(
-      const std::function<Outcome(const LimitRows& rows)>& work) {
-    const LimitRows rows = searched_.limit_rows();
-    const Observer observer = following_observer();
-    RecordedProblem problem(
-        *rows.problem, [&](EvaluationRecord record) { return completed(rows, std::move(record)); },
-        observer);
-    Outcome outcome = work(LimitRows{&problem, rows.constraint_of_row});
-    SearchPart part{"restoration", Status::stalled, int_size(problem.history())};
-    Result effort;
-    effort.history = problem.history();
-    effort.evaluations = part.evaluations;
-    effort.gradient_evaluations = effort.iterations = problem.gradient_evaluations();
-    effort.seconds = problem.seconds();
-    if (!effort.history.empty()) {
-      continue_from(total_, effort);
-      total_ = with_effort_of(std::move(effort), std::move(total_));
-    }
-    return std::pair(std::move(outcome), std::move(part));
-  }
-
-  EvaluationRecord completed(const LimitRows& rows, EvaluationRecord record) const {
-    record.constraints = rows.fold(record.constraints, problem_.constraints());
-    if (magnitudes_.size() > 0) {
-      record.max_violation = max_violation(problem_, record.constraints, magnitudes_);
-    }
-    return record;
   }
 
   void find_magnitudes() {
@@ -251,13 +216,12 @@ class Search {
     if (restorations_ == most_restorations) return std::nullopt;
     ++restorations_;
     find_magnitudes();
-    tell("no design within the limits so far: the search goes on with the limits alone");
+    notify(notice_, "no design within the limits so far: the search goes on with the limits alone");
     const Eigen::VectorXd best = best_seen();
-    auto [inside, part] = recorded<std::optional<Eigen::VectorXd>>([&](const LimitRows& rows) {
+    const auto inside = with_limit_rows("restoration", [&](const LimitRows& rows) {
       return design_within_limits(rows, problem_, magnitudes_, best);
     });
-    part.status = inside ? Status::verified : Status::infeasible;
-    total_.parts.push_back(part);
+    total_.parts.back().status = inside ? Status::verified : Status::infeasible;
     return inside;
   }
 
@@ -267,15 +231,14 @@ class Search {
 
   /// Says what is in conflict, or goes on if after all nothing is.
   void explain() {
-    tell("the limits seem to contradict each other: which, and by how much, is looked for");
+    notify(notice_,
+           "the limits seem to contradict each other: which, and by how much, is looked for");
     const Eigen::VectorXd best = best_seen();
     const int iterations = std::min(least_violation_iterations, options_.max_iterations);
-    auto [least, part] = recorded<LeastViolation>([&](const LimitRows& rows) {
+    LeastViolation least = with_limit_rows("least violation", [&](const LimitRows& rows) {
       return find_least_violation(rows, problem_.constraints(), best, iterations);
     });
-    part.method = "least violation";
-    part.status = least.is_proven ? Status::verified : Status::stalled;
-    total_.parts.push_back(part);
+    total_.parts.back().status = least.is_proven ? Status::verified : Status::stalled;
     if (!(least.violation > options_.verdict.violation)) {
       attempt({options_.backend}, least.x);
       if (!is_outside()) return;
@@ -311,14 +274,10 @@ class Search {
     if (x == total_.x) return;
     Attempt attempt = attempt_evaluation(problem_, x, Request::values_and_gradients);
     if (!attempt.evaluation) return;
-    total_.x = x;
-    total_.evaluation = std::move(*attempt.evaluation);
-    total_.max_violation = max_violation(problem_, total_.evaluation.constraints, magnitudes_);
-    const KktAudit audit = audit_kkt(problem_, {x, total_.evaluation, total_.max_violation},
-                                     total_.evaluation, magnitudes_);
-    total_.kkt_residual = audit.residual;
-    total_.bound_multipliers = audit.bound_multipliers;
-    total_.constraint_multipliers = Eigen::VectorXd::Zero(magnitudes_.size());
+    const double violation = max_violation(problem_, attempt.evaluation->constraints, magnitudes_);
+    set_unproven_answer(total_, problem_, {x, std::move(*attempt.evaluation), violation},
+                        magnitudes_);
+    total_.constraint_multipliers.setZero();
   }
 
   /// What led to the answer, if that was more than one run of one backend.
@@ -336,14 +295,14 @@ class Search {
         fmt::format("; found with {} after {}", total_.backend, fmt::join(before, ", "));
   }
 
-  SearchedProblem& searched_;
+  const SearchedProblem& searched_;
   Problem& problem_;
   const SolveOptions& options_;
   const Observer& observer_;
   const Notice& notice_;
   const Eigen::VectorXd start_;
-  std::vector<Way> ways_;
-  std::size_t next_way_ = 0;
+  std::vector<BackendSetup> others_;  ///< that the search goes on with
+  std::size_t next_other_ = 0;
   int restorations_ = 0;
   double reference_ = 0.0;  ///< objective that the last proof is measured by
   bool begun_elsewhere_ = false;
@@ -353,15 +312,20 @@ class Search {
 
 }  // namespace
 
-Result find_optimum(SearchedProblem& searched, const SolveOptions& options,
+Result find_optimum(const SearchedProblem& searched, const SolveOptions& options,
                     const Observer& observer, const Notice& notice) {
   return Search(searched, options, observer, notice).run();
 }
 
 Result find_optimum(Problem& problem, const SolveOptions& options, const Observer& observer,
                     const Notice& notice) {
-  SmoothProblem searched(problem);
-  return find_optimum(searched, options, observer, notice);
+  const auto attempt = [&](const Eigen::VectorXd& start, const SolveOptions& with,
+                           const Observer& hears) {
+    StartedProblem started(problem, start);
+    return solve(started, with, hears);
+  };
+  const auto limit_rows = [&] { return LimitRows{&problem, own_constraints(problem)}; };
+  return find_optimum({problem, attempt, limit_rows}, options, observer, notice);
 }
 
 }  // namespace pleuel

@@ -17,6 +17,17 @@ std::string to_string(Purpose purpose) {
   }
 }
 
+EvaluationRecord record_of(const Eigen::VectorXd& x, Request request, const Attempt& attempt) {
+  EvaluationRecord record;
+  record.x = x;
+  record.request = request;
+  record.failure = attempt.failure;
+  if (!attempt.evaluation) return record;
+  record.objective = attempt.evaluation->objective;
+  record.constraints = attempt.evaluation->constraints;
+  return record;
+}
+
 const EvaluationRecord& best_record(const History& history, double allowed_violation) {
   const auto is_better = [&](const EvaluationRecord& one, const EvaluationRecord& other) {
     if (one.has_failed()) return false;

@@ -42,6 +42,9 @@ struct EvaluationRecord {
 
 using History = std::vector<EvaluationRecord>;
 
+/// The record of an evaluation by itself: its number, purpose, time, step and violation are those of the run.
+EvaluationRecord record_of(const Eigen::VectorXd& x, Request request, const Attempt& attempt);
+
 /// The number of evaluations that failed.
 inline int count_failures(const History& history) {
   int count = 0;
@@ -59,5 +62,18 @@ const EvaluationRecord& first_design(const History& history);
 
 /// Sees every evaluation as it happens; may be empty.
 using Observer = std::function<void(const EvaluationRecord&)>;
+
+/// Shows a record to an observer, if there is one.
+inline void show(const Observer& observer, const EvaluationRecord& record) {
+  if (observer) observer(record);
+}
+
+/// Hears what a run decides on its way: a sentence; may be empty.
+using Notice = std::function<void(const std::string&)>;
+
+/// Tells a sentence, if anyone listens.
+inline void notify(const Notice& notice, const std::string& sentence) {
+  if (notice) notice(sentence);
+}
 
 }  // namespace pleuel

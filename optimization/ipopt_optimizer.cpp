@@ -1,5 +1,3 @@
-#include "optimization/ipopt_optimizer.hpp"
-
 #include <limits>
 
 #include <IpIpoptApplication.hpp>
@@ -8,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/eager_matrices.hpp"
+#include "optimization/own_backends.hpp"
 
 namespace pleuel {
 

@@ -32,14 +32,6 @@ Eigen::VectorXd lengths(const Problem& problem, const Eigen::VectorXd& x) {
   return variable_scales(problem, x).cwiseMax(local_scales(problem, x));
 }
 
-Eigen::VectorXd clamped(const Problem& problem, Eigen::VectorXd x) {
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    const Variable& variable = problem.variables()[i];
-    x[i] = std::clamp(x[i], variable.lower, variable.upper);
-  }
-  return x;
-}
-
 /// The limits that hold a design, in variables divided by s.
 struct Holding {
   std::vector<bool> variables;  ///< at a bound with multiplier, or fixed
@@ -220,7 +212,7 @@ class Exploration {
         [&](const Eigen::VectorXd& direction) -> std::optional<Eigen::VectorXd> {
       for (const double h : {distance, -distance}) {
         const Eigen::VectorXd moved = base + h * s_.cwiseProduct(direction);
-        const auto gradient = lagrangian_gradient(clamped(cache_.problem(), moved));
+        const auto gradient = lagrangian_gradient(within_bounds(cache_.problem(), moved));
         if (gradient) return (*gradient - *at_base) / h;
       }
       return std::nullopt;
@@ -244,14 +236,14 @@ class Exploration {
 
   /// The design beside x that keeps the limits, to the accuracy of one Newton step.
   std::optional<Neighbour> neighbour_at(const Eigen::VectorXd& x) {
-    Eigen::VectorXd moved = clamped(cache_.problem(), x);
+    Eigen::VectorXd moved = within_bounds(cache_.problem(), x);
     const Evaluation* evaluation = cache_.evaluate(moved, Request::values);
     if (evaluation == nullptr) return std::nullopt;
     const Eigen::VectorXd excess = excess_of(evaluation->constraints);
     const Eigen::VectorXd relative = excess.cwiseQuotient(cache_.scales().constraints);
     if (relative.size() > 0 && relative.lpNorm<Eigen::Infinity>() > restored) {
       const Eigen::VectorXd back = rows(exceeded(excess)).step_against(excess);
-      moved = clamped(cache_.problem(), moved + s_.cwiseProduct(back));
+      moved = within_bounds(cache_.problem(), moved + s_.cwiseProduct(back));
       evaluation = cache_.evaluate(moved, Request::values);
       if (evaluation == nullptr) return std::nullopt;
     }

@@ -1,5 +1,3 @@
-#include "optimization/nlopt_optimizer.hpp"
-
 #include <algorithm>
 #include <new>
 #include <stdexcept>
@@ -9,6 +7,7 @@
 #include <nlopt.h>
 
 #include "core/base/eager_matrices.hpp"
+#include "optimization/own_backends.hpp"
 
 namespace pleuel {
 

@@ -1,5 +1,7 @@
 #include "optimization/prices.hpp"
 
+#include <utility>
+
 #include "core/base/eager_matrices.hpp"
 
 namespace pleuel {
@@ -21,6 +23,23 @@ Eigen::VectorXd prices_of(const Problem& problem, const Eigen::VectorXd& constra
     if (room > slack * scales[j]) prices[j] = 0.0;
   }
   return prices;
+}
+
+void set_answer(Result& result, const Problem& problem, EvaluatedDesign design,
+                const KktAudit& audit, const Eigen::VectorXd& scales) {
+  result.constraint_multipliers =
+      prices_of(problem, design.evaluation.constraints, audit.constraint_multipliers, scales);
+  result.bound_multipliers = audit.bound_multipliers;
+  result.kkt_residual = audit.residual;
+  result.max_violation = design.max_violation;
+  result.x = std::move(design.x);
+  result.evaluation = std::move(design.evaluation);
+}
+
+void set_unproven_answer(Result& result, const Problem& problem, EvaluatedDesign design,
+                         const Eigen::VectorXd& scales) {
+  const KktAudit audit = audit_kkt(problem, design, design.evaluation, scales);
+  set_answer(result, problem, std::move(design), audit, scales);
 }
 
 bool has_prices(const Result& result) {

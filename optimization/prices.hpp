@@ -14,6 +14,15 @@ namespace pleuel {
 Eigen::VectorXd prices_of(const Problem& problem, const Eigen::VectorXd& constraints,
                           const Eigen::VectorXd& multipliers, const Eigen::VectorXd& scales);
 
+/// Makes a design the answer of a result, with the prices of its limits.
+/// @param scales  magnitudes C of the constraints
+void set_answer(Result& result, const Problem& problem, EvaluatedDesign design,
+                const KktAudit& audit, const Eigen::VectorXd& scales);
+
+/// Makes a design of which nothing is proven the answer: audited beside itself alone.
+void set_unproven_answer(Result& result, const Problem& problem, EvaluatedDesign design,
+                         const Eigen::VectorXd& scales);
+
 /// Whether the multipliers of a result say what limits are worth: those of an optimum, and of a
 /// design within the limits with a KKT residual of at most 10⁻². What explains the gradients of any
 /// other design best is no price.

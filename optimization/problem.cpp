@@ -1,6 +1,7 @@
 #include "optimization/problem.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -34,6 +35,32 @@ double checked_start(const Variable& variable) {
   return std::clamp(variable.start, variable.lower, variable.upper);
 }
 
+/// What is not a finite number in the evaluation; empty if all is well.
+std::string find_not_finite(const Problem& problem, const Evaluation& evaluation) {
+  if (!std::isfinite(evaluation.objective)) {
+    return fmt::format("{} is {}", problem.objective_name(), evaluation.objective);
+  }
+  for (Eigen::Index j = 0; j < evaluation.constraints.size(); ++j) {
+    if (!std::isfinite(evaluation.constraints[j])) {
+      return fmt::format("{} is {}", problem.constraints()[j].name, evaluation.constraints[j]);
+    }
+  }
+  const bool gradients_finite =
+      evaluation.objective_gradient.allFinite() && evaluation.constraint_jacobian.allFinite();
+  return gradients_finite ? "" : "a gradient is not finite";
+}
+
+[[maybe_unused]] bool has_right_shape(const Problem& problem, const Evaluation& evaluation,
+                                      Request request) {
+  const Eigen::Index variables = problem.variables().size();
+  const Eigen::Index constraints = problem.constraints().size();
+  if (evaluation.constraints.size() != constraints) return false;
+  if (request == Request::values) return true;
+  return evaluation.objective_gradient.size() == variables &&
+         evaluation.constraint_jacobian.rows() == constraints &&
+         (constraints == 0 || evaluation.constraint_jacobian.cols() == variables);
+}
+
 }  // namespace
 
 std::string Problem::variable_text(std::size_t, double value) const {
@@ -44,14 +71,22 @@ std::string Problem::constraint_text(std::size_t, double value) const {
   return fmt::format("{:.6g}", value);
 }
 
-FunctionProblem::FunctionProblem(std::vector<Variable> variables,
-                                 std::vector<Constraint> constraints, Function function)
-    : variables_(std::move(variables)),
-      constraints_(std::move(constraints)),
-      function_(std::move(function)) {}
+Attempt attempt_evaluation(Problem& problem, const Eigen::VectorXd& x, Request request) {
+  try {
+    Evaluation evaluation = problem.evaluate(x, request);
+    assert(has_right_shape(problem, evaluation, request));
+    std::string failure = find_not_finite(problem, evaluation);
+    if (!failure.empty()) return {std::nullopt, std::move(failure)};
+    return {std::move(evaluation), ""};
+  } catch (const SimulationError& error) {
+    return {std::nullopt, error.what()};
+  }
+}
 
-Evaluation FunctionProblem::evaluate(const Eigen::VectorXd& x, Request request) {
-  return function_(x, request);
+Eigen::VectorXd start_of(const Problem& problem) {
+  Eigen::VectorXd start(problem.variables().size());
+  for (Eigen::Index i = 0; i < start.size(); ++i) start[i] = problem.variables()[i].start;
+  return start;
 }
 
 Eigen::VectorXd checked_start(const Problem& problem) {
@@ -63,6 +98,18 @@ Eigen::VectorXd checked_start(const Problem& problem) {
   Eigen::VectorXd start(variables.size());
   for (Eigen::Index i = 0; i < start.size(); ++i) start[i] = checked_start(variables[i]);
   return start;
+}
+
+void set_start(std::vector<Variable>& variables, const Eigen::VectorXd& x) {
+  for (std::size_t i = 0; i < variables.size(); ++i) variables[i].start = x[i];
+}
+
+Eigen::VectorXd within_bounds(const Problem& problem, Eigen::VectorXd x) {
+  for (Eigen::Index i = 0; i < x.size(); ++i) {
+    const Variable& variable = problem.variables()[i];
+    x[i] = std::clamp(x[i], variable.lower, variable.upper);
+  }
+  return x;
 }
 
 std::string describe_design(const Problem& problem, const Eigen::VectorXd& x) {

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -93,12 +95,17 @@ class FunctionProblem : public Problem {
   using Function = std::function<Evaluation(const Eigen::VectorXd& x, Request request)>;
 
   FunctionProblem(std::vector<Variable> variables, std::vector<Constraint> constraints,
-                  Function function);
+                  Function function)
+      : variables_(std::move(variables)),
+        constraints_(std::move(constraints)),
+        function_(std::move(function)) {}
 
   const std::vector<Variable>& variables() const override { return variables_; }
   const std::vector<Constraint>& constraints() const override { return constraints_; }
   std::string objective_name() const override { return "objective"; }
-  Evaluation evaluate(const Eigen::VectorXd& x, Request request) override;
+  Evaluation evaluate(const Eigen::VectorXd& x, Request request) override {
+    return function_(x, request);
+  }
 
  private:
   std::vector<Variable> variables_;
@@ -106,10 +113,29 @@ class FunctionProblem : public Problem {
   Function function_;
 };
 
+/// The outcome of an evaluation that may fail: the evaluation, or why there is none.
+struct Attempt {
+  std::optional<Evaluation> evaluation;
+  std::string failure;
+};
+
+/// Evaluates and turns a SimulationError, or a number that is not finite, into a failure.
+/// Anything else that is thrown is a fault of the program and passes through.
+Attempt attempt_evaluation(Problem& problem, const Eigen::VectorXd& x, Request request);
+
+/// The start values of all variables as they are.
+Eigen::VectorXd start_of(const Problem& problem);
+
 /// The start values of all variables, moved onto a bound that they miss by rounding only.
 /// @throws InputError if there is no variable, if bounds or limits contradict each other or are not
 ///         numbers, or if a start lies outside its bounds; the message names the variable.
 Eigen::VectorXd checked_start(const Problem& problem);
+
+/// Makes variables start at a design.
+void set_start(std::vector<Variable>& variables, const Eigen::VectorXd& x);
+
+/// The nearest design within the bounds.
+Eigen::VectorXd within_bounds(const Problem& problem, Eigen::VectorXd x);
 
 /// "width = 20 mm, height = 30 mm": a design for messages.
 std::string describe_design(const Problem& problem, const Eigen::VectorXd& x);

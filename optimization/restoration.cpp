@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/eager_matrices.hpp"
-#include "optimization/elastic_problem.hpp"
+#include "optimization/phase_one_problem.hpp"
 #include "optimization/scaling.hpp"
 #include "optimization/violation_step.hpp"
 
@@ -21,7 +21,7 @@ constexpr double equal = 1e-7;
 /// Radius of the box: at the start, at most, and that below which nothing helps.
 constexpr double first_radius = 0.7, largest_radius = 2.0, least_radius = 1e-5;
 /// A step has to make so much of the decrease that its model promises.
-constexpr double least_share = 0.1, good_share = 0.7;
+constexpr double least_ratio = 0.1, good_ratio = 0.7;
 /// Decrease of the sum, relative, below which a step is none.
 constexpr double least_decrease = 1e-2;
 constexpr int most_idle_steps = 3;
@@ -45,9 +45,8 @@ class Coordinates {
     Eigen::VectorXd x = u.cwiseProduct(scales_);
     for (Eigen::Index i = 0; i < u.size(); ++i) {
       if (is_logarithmic(i)) x[i] = std::exp(u[i]);
-      x[i] = std::clamp(x[i], variable(i).lower, variable(i).upper);
     }
-    return x;
+    return within_bounds(problem_, std::move(x));
   }
 
   /// dx/du
@@ -59,8 +58,8 @@ class Coordinates {
     return slopes;
   }
 
-  /// How far u may go to each side, at most `radius`.
-  std::pair<Eigen::VectorXd, Eigen::VectorXd> room(const Eigen::VectorXd& u, double radius) const {
+  /// How far u may go down and up, at most `radius`.
+  std::pair<Eigen::VectorXd, Eigen::VectorXd> box(const Eigen::VectorXd& u, double radius) const {
     Eigen::VectorXd down = Eigen::VectorXd::Constant(u.size(), radius), up = down;
     for (Eigen::Index i = 0; i < u.size(); ++i) {
       const bool is_log = is_logarithmic(i);
@@ -82,29 +81,30 @@ class Coordinates {
 
 class Restoration {
  public:
-  Restoration(Problem& problem, const RestorationBudget& budget, EvaluatedDesign start)
+  Restoration(Problem& problem, const RestorationBudget& budget, const Eigen::VectorXd& start,
+              Evaluation at_start)
       : problem_(problem),
         budget_(budget),
-        coordinates_(problem, start.x),
-        magnitudes_(
-            constraint_scales(problem, start.evaluation, variable_scales(problem, start.x))),
-        sides_(limit_sides(problem, magnitudes_)),
-        design_(std::move(start)) {}
+        coordinates_(problem, start),
+        sides_(limit_sides(problem,
+                           constraint_scales(problem, at_start, variable_scales(problem, start)))),
+        x_(start),
+        at_x_(std::move(at_start)) {}
 
-  Restored run() {
+  std::optional<Eigen::VectorXd> run() {
     double radius = first_radius;
     int idle = 0;
-    while (!keeps_limits(design_.evaluation) && radius > least_radius && idle < most_idle_steps &&
+    while (!keeps_limits() && radius > least_radius && idle < most_idle_steps &&
            gradients_ < budget_.gradients && evaluations_ < budget_.evaluations) {
-      const double before = sum(design_.evaluation);
-      const double share = try_step(radius);
-      if (share < least_share) radius *= share < 0.0 ? 0.25 : 0.5;
-      if (share > good_share) radius = std::min(2.0 * radius, largest_radius);
-      if (share < least_share) continue;
-      idle = before - sum(design_.evaluation) < least_decrease * before ? idle + 1 : 0;
+      const double before = sum(at_x_);
+      const double ratio = try_step(radius);
+      if (ratio < least_ratio) radius *= ratio < 0.0 ? 0.25 : 0.5;
+      if (ratio > good_ratio) radius = std::min(2.0 * radius, largest_radius);
+      if (ratio < least_ratio) continue;
+      idle = before - sum(at_x_) < least_decrease * before ? idle + 1 : 0;
     }
-    design_.max_violation = max_violation(problem_, design_.evaluation.constraints, magnitudes_);
-    return {design_, magnitudes_, keeps_limits(design_.evaluation)};
+    if (!keeps_limits()) return std::nullopt;
+    return x_;
   }
 
  private:
@@ -112,9 +112,9 @@ class Restoration {
     return problem_.constraints()[side.constraint].is_equality();
   }
 
-  bool keeps_limits(const Evaluation& evaluation) const {
-    return std::all_of(sides_.begin(), sides_.end(), [&](const LimitSide& side) {
-      return side.violation(evaluation.constraints) <= (is_equality(side) ? equal : 0.0);
+  bool keeps_limits() const {
+    return std::ranges::all_of(sides_, [&](const LimitSide& side) {
+      return side.violation(at_x_.constraints) <= (is_equality(side) ? equal : 0.0);
     });
   }
 
@@ -134,15 +134,15 @@ class Restoration {
   /// r = ψ + margin, A = dψ/du
   LinearizedLimits linearized() const {
     const Eigen::Index count = sides_.size();
-    LinearizedLimits model{Eigen::VectorXd(count), Eigen::MatrixXd(count, design_.x.size())};
-    const Eigen::VectorXd slopes = coordinates_.slopes(design_.x);
+    LinearizedLimits model{Eigen::VectorXd(count), Eigen::MatrixXd(count, x_.size())};
+    const Eigen::VectorXd slopes = coordinates_.slopes(x_);
     for (Eigen::Index k = 0; k < count; ++k) {
       const LimitSide& side = sides_[k];
-      const double violation = side.violation(design_.evaluation.constraints);
-      model.residuals[k] = residual(side, design_.evaluation);
-      model.slopes.row(k) = damped_violation_slope(violation) * side.sign / side.magnitude *
-                            design_.evaluation.constraint_jacobian.row(side.constraint)
-                                .cwiseProduct(slopes.transpose());
+      const double violation = side.violation(at_x_.constraints);
+      model.residuals[k] = residual(side, at_x_);
+      model.slopes.row(k) =
+          damped_violation_slope(violation) * side.sign / side.magnitude *
+          at_x_.constraint_jacobian.row(side.constraint).cwiseProduct(slopes.transpose());
     }
     return model;
   }
@@ -151,41 +151,42 @@ class Restoration {
   /// cannot be evaluated
   double try_step(double radius) {
     const LinearizedLimits model = linearized();
-    const Eigen::VectorXd u = coordinates_.of(design_.x);
-    const auto [down, up] = coordinates_.room(u, radius);
+    const Eigen::VectorXd u = coordinates_.of(x_);
+    const auto [down, up] = coordinates_.box(u, radius);
     const Eigen::VectorXd step = violation_step(model, down, up);
-    const double before = sum(design_.evaluation);
+    const double before = sum(at_x_);
     const double promised = before - model.sum(step);
     const Eigen::VectorXd x = coordinates_.design(u + step);
-    if (!(promised > 0.0) || x == design_.x) return 0.0;
+    if (!(promised > 0.0) || x == x_) return 0.0;
     ++evaluations_;
     Attempt attempt = attempt_evaluation(problem_, x, Request::values);
     if (!attempt.evaluation) return -1.0;
-    const double share = (before - sum(*attempt.evaluation)) / promised;
-    if (share < least_share) return std::max(0.0, share);
+    const double ratio = (before - sum(*attempt.evaluation)) / promised;
+    if (ratio < least_ratio) return std::max(0.0, ratio);
     ++gradients_;
     attempt = attempt_evaluation(problem_, x, Request::values_and_gradients);
     if (!attempt.evaluation) return -1.0;
-    design_ = {x, std::move(*attempt.evaluation)};
-    return share;
+    x_ = x;
+    at_x_ = std::move(*attempt.evaluation);
+    return ratio;
   }
 
   Problem& problem_;
   RestorationBudget budget_;
   Coordinates coordinates_;
-  Eigen::VectorXd magnitudes_;
   std::vector<LimitSide> sides_;
-  EvaluatedDesign design_;
+  Eigen::VectorXd x_;
+  Evaluation at_x_;  ///< with gradients
   int gradients_ = 1, evaluations_ = 1;
 };
 
 }  // namespace
 
-std::optional<Restored> restore_limits(Problem& problem, const Eigen::VectorXd& start,
-                                       const RestorationBudget& budget) {
+std::optional<Eigen::VectorXd> restore_limits(Problem& problem, const Eigen::VectorXd& start,
+                                              const RestorationBudget& budget) {
   Attempt first = attempt_evaluation(problem, start, Request::values_and_gradients);
   if (!first.evaluation) return std::nullopt;
-  return Restoration(problem, budget, {start, std::move(*first.evaluation)}).run();
+  return Restoration(problem, budget, start, std::move(*first.evaluation)).run();
 }
 
 }  // namespace pleuel

@@ -2,7 +2,6 @@
 
 #include <optional>
 
-#include "optimization/evaluation_cache.hpp"
 #include "optimization/problem.hpp"
 
 namespace pleuel {
@@ -13,24 +12,17 @@ struct RestorationBudget {
   int evaluations = 60;
 };
 
-struct Restored {
-  EvaluatedDesign design;      ///< with gradients; max_violation relative to the magnitudes
-  Eigen::VectorXd magnitudes;  ///< C of the constraints, see scaling.hpp
-  /// No limit is exceeded; of equalities none by more than 1e-7.
-  bool keeps_limits = false;
-};
-
 /// Leads a design into the limits, whatever the objective says, by the Levenberg–Marquardt method
 /// on the squares of violations:
 ///
-///     minimize Σ max(0, ψ(g) + margin)²     (ψ: elastic_problem.hpp)
+///     minimize Σ max(0, ψ(g) + margin)²     (ψ: phase_one_problem.hpp)
 ///
 /// in the logarithms of variables with positive bounds: there ψ of stresses and deflections is
 /// nearly linear in sizes. Each step minimizes the linearised sum within a box, the trust region,
 /// which a failed evaluation or a step that does not help makes smaller.
-/// @returns where it ends: within the limits, or where it can find no smaller sum; nothing if the
-///          start, or its gradients, cannot be evaluated
-std::optional<Restored> restore_limits(Problem& problem, const Eigen::VectorXd& start,
-                                       const RestorationBudget& budget = {});
+/// @returns a design that exceeds no limit, and of equalities none by more than 1e-7; nothing if it ends
+///          elsewhere, or if the start, or its gradients, cannot be evaluated
+std::optional<Eigen::VectorXd> restore_limits(Problem& problem, const Eigen::VectorXd& start,
+                                              const RestorationBudget& budget = {});
 
 }  // namespace pleuel

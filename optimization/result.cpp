@@ -31,4 +31,22 @@ EvaluationRecord following(EvaluationRecord record, const Result& before) {
   return record;
 }
 
+Result run_after(const Result& before, const Observer& observer, const ObservedRun& run) {
+  Result result =
+      run([&](const EvaluationRecord& record) { show(observer, following(record, before)); });
+  continue_from(before, result);
+  return result;
+}
+
+Result run_with_records(const std::function<EvaluationRecord(EvaluationRecord)>& changed,
+                        const Observer& observer, const ObservedRun& run) {
+  History history;
+  Result result = run([&](const EvaluationRecord& record) {
+    history.push_back(changed(record));
+    show(observer, history.back());
+  });
+  result.history = std::move(history);
+  return result;
+}
+
 }  // namespace pleuel

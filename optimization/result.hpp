@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -7,8 +8,8 @@
 #include <Eigen/Core>
 
 #include "core/base/error_bar.hpp"
+#include "optimization/broken_limits.hpp"
 #include "optimization/history.hpp"
-#include "optimization/limit_conflict.hpp"
 #include "optimization/problem.hpp"
 #include "optimization/verdict.hpp"
 
@@ -67,5 +68,17 @@ Result with_effort_of(Result effort, Result answer);
 
 /// A record as one that follows on a run.
 EvaluationRecord following(EvaluationRecord record, const Result& before);
+
+/// A run with an observer.
+using ObservedRun = std::function<Result(const Observer& observer)>;
+
+/// A run that goes on where an earlier one has ended: its records, in the result and for the observer, follow
+/// on those before.
+/// @param before  must not change during the run
+Result run_after(const Result& before, const Observer& observer, const ObservedRun& run);
+
+/// A run whose records, in the result and for the observer, are changed one by one.
+Result run_with_records(const std::function<EvaluationRecord(EvaluationRecord)>& changed,
+                        const Observer& observer, const ObservedRun& run);
 
 }  // namespace pleuel

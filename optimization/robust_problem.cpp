@@ -21,7 +21,7 @@ constexpr double relative_step = 1e-4;
 }  // namespace
 
 RobustProblem::RobustProblem(Problem& problem, Eigen::VectorXd deviations, Eigen::VectorXd margins)
-    : ForwardingProblem(problem), deviations_(std::move(deviations)), margins_(std::move(margins)) {
+    : ProblemDecorator(problem), deviations_(std::move(deviations)), margins_(std::move(margins)) {
   assert(deviations_.size() == static_cast<Eigen::Index>(variables().size()));
   assert(margins_.size() == static_cast<Eigen::Index>(constraints().size()));
   for (std::size_t j = 0; j < constraints().size(); ++j) {

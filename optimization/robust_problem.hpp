@@ -1,6 +1,6 @@
 #pragma once
 
-#include "optimization/forwarding_problem.hpp"
+#include "optimization/problem_decorator.hpp"
 
 namespace pleuel {
 
@@ -14,7 +14,7 @@ namespace pleuel {
 /// Values cost a gradient, gradients 1 + 2 · (number of uncertain variables) of them.
 /// The sensitivities of c that make σ_c are those of this design only: see `uncertainty` with
 /// samples for how far first order holds.
-class RobustProblem : public ForwardingProblem {
+class RobustProblem : public ProblemDecorator {
  public:
   /// @param deviations  σ, one a variable; 0: certain
   /// @param margins     k ≥ 0, one a constraint; each with k > 0 has one limit

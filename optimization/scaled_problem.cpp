@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/base/eager_matrices.hpp"
-#include "optimization/scaling.hpp"
 
 namespace pleuel {
 
@@ -27,41 +26,26 @@ ScaledProblem::ScaledProblem(EvaluationCache& cache, const EvaluatedDesign& arou
       around_(around.x),
       budget_(budget),
       variable_scales_(variable_scales(cache.problem(), around.x)),
-      constraint_scales_(cache.scales().constraints),
       objective_scale_(objective_scale(cache.problem(), around.evaluation, variable_scales_)) {
   if (factors.size() > 0) variable_scales_ = variable_scales_.cwiseProduct(factors);
   const std::vector<Variable>& variables = cache.problem().variables();
   for (Eigen::Index i = 0; i < around_.size(); ++i) {
     if (!variables[i].is_fixed()) free_.push_back(i);
   }
-  const std::vector<Constraint>& constraints = cache.problem().constraints();
-  for (std::size_t j = 0; j < constraints.size(); ++j) {
-    add_rows(j, constraints[j]);
+  for (const LimitSide& side : limit_sides(cache.problem(), cache.scales().constraints)) {
+    if (!cache.problem().constraints()[side.constraint].is_equality()) {
+      inequalities_.push_back(side);
+    } else if (side.sign > 0.0) {
+      equalities_.push_back(side);
+    }
   }
   update_stop();
 }
 
-void ScaledProblem::add_rows(Eigen::Index constraint, const Constraint& limits) {
-  if (limits.is_equality()) {
-    equalities_.push_back({constraint, 1.0, limits.upper});
-    return;
-  }
-  if (limits.has_upper()) inequalities_.push_back({constraint, 1.0, limits.upper});
-  if (limits.has_lower()) inequalities_.push_back({constraint, -1.0, limits.lower});
-}
-
-Eigen::VectorXd ScaledProblem::lower() const {
+Eigen::VectorXd ScaledProblem::scaled_bounds(double Variable::*bound) const {
   Eigen::VectorXd bounds(around_.size());
   for (Eigen::Index i = 0; i < bounds.size(); ++i) {
-    bounds[i] = cache_.problem().variables()[i].lower;
-  }
-  return to_scaled(bounds);
-}
-
-Eigen::VectorXd ScaledProblem::upper() const {
-  Eigen::VectorXd bounds(around_.size());
-  for (Eigen::Index i = 0; i < bounds.size(); ++i) {
-    bounds[i] = cache_.problem().variables()[i].upper;
+    bounds[i] = cache_.problem().variables()[i].*bound;
   }
   return to_scaled(bounds);
 }
@@ -129,24 +113,23 @@ Eigen::VectorXd ScaledProblem::to_scaled(const Eigen::VectorXd& x) const {
   return x.cwiseQuotient(variable_scales_)(free_);
 }
 
-Eigen::VectorXd ScaledProblem::values(const std::vector<Row>& rows,
+Eigen::VectorXd ScaledProblem::values(const std::vector<LimitSide>& rows,
                                       const Evaluation& evaluation) const {
   Eigen::VectorXd result(rows.size());
   for (Eigen::Index k = 0; k < result.size(); ++k) {
-    const auto& [j, sign, limit] = rows[k];
-    result[k] = sign * (evaluation.constraints[j] - limit) / constraint_scales_[j];
+    result[k] = rows[k].violation(evaluation.constraints);
   }
   return result;
 }
 
-Eigen::MatrixXd ScaledProblem::jacobian(const std::vector<Row>& rows,
+Eigen::MatrixXd ScaledProblem::jacobian(const std::vector<LimitSide>& rows,
                                         const Evaluation& evaluation) const {
   Eigen::MatrixXd result(rows.size(), variables());
   for (Eigen::Index k = 0; k < result.rows(); ++k) {
-    const auto& [j, sign, limit] = rows[k];
-    const Eigen::VectorXd gradient =
-        evaluation.constraint_jacobian.row(j).transpose().cwiseProduct(variable_scales_);
-    result.row(k) = sign / constraint_scales_[j] * gradient(free_).transpose();
+    const Eigen::VectorXd gradient = evaluation.constraint_jacobian.row(rows[k].constraint)
+                                         .transpose()
+                                         .cwiseProduct(variable_scales_);
+    result.row(k) = rows[k].sign / rows[k].magnitude * gradient(free_).transpose();
   }
   return result;
 }

@@ -9,6 +9,7 @@
 
 #include "core/base/int_size.hpp"
 #include "optimization/evaluation_cache.hpp"
+#include "optimization/scaling.hpp"
 
 namespace pleuel {
 
@@ -48,8 +49,8 @@ class ScaledProblem {
   int inequalities() const { return int_size(inequalities_); }
   int equalities() const { return int_size(equalities_); }
   Eigen::VectorXd start() const { return to_scaled(around_); }
-  Eigen::VectorXd lower() const;
-  Eigen::VectorXd upper() const;
+  Eigen::VectorXd lower() const { return scaled_bounds(&Variable::lower); }
+  Eigen::VectorXd upper() const { return scaled_bounds(&Variable::upper); }
 
   /// nullopt if the evaluation failed or if the backend should stop. Never throws, since it is
   /// called through C: a fault of the program is kept for rethrow().
@@ -68,19 +69,12 @@ class ScaledProblem {
   Eigen::VectorXd to_design(const Eigen::VectorXd& y) const;
 
  private:
-  /// sign · (c − limit) / C
-  struct Row {
-    Eigen::Index constraint;
-    double sign;
-    double limit;
-  };
-
-  void add_rows(Eigen::Index constraint, const Constraint& limits);
+  Eigen::VectorXd scaled_bounds(double Variable::*bound) const;
   void update_stop();
   void see_progress();
   Eigen::VectorXd to_scaled(const Eigen::VectorXd& x) const;
-  Eigen::VectorXd values(const std::vector<Row>& rows, const Evaluation& evaluation) const;
-  Eigen::MatrixXd jacobian(const std::vector<Row>& rows, const Evaluation& evaluation) const;
+  Eigen::VectorXd values(const std::vector<LimitSide>& rows, const Evaluation& evaluation) const;
+  Eigen::MatrixXd jacobian(const std::vector<LimitSide>& rows, const Evaluation& evaluation) const;
   ScaledEvaluation scale(const Evaluation& evaluation) const;
 
   EvaluationCache& cache_;
@@ -92,8 +86,8 @@ class ScaledProblem {
   Eigen::VectorXd around_;
   Budget budget_;
   std::vector<Eigen::Index> free_;  ///< the variables that are not fixed
-  std::vector<Row> inequalities_, equalities_;
-  Eigen::VectorXd variable_scales_, constraint_scales_;
+  std::vector<LimitSide> inequalities_, equalities_;
+  Eigen::VectorXd variable_scales_;
   double objective_scale_;
   bool should_stop_ = false;
   bool has_left_numbers_ = false;

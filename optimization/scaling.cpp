@@ -104,6 +104,33 @@ double objective_value_scale(const Evaluation& evaluation, const Evaluation& sta
                    std::numeric_limits<double>::min()});
 }
 
+double objective_curvature(const Problem& problem, const Eigen::VectorXd& x, const Evaluation& at,
+                           const EvaluateBeside& evaluate) {
+  constexpr double step = 1e-3;
+  const Eigen::VectorXd s = variable_scales(problem, x);
+  Eigen::VectorXd moved = x;
+  for (Eigen::Index i = 0; i < s.size(); ++i) {
+    const Variable& variable = problem.variables()[i];
+    moved[i] += x[i] + step * s[i] <= variable.upper ? step * s[i] : -step * s[i];
+  }
+  const Evaluation* there = evaluate(within_bounds(problem, moved));
+  if (there == nullptr) return 0.0;
+  const Eigen::VectorXd change =
+      scaled_objective_gradient(problem, *there, s) - scaled_objective_gradient(problem, at, s);
+  return change.lpNorm<Eigen::Infinity>() / step;
+}
+
+std::vector<LimitSide> limit_sides(const Problem& problem, const Eigen::VectorXd& magnitudes) {
+  std::vector<LimitSide> sides;
+  for (std::size_t i = 0; i < problem.constraints().size(); ++i) {
+    const Constraint& limits = problem.constraints()[i];
+    const double magnitude = magnitudes[i];
+    if (limits.has_upper()) sides.push_back({i, 1.0, limits.upper, magnitude});
+    if (limits.has_lower()) sides.push_back({i, -1.0, limits.lower, magnitude});
+  }
+  return sides;
+}
+
 double max_violation(const Problem& problem, const Eigen::VectorXd& constraints,
                      const Eigen::VectorXd& scales) {
   double largest = 0.0;

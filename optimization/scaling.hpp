@@ -1,5 +1,9 @@
 #pragma once
 
+#include <cstddef>
+#include <functional>
+#include <vector>
+
 #include <Eigen/Core>
 
 #include "optimization/problem.hpp"
@@ -36,6 +40,32 @@ double objective_scale(const Problem& problem, const Evaluation& evaluation,
 
 /// |f|, but not nothing where f vanishes at the optimum: at least a thousandth of that of the start.
 double objective_value_scale(const Evaluation& evaluation, const Evaluation& start);
+
+/// What a design is, with gradients; nullptr where it cannot be evaluated. Valid until the next call.
+using EvaluateBeside = std::function<const Evaluation*(const Eigen::VectorXd& x)>;
+
+/// Curvature of the objective: how far s ∘ ∇f changes with the variables, by the gradient of a design beside x.
+/// A sum of squares may vanish at its optimum, and its slope with it; this says what is much of it. Zero where
+/// nothing is known.
+/// @param at  evaluation of x, with gradients
+double objective_curvature(const Problem& problem, const Eigen::VectorXd& x, const Evaluation& at,
+                           const EvaluateBeside& evaluate);
+
+/// One side of a limit as g = sign · (c − limit) / C ≤ 0.
+struct LimitSide {
+  std::size_t constraint = 0;
+  double sign = 1.0;
+  double limit = 0.0;
+  double magnitude = 1.0;  ///< C
+
+  double violation(const Eigen::VectorXd& constraints) const {
+    return sign * (constraints[constraint] - limit) / magnitude;
+  }
+};
+
+/// Both sides of all limits that are finite.
+/// @param magnitudes  C, one a constraint
+std::vector<LimitSide> limit_sides(const Problem& problem, const Eigen::VectorXd& magnitudes);
 
 /// max over constraints of the amount by which c leaves its limits, divided by C; 0 if none does.
 double max_violation(const Problem& problem, const Eigen::VectorXd& constraints,

@@ -11,7 +11,6 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "optimization/backends.hpp"
-#include "optimization/objective_bend.hpp"
 #include "optimization/polish.hpp"
 #include "optimization/prices.hpp"
 #include "optimization/scaling.hpp"
@@ -33,13 +32,10 @@ void check_backend(const Problem& problem, const SolveOptions& options) {
 
 Result failed_start(const Problem& problem, const Eigen::VectorXd& x, const std::string& failure,
                     const std::string& backend, const EvaluationCache::Watch& watch) {
-  EvaluationRecord record;
+  EvaluationRecord record = record_of(x, Request::values_and_gradients, {std::nullopt, failure});
   record.evaluation = 1;
-  record.request = Request::values_and_gradients;
-  record.x = x;
-  record.failure = failure;
   record.seconds = watch.time.seconds();
-  if (watch.observer) watch.observer(record);
+  show(watch.observer, record);
 
   Result result;
   result.message = fmt::format("the start cannot be evaluated: {} (at {})", failure,
@@ -125,11 +121,11 @@ class Run {
         scaled_objective_gradient(cache_.problem(), reference, s).lpNorm<Eigen::Infinity>();
     if (slope >= nearly_level * value && value >= nearly_nothing * slope) return reference;
     cache_.set_purpose(Purpose::audit);
-    const double bend =
-        objective_bend(cache_.problem(), start_.x, reference, [&](const Eigen::VectorXd& x) {
+    const double curvature =
+        objective_curvature(cache_.problem(), start_.x, reference, [&](const Eigen::VectorXd& x) {
           return cache_.evaluate(x, Request::values_and_gradients);
         });
-    reference.objective += std::copysign(bend, reference.objective);
+    reference.objective += std::copysign(curvature, reference.objective);
     return reference;
   }
 
@@ -322,15 +318,9 @@ class Run {
     if (verdict.status == Status::verified && options_.starts == 1) {
       result.message += "; from one start: other local optima were not looked for";
     }
-    result.x = std::move(verdict.design.x);
-    result.evaluation = std::move(verdict.design.evaluation);
-    result.constraint_multipliers =
-        prices_of(cache_.problem(), result.evaluation.constraints,
-                  verdict.audit.constraint_multipliers, cache_.scales().constraints);
-    result.bound_multipliers = std::move(verdict.audit.bound_multipliers);
-    result.kkt_residual = verdict.audit.residual;
     result.gradients_are_disproved = verdict.gradients_are_disproved;
-    result.max_violation = verdict.design.max_violation;
+    set_answer(result, cache_.problem(), std::move(verdict.design), verdict.audit,
+               cache_.scales().constraints);
     add_counts(result);
     return result;
   }

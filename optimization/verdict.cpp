@@ -27,12 +27,10 @@ Eigen::VectorXd probe_curvatures(EvaluationCache& cache, const EvaluatedDesign& 
   const Eigen::VectorXd residuals = audit.variable_residuals();
   Eigen::VectorXd moved = design.x;
   for (Eigen::Index i = 0; i < s.size(); ++i) {
-    if (!(residuals[i] > allowed)) continue;
-    const Variable& variable = cache.problem().variables()[i];
-    const double way = std::copysign(probe * s[i], -audit.stationarity[i]);
-    moved[i] = std::clamp(moved[i] + way, variable.lower, variable.upper);
+    if (residuals[i] > allowed) moved[i] += std::copysign(probe * s[i], -audit.stationarity[i]);
   }
-  const Eigen::VectorXd way = (moved - design.x).cwiseQuotient(s);
+  moved = within_bounds(cache.problem(), std::move(moved));
+  const Eigen::VectorXd step = (moved - design.x).cwiseQuotient(s);
   Eigen::VectorXd curvatures = Eigen::VectorXd::Zero(s.size());
   const Evaluation* there = cache.evaluate(moved, Request::values_and_gradients);
   if (there == nullptr) return curvatures;
@@ -41,7 +39,7 @@ Eigen::VectorXd probe_curvatures(EvaluationCache& cache, const EvaluatedDesign& 
       (there->constraint_jacobian - design.evaluation.constraint_jacobian).transpose() *
           audit.constraint_multipliers);
   for (Eigen::Index i = 0; i < s.size(); ++i) {
-    if (way[i] != 0.0) curvatures[i] = std::abs(change[i] / way[i]);
+    if (step[i] != 0.0) curvatures[i] = std::abs(change[i] / step[i]);
   }
   return curvatures;
 }

@@ -12,14 +12,14 @@
 
 namespace pleuel {
 
+std::size_t index_of_response(const ProblemFile& file, const std::string& name) {
+  if (const auto index = index_of_named(file.responses, name)) return *index;
+  throw InputError(fmt::format("there is no response \"{}\"", name));
+}
+
 DesignCase::DesignCase(ProblemFile file, int threads, EvaluationStore* store)
     : file_(std::move(file)), threads_(threads), store_(store) {
   if (store_) setting_ = setting_text(file_);
-}
-
-std::size_t DesignCase::response_index(const std::string& name) const {
-  if (const auto index = index_of_named(file_.responses, name)) return *index;
-  throw InputError(fmt::format("there is no response \"{}\"", name));
 }
 
 Analysis& DesignCase::analysis_at(const Eigen::VectorXd& x) {
@@ -33,10 +33,10 @@ Analysis& DesignCase::analysis_at(const Eigen::VectorXd& x) {
 
 std::optional<std::size_t> DesignCase::response_of(const ConstraintRows& rows) const {
   if (rows.part) return rows.part;
-  if (!rows.constraint) return response_index(file_.objective->response);
+  if (!rows.constraint) return index_of_response(file_, file_.objective->response);
   const std::string& name = file_.constraints[*rows.constraint].response;
   if (name.empty()) return std::nullopt;
-  return response_index(name);
+  return index_of_response(file_, name);
 }
 
 double DesignCase::linear_value(std::size_t constraint) const {
@@ -62,7 +62,7 @@ std::vector<DesignCase::Row> DesignCase::rows_at(const Analysis& analysis,
     const double sign = of.sign.value_or(of.constraint ? 1.0 : objective_sign());
     all.push_back({sign * reduction.value, SampledValue{response, reduction.samples}, sign});
   };
-  const auto add_all = [&](const ConstraintRows& of) {
+  for (const ConstraintRows& of : rows) {
     const auto response = response_of(of);
     if (!response) {
       all.push_back({linear_value(*of.constraint)});
@@ -73,8 +73,7 @@ std::vector<DesignCase::Row> DesignCase::rows_at(const Analysis& analysis,
     } else {
       add(of, *response, analysis.reductions[*response]);
     }
-  };
-  for (const ConstraintRows& of : rows) add_all(of);
+  }
   return all;
 }
 
@@ -122,69 +121,41 @@ EvaluationKey DesignCase::key_of(const Eigen::VectorXd& x, Request request,
   return {setting_, rows, has_method ? to_string(method) : "", request, x};
 }
 
-std::optional<DesignCase::Answer> DesignCase::recall(const Eigen::VectorXd& x, Request request,
-                                                     const std::string& name,
-                                                     const std::vector<ConstraintRows>& rows) {
+std::optional<StoredEvaluation> DesignCase::recall(const Eigen::VectorXd& x, Request request,
+                                                   const std::string& name,
+                                                   const std::vector<ConstraintRows>& rows) {
   if (!store_) return std::nullopt;
   asked_ = key_of(x, request, name);
-  const auto stored = store_->find(*asked_);
+  auto stored = store_->find(*asked_);
   if (!stored) return std::nullopt;
   if (stored->older_row > 0) recalled_.emplace_back(*asked_, rows);
-  Answer answer;
-  answer.is_known = true;
-  answer.seconds = stored->seconds;
-  if (!stored->failure.empty()) {
-    answer.failure = std::make_exception_ptr(SimulationError(stored->failure));
-    return answer;
-  }
   if (!choice_ && !stored->method.empty()) {
     choice_ = GradientChoice{gradient_method(stored->method), stored->reason};
   }
-  answer.evaluation = stored->evaluation;
-  return answer;
+  return stored;
 }
 
-DesignCase::Answer DesignCase::compute(const Eigen::VectorXd& x, Request request,
-                                       const std::vector<ConstraintRows>& rows) {
+StoredEvaluation DesignCase::compute(const Eigen::VectorXd& x, Request request,
+                                     const std::vector<ConstraintRows>& rows) {
   const Stopwatch stopwatch;
-  Answer answer;
+  StoredEvaluation answer;
   try {
     answer.evaluation = simulated_rows(x, request, rows);
-  } catch (const SimulationError&) {
-    answer.failure = std::current_exception();
+    if (request == Request::values_and_gradients && choice_) {
+      answer.method = to_string(used_);
+      answer.reason = choice_->reason;
+    }
+  } catch (const SimulationError& error) {
+    answer.failure = error.what();
   }
   answer.seconds = stopwatch.seconds();
   return answer;
 }
 
-void DesignCase::keep(Request request, const Answer& answer) {
-  if (store_ && !answer.is_known) store_->keep(*asked_, stored_form(request, answer));
-}
-
 void DesignCase::confirm(const std::function<bool(const Eigen::VectorXd& x)>& counts) {
   for (const auto& [key, rows] : std::exchange(recalled_, {})) {
-    if (!counts(key.x)) continue;
-    store_->confirm(key, stored_form(key.request, compute(key.x, key.request, rows)));
+    if (counts(key.x)) store_->confirm(key, compute(key.x, key.request, rows));
   }
-}
-
-StoredEvaluation DesignCase::stored_form(Request request, const Answer& answer) const {
-  StoredEvaluation stored;
-  stored.seconds = answer.seconds;
-  if (answer.failure) {
-    try {
-      std::rethrow_exception(answer.failure);
-    } catch (const SimulationError& error) {
-      stored.failure = error.what();
-    }
-  } else {
-    stored.evaluation = answer.evaluation;
-    if (request == Request::values_and_gradients && choice_) {
-      stored.method = to_string(used_);
-      stored.reason = choice_->reason;
-    }
-  }
-  return stored;
 }
 
 Evaluation DesignCase::simulated_rows(const Eigen::VectorXd& x, Request request,

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <exception>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -17,10 +16,13 @@
 
 namespace pleuel {
 
+/// Index of a response of a file. @throws InputError if there is none of this name
+std::size_t index_of_response(const ProblemFile& file, const std::string& name);
+
 /// What stands for one constraint of a file at each design, or, without a constraint, for the
 /// objective: one row, or one for each peak that is told apart.
 struct ConstraintRows {
-  std::optional<std::size_t> constraint;
+  std::optional<std::size_t> constraint = {};
   /// Of a response that is the largest, or smallest, of others: one of them.
   std::optional<std::size_t> part = {};
   std::optional<PeakDivision> division = {};
@@ -58,22 +60,17 @@ class DesignCase {
   /// Index of the response of rows; none for a sum of variables.
   std::optional<std::size_t> response_of(const ConstraintRows& rows) const;
 
-  /// An evaluation and how it came to be: what failed is no evaluation.
-  struct Answer {
-    Evaluation evaluation;
-    std::exception_ptr failure = nullptr;  ///< a SimulationError
-    bool is_known = false;                 ///< from the store
-    double seconds = 0.0;                  ///< that it took
-  };
-
   /// What the store knows of an evaluation. Asks this process: not for other threads.
-  std::optional<Answer> recall(const Eigen::VectorXd& x, Request request, const std::string& name,
-                               const std::vector<ConstraintRows>& rows);
-  /// The evaluation itself; may run beside those of other cases.
-  Answer compute(const Eigen::VectorXd& x, Request request,
-                 const std::vector<ConstraintRows>& rows);
+  std::optional<StoredEvaluation> recall(const Eigen::VectorXd& x, Request request,
+                                         const std::string& name,
+                                         const std::vector<ConstraintRows>& rows);
+  /// The evaluation itself, or why there is none; may run beside those of other cases.
+  StoredEvaluation compute(const Eigen::VectorXd& x, Request request,
+                           const std::vector<ConstraintRows>& rows);
   /// Tells the store of what recall() asked it for last.
-  void keep(Request request, const Answer& answer);
+  void keep(const StoredEvaluation& answer) {
+    if (store_) store_->keep(*asked_, answer);
+  }
   /// Makes what was recalled of an older run at these designs again, for the store to compare.
   void confirm(const std::function<bool(const Eigen::VectorXd& x)>& counts);
 
@@ -90,7 +87,6 @@ class DesignCase {
   std::vector<ConstraintRows> with_objective(const std::vector<ConstraintRows>& rows) const;
   Evaluation simulated_rows(const Eigen::VectorXd& x, Request request,
                             const std::vector<ConstraintRows>& rows);
-  StoredEvaluation stored_form(Request request, const Answer& answer) const;
   EvaluationKey key_of(const Eigen::VectorXd& x, Request request, const std::string& rows) const;
   double linear_value(std::size_t constraint) const;
   std::vector<Row> rows_at(const Analysis& analysis, const std::vector<ConstraintRows>& rows) const;
@@ -99,7 +95,6 @@ class DesignCase {
   GradientMethod method_for(const Analysis& analysis,
                             const std::vector<SampledValue>& values) const;
   Eigen::MatrixXd gradients_of(Analysis& analysis, const std::vector<ConstraintRows>& rows);
-  std::size_t response_index(const std::string& name) const;
 
   ProblemFile file_;
   int threads_;

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/base/find_named.hpp"
 #include "core/base/int_size.hpp"
 #include "core/base/parallel.hpp"
 #include "core/scene/load_cases.hpp"
@@ -47,12 +46,6 @@ DesignProblem::DesignProblem(ProblemFile file, int threads, EvaluationStore* sto
   }
 }
 
-void DesignProblem::start_from(const Eigen::VectorXd& x) {
-  for (std::size_t i = 0; i < variables_.size(); ++i) {
-    variables_[i].start = x(i);
-  }
-}
-
 std::string DesignProblem::variable_text(std::size_t variable, double value) const {
   return text_in(variable_units_[variable], value);
 }
@@ -68,11 +61,6 @@ std::string DesignProblem::objective_name() const {
 std::string DesignProblem::objective_text(double value) const {
   return text_in(unit_of(find_response(file_, file_.objective->response)),
                  objective_sign() * value);
-}
-
-std::size_t DesignProblem::response_index(const std::string& name) const {
-  if (const auto index = index_of_named(file_.responses, name)) return *index;
-  throw InputError(fmt::format("there is no response \"{}\"", name));
 }
 
 Eigen::VectorXd DesignProblem::variable_deviations() const {
@@ -122,57 +110,47 @@ double DesignProblem::objective_weight(std::size_t load_case) const {
 Evaluation DesignProblem::evaluate(const Eigen::VectorXd& x, Request request) {
   // Of a case these are its own, fewer than those of the file.
   NamedRows rows{file_.has_cases() ? "constraints of the case" : "constraints", {}};
-  rows.cases.resize(case_count());
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
     const OfCase of_case = case_of_constraint(file_, i);
-    if (is_of_several(of_case)) {
-      rows.over_cases.push_back({*response_of(i), static_cast<Eigen::Index>(i)});
-      continue;
-    }
-    rows.cases[of_case.load_case].of.push_back({of_case.index});
-    rows.cases[of_case.load_case].places.push_back(i);
+    rows.sources.push_back(is_of_several(of_case) ? response_row(file_, *response_of(i))
+                                                  : RowSource{of_case.load_case, {of_case.index}});
   }
   return evaluate_rows(x, request, rows);
 }
 
 /// The store belongs to this process and is asked and told in the order of the cases: what it holds
 /// and what comes of it does not depend on how many run at a time.
-std::vector<DesignCase::Answer> DesignProblem::answers_of(const Eigen::VectorXd& x, Request request,
-                                                          const NamedRows& rows) {
-  std::vector<DesignCase::Answer> answers(case_count());
+std::vector<StoredEvaluation> DesignProblem::answers_of(const Eigen::VectorXd& x, Request request,
+                                                        const std::string& name,
+                                                        const RowsOfCases& rows) {
+  std::vector<StoredEvaluation> answers(case_count());
   std::vector<std::size_t> open;
   for (std::size_t c = 0; c < case_count(); ++c) {
-    if (auto known = cases_[c]->recall(x, request, rows.name, rows.cases[c].of)) {
+    if (auto known = cases_[c]->recall(x, request, name, rows[c])) {
       answers[c] = std::move(*known);
     } else {
       open.push_back(c);
     }
   }
   for_each_in_parallel(int_size(open), threads_, [&](int i) {
-    answers[open[i]] = cases_[open[i]]->compute(x, request, rows.cases[open[i]].of);
+    answers[open[i]] = cases_[open[i]]->compute(x, request, rows[open[i]]);
   });
-  for (const std::size_t c : open) cases_[c]->keep(request, answers[c]);
+  for (const std::size_t c : open) cases_[c]->keep(answers[c]);
   for (std::size_t c = 0; c < case_count(); ++c) {
-    if (!answers[c].failure) continue;
-    if (!file_.has_cases()) std::rethrow_exception(answers[c].failure);
-    try {
-      std::rethrow_exception(answers[c].failure);
-    } catch (const SimulationError& error) {
-      throw SimulationError(
-          fmt::format("in the case \"{}\": {}", cases_[c]->file().load_case, error.what()));
-    }
+    const std::string& failure = answers[c].failure;
+    if (failure.empty()) continue;
+    throw SimulationError(file_.has_cases() ? fmt::format("in the case \"{}\": {}",
+                                                          cases_[c]->file().load_case, failure)
+                                            : failure);
   }
   return answers;
 }
 
-double DesignProblem::objective_of(const std::vector<DesignCase::Answer>& answers,
+double DesignProblem::objective_of(const std::vector<StoredEvaluation>& answers,
                                    Eigen::VectorXd* gradient) const {
   if (minimizes_worst()) {
-    const auto worst =
-        std::max_element(answers.begin(), answers.end(),
-                         [](const DesignCase::Answer& one, const DesignCase::Answer& other) {
-                           return one.evaluation.objective < other.evaluation.objective;
-                         });
+    const auto worst = std::ranges::max_element(
+        answers, {}, [](const StoredEvaluation& one) { return one.evaluation.objective; });
     if (gradient) *gradient = worst->evaluation.objective_gradient;
     return worst->evaluation.objective;
   }
@@ -190,37 +168,29 @@ double DesignProblem::objective_of(const std::vector<DesignCase::Answer>& answer
 std::vector<std::size_t> DesignProblem::responses_over_cases(const NamedRows& rows) const {
   std::vector<std::size_t> responses;
   if (!has_objective_in_cases()) responses.push_back(objective_response());
-  for (const RowOverCases& row : rows.over_cases) responses.push_back(row.response);
+  for (const RowSource& source : rows.sources) {
+    if (source.over_cases) responses.push_back(*source.over_cases);
+  }
   return responses;
 }
 
 Evaluation DesignProblem::evaluate_rows(const Eigen::VectorXd& x, Request request,
                                         const NamedRows& rows) {
-  const PartRows parts(file_, responses_over_cases(rows));
-  const std::vector<DesignCase::Answer> answers = answers_of(x, request, parts.added_to(rows));
-  const bool has_gradients = request == Request::values_and_gradients;
-  Eigen::Index count = rows.over_cases.size();
-  for (const CaseRows& one : rows.cases) count += std::ssize(one.places);
-  Evaluation evaluation;
-  evaluation.constraints.resize(count);
-  if (has_gradients) evaluation.constraint_jacobian.resize(count, x.size());
-  for (std::size_t c = 0; c < answers.size(); ++c) {
-    const Evaluation& of_case = answers[c].evaluation;
-    const std::vector<Eigen::Index>& places = rows.cases[c].places;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      const Eigen::Index row = i;
-      evaluation.constraints(places[i]) = of_case.constraints(row);
-      if (has_gradients) {
-        evaluation.constraint_jacobian.row(places[i]) = of_case.constraint_jacobian.row(row);
-      }
-    }
+  RowsOfCases asked(case_count());
+  Eigen::Index count = 0;
+  for (const RowSource& source : rows.sources) {
+    count += source.count();
+    if (!source.over_cases) asked[source.load_case].push_back(source.rows);
   }
+  const PartRows parts(file_, responses_over_cases(rows));
+  std::string name = rows.name;
+  parts.add_to(asked, name);
+  const std::vector<StoredEvaluation> answers = answers_of(x, request, name, asked);
+
+  const bool has_gradients = request == Request::values_and_gradients;
   Eigen::VectorXd gradient;
   Eigen::VectorXd* const wanted = has_gradients ? &gradient : nullptr;
-  for (const RowOverCases& row : rows.over_cases) {
-    evaluation.constraints(row.place) = row.sign * parts.combined(row.response, x, answers, wanted);
-    if (has_gradients) evaluation.constraint_jacobian.row(row.place) = row.sign * gradient;
-  }
+  Evaluation evaluation;
   if (has_objective_in_cases()) {
     evaluation.objective = objective_of(answers, wanted);
   } else {
@@ -228,7 +198,29 @@ Evaluation DesignProblem::evaluate_rows(const Eigen::VectorXd& x, Request reques
         objective_sign() * parts.combined(objective_response(), x, answers, wanted);
     gradient *= objective_sign();
   }
-  if (has_gradients) evaluation.objective_gradient = gradient;
+  evaluation.objective_gradient = gradient;
+  evaluation.constraints.resize(count);
+  if (has_gradients) evaluation.constraint_jacobian.resize(count, x.size());
+  std::vector<Eigen::Index> next(case_count(), 0);
+  Eigen::Index row = 0;
+  for (const RowSource& source : rows.sources) {
+    const Eigen::Index size = source.count();
+    if (source.over_cases) {
+      const double sign = *source.rows.sign;
+      evaluation.constraints(row) = sign * parts.combined(*source.over_cases, x, answers, wanted);
+      if (has_gradients) evaluation.constraint_jacobian.row(row) = sign * gradient;
+    } else {
+      const Evaluation& of_case = answers[source.load_case].evaluation;
+      const Eigen::Index first =
+          std::exchange(next[source.load_case], next[source.load_case] + size);
+      evaluation.constraints.segment(row, size) = of_case.constraints.segment(first, size);
+      if (has_gradients) {
+        evaluation.constraint_jacobian.middleRows(row, size) =
+            of_case.constraint_jacobian.middleRows(first, size);
+      }
+    }
+    row += size;
+  }
   return evaluation;
 }
 

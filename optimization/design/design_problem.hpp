@@ -28,7 +28,7 @@ class DesignProblem : public Problem {
 
   /// Begins at another design, within the bounds, than the start of the file; what the model
   /// decides at the start of the file stays.
-  void start_from(const Eigen::VectorXd& x);
+  void start_from(const Eigen::VectorXd& x) { set_start(variables_, x); }
 
   const std::vector<Variable>& variables() const override { return variables_; }
   const std::vector<Constraint>& constraints() const override { return constraints_; }
@@ -82,7 +82,9 @@ class DesignProblem : public Problem {
   std::optional<std::size_t> response_of(std::size_t constraint) const;
 
   /// Index of a response of the file. @throws InputError if there is none of this name
-  std::size_t response_index(const std::string& name) const;
+  std::size_t response_index(const std::string& name) const {
+    return index_of_response(file_, name);
+  }
 
   /// That of the objective; over cases a number made from several.
   std::size_t objective_response() const { return response_index(file_.objective->response); }
@@ -97,11 +99,11 @@ class DesignProblem : public Problem {
   bool minimizes_worst() const;
 
  private:
-  double objective_of(const std::vector<DesignCase::Answer>& answers,
+  double objective_of(const std::vector<StoredEvaluation>& answers,
                       Eigen::VectorXd* gradient) const;
   std::vector<std::size_t> responses_over_cases(const NamedRows& rows) const;
-  std::vector<DesignCase::Answer> answers_of(const Eigen::VectorXd& x, Request request,
-                                             const NamedRows& rows);
+  std::vector<StoredEvaluation> answers_of(const Eigen::VectorXd& x, Request request,
+                                           const std::string& name, const RowsOfCases& rows);
 
   ProblemFile file_;
   int threads_;

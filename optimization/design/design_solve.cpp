@@ -20,12 +20,9 @@
 #include "optimization/design/number_judgement.hpp"
 #include "optimization/design/peak_problem.hpp"
 #include "optimization/design/peak_windows.hpp"
-#include "optimization/designs_to_try.hpp"
 #include "optimization/find_optimum.hpp"
-#include "optimization/kkt_audit.hpp"
 #include "optimization/prices.hpp"
 #include "optimization/scaling.hpp"
-#include "optimization/verdict.hpp"
 #include "sensitivity/kinks.hpp"
 
 namespace pleuel {
@@ -45,29 +42,27 @@ constexpr int plain_iterations = 40;
 /// more often than not.
 constexpr int iterations_of_extreme = 8;
 
-/// Records of a run on windows as records of the file.
+/// Records of a run on windows as records of the file, one after the other.
 class Folding {
  public:
-  Folding(const PeakProblem& peaks, const DesignProblem& design, const Result& before)
-      : Folding(peaks, design, before.history.front().x, before.evaluation) {
-    last_ = before.history.back().x;
-  }
+  /// @param before      the design before the first record
+  /// @param first       that scales variables
   /// @param evaluation  that scales constraints
-  Folding(const PeakProblem& peaks, const DesignProblem& design, const Eigen::VectorXd& first,
-          const Evaluation& evaluation)
-      : peaks_(peaks), design_(design), last_(first) {
+  Folding(const PeakProblem& peaks, const DesignProblem& design, const Eigen::VectorXd& before,
+          const Eigen::VectorXd& first, const Evaluation& evaluation)
+      : peaks_(peaks), design_(design), last_(before) {
     variable_scales_ = variable_scales(design, first);
     constraint_scales_ = constraint_scales(design, evaluation, variable_scales_);
   }
 
-  EvaluationRecord operator()(EvaluationRecord record) {
+  EvaluationRecord folded(EvaluationRecord record) {
     record.x = peaks_.design_of(record.x);
     record.step = (record.x - last_).cwiseQuotient(variable_scales_).lpNorm<Eigen::Infinity>();
     last_ = record.x;
     if (!record.has_failed()) {
       record.objective = peaks_.fold_objective(record.objective, record.constraints);
       record.constraints = peaks_.fold_values(record.constraints);
-      record.max_violation = max_violation(design_, record.constraints, constraint_scales_);
+      record.max_violation = violation(record.constraints);
     }
     return record;
   }
@@ -142,20 +137,13 @@ std::string describe(const std::vector<CaseKink>& kinks, DesignProblem& design,
   return texts.empty() ? "" : fmt::format("two peaks tie in {}", fmt::join(texts, " and in "));
 }
 
-/// A run of a backend on peaks, told as one on the file.
-/// @param make_folding  of the records, from the first one on
-template <class MakeFolding>
+/// A run of a backend on peaks as one on the file.
 Result solve_folded(PeakProblem& peaks, DesignProblem& design, const SolveOptions& options,
-                    const Observer& observer, const MakeFolding& make_folding) {
-  Folding folding = make_folding();
-  Observer observe_folded;
-  if (observer) {
-    observe_folded = [&](const EvaluationRecord& record) { observer(folding(record)); };
-  }
+                    const Observer& observer, Folding folding) {
   const auto robust = with_margins(peaks, design, peaks.constraint_of_row());
-  Result result = solve(robust ? *robust : peaks, options, observe_folded);
-  Folding history_folding = make_folding();
-  for (EvaluationRecord& record : result.history) record = history_folding(std::move(record));
+  Result result = run_with_records(
+      [&](EvaluationRecord record) { return folding.folded(std::move(record)); }, observer,
+      [&](const Observer& hears) { return solve(robust ? *robust : peaks, options, hears); });
   fold_result(peaks, folding, design, result);
   return result;
 }
@@ -166,14 +154,10 @@ Result solve_peaks(DesignProblem& design, int windows, const SolveOptions& optio
                    const Result& before, const Observer& observer) {
   PeakProblem peaks = before.status == Status::stalled ? PeakProblem(design, windows, before.x)
                                                        : PeakProblem(design, windows);
-  Observer following_observer;
-  if (observer) {
-    following_observer = [&](const EvaluationRecord& record) {
-      observer(following(record, before));
-    };
-  }
-  Result result = solve_folded(peaks, design, options, following_observer,
-                               [&] { return Folding(peaks, design, before); });
+  const History& history = before.history;
+  Result result =
+      solve_folded(peaks, design, options, observer,
+                   {peaks, design, history.back().x, history.front().x, before.evaluation});
   if (peaks.divides_time()) {
     result.message += fmt::format("; peaks over time were told apart by {} windows", windows);
   }
@@ -202,7 +186,7 @@ Result solve_plainly(DesignProblem& design, Problem& problem, const SolveOptions
   if (!first.evaluation) return solve(problem, options, observer);  // tells why it cannot begin
   PeakProblem bounded(design, 1, start);
   return solve_folded(bounded, design, options, observer,
-                      [&] { return Folding(bounded, design, start, *first.evaluation); });
+                      {bounded, design, start, start, *first.evaluation});
 }
 
 /// Whether all peaks keep their margins: a lower one may scatter more than the highest.
@@ -236,9 +220,7 @@ bool ends_far_outside(const Result& result) {
 
 /// The problem of the file with its margins; none if it has none.
 std::unique_ptr<Problem> robust_problem(DesignProblem& design) {
-  std::vector<std::optional<std::size_t>> all;
-  for (std::size_t i = 0; i < design.constraints().size(); ++i) all.emplace_back(i);
-  return with_margins(design, design, all);
+  return with_margins(design, design, own_constraints(design));
 }
 
 /// From the start of the design problem, with one backend.
@@ -264,14 +246,12 @@ Result attempt_optimum(DesignProblem& design, const SolveOptions& options, const
   if (rest.max_iterations >= 1) {
     const std::vector<CaseKink> kinks = optimized_kinks(design, result.x);
     const int windows = windows_that_part_peaks(design, result.x, peak_windows, most_windows);
-    if (notice) {
-      notice(fmt::format("{}: from here on the peaks of {} windows of time count one by one",
-                         reason_to_go_on(result, kinks, design), windows));
-    }
-    Result on_peaks = solve_peaks(design, windows, rest, result, observer);
-    continue_from(result, on_peaks);
-    ++on_peaks.restarts;
-    result = std::move(on_peaks);
+    notify(notice, fmt::format("{}: from here on the peaks of {} windows of time count one by one",
+                               reason_to_go_on(result, kinks, design), windows));
+    result = run_after(result, observer, [&](const Observer& hears) {
+      return solve_peaks(design, windows, rest, result, hears);
+    });
+    ++result.restarts;
   }
   if (result.status == Status::stalled) {
     const std::vector<CaseKink> kinks = optimized_kinks(design, result.x);
@@ -282,41 +262,26 @@ Result attempt_optimum(DesignProblem& design, const SolveOptions& options, const
   return result;
 }
 
-/// What find_optimum() searches: attempts on the file as it is and on windows of time; the rows of
-/// the limits are windows.
-class SearchedDesign : public SearchedProblem {
- public:
-  SearchedDesign(DesignProblem& design, const Notice& notice)
-      : design_(design), notice_(notice), robust_(robust_problem(design)) {}
-
-  Problem& problem() override { return robust_ ? *robust_ : design_; }
-
-  Result attempt(const Eigen::VectorXd& start, const SolveOptions& options,
-                 const Observer& observer) override {
-    design_.start_from(start);
-    return attempt_optimum(design_, options, observer, notice_);
-  }
-
-  LimitRows limit_rows() override {
-    robust_peaks_.reset();
-    peaks_ = std::make_unique<PeakProblem>(design_, windows_of_limits, start_of(design_),
-                                           PeakProblem::Of::limits);
-    robust_peaks_ = with_margins(*peaks_, design_, peaks_->constraint_of_row());
-    LimitRows rows;
-    rows.problem = robust_peaks_ ? robust_peaks_.get() : peaks_.get();
-    for (const auto& constraint : peaks_->constraint_of_row()) {
-      rows.constraint_of_row.push_back(*constraint);
-    }
-    return rows;
-  }
-
- private:
-  DesignProblem& design_;
-  const Notice& notice_;
-  std::unique_ptr<Problem> robust_;
-  std::unique_ptr<PeakProblem> peaks_;
-  std::unique_ptr<Problem> robust_peaks_;
-};
+/// find_optimum() with attempts on the file as it is and on windows of time; the rows of the limits are windows.
+Result search_design_alone(DesignProblem& design, const SolveOptions& options,
+                           const Observer& observer, const Notice& notice) {
+  const auto robust = robust_problem(design);
+  const auto attempt = [&](const Eigen::VectorXd& start, const SolveOptions& with,
+                           const Observer& hears) {
+    design.start_from(start);
+    return attempt_optimum(design, with, hears, notice);
+  };
+  std::unique_ptr<PeakProblem> peaks;
+  std::unique_ptr<Problem> robust_peaks;
+  const auto limit_rows = [&] {
+    peaks = std::make_unique<PeakProblem>(design, windows_of_limits, start_of(design),
+                                          PeakProblem::Of::limits);
+    robust_peaks = with_margins(*peaks, design, peaks->constraint_of_row());
+    return LimitRows{robust_peaks ? robust_peaks.get() : peaks.get(), peaks->constraint_of_row()};
+  };
+  Problem& problem = robust ? *robust : design;
+  return find_optimum({problem, attempt, limit_rows}, options, observer, notice);
+}
 
 /// The violation up to which one design is preferred to another for its objective: so that no
 /// tolerance is exploited.
@@ -335,18 +300,11 @@ void return_to_best(DesignProblem& design, const Tolerances& tolerances, Result&
   if (!is_better) return;
   Attempt attempt = attempt_evaluation(design, best.x, Request::values_and_gradients);
   if (!attempt.evaluation) return;
-  result.x = best.x;
-  result.evaluation = std::move(*attempt.evaluation);
-  result.evaluation.constraints = best.constraints;  // with their margins
-  result.max_violation = best.max_violation;
+  Evaluation& evaluation = *attempt.evaluation;
+  evaluation.constraints = best.constraints;  // with their margins
   const Eigen::VectorXd scales =
-      constraint_scales(design, result.evaluation, variable_scales(design, result.x));
-  const KktAudit audit =
-      audit_kkt(design, {best.x, result.evaluation, best.max_violation}, result.evaluation, scales);
-  result.kkt_residual = audit.residual;
-  result.bound_multipliers = audit.bound_multipliers;
-  result.constraint_multipliers =
-      prices_of(design, best.constraints, audit.constraint_multipliers, scales);
+      constraint_scales(design, evaluation, variable_scales(design, best.x));
+  set_unproven_answer(result, design, {best.x, std::move(evaluation), best.max_violation}, scales);
   const bool is_within = best.max_violation <= tolerances.violation;
   const std::string what =
       is_within ? std::string("the best design of the run, of which nothing is proven")
@@ -376,33 +334,35 @@ EvaluationRecord simulated_with(const ProblemFile& file, EvaluationRecord record
 
 namespace {
 
-Observer with_setting_of(const DesignProblem& design, const Observer& observer) {
-  if (!observer) return {};
-  return [&design, &observer](const EvaluationRecord& record) {
-    observer(simulated_with(design.file(), record));
-  };
+Result run_with_setting(const ProblemFile& file, const Observer& observer, const ObservedRun& run) {
+  return run_with_records(
+      [&](EvaluationRecord record) { return simulated_with(file, std::move(record)); }, observer,
+      run);
 }
 
 }  // namespace
 
+Result search_with_setting(DesignProblem& design, const SolveOptions& options,
+                           const Observer& observer) {
+  return run_with_setting(design.file(), observer,
+                          [&](const Observer& hears) { return search(design, options, hears); });
+}
+
 Result judge_design(DesignProblem& design, const SolveOptions& options, const Observer& observer) {
   const auto robust = robust_problem(design);
-  Result result = solve(robust ? *robust : design, options, with_setting_of(design, observer));
-  for (EvaluationRecord& record : result.history) {
-    record = simulated_with(design.file(), std::move(record));
-  }
+  Result result = run_with_setting(design.file(), observer, [&](const Observer& hears) {
+    return solve(robust ? *robust : design, options, hears);
+  });
   judge_numbers(design, options.checks_numbers ? Scrutiny::close : Scrutiny::none, result);
   return result;
 }
 
 Result solve_design(DesignProblem& design, const SolveOptions& options, const Observer& observer,
                     const Notice& notice) {
-  const ProblemFile& file = design.file();
-  require_linear_limits(file);
-  const Observer with_setting = with_setting_of(design, observer);
-  SearchedDesign searched(design, notice);
-  Result result = find_optimum(searched, options, with_setting, notice);
-  for (EvaluationRecord& record : result.history) record = simulated_with(file, std::move(record));
+  require_linear_limits(design.file());
+  Result result = run_with_setting(design.file(), observer, [&](const Observer& hears) {
+    return search_design_alone(design, options, hears, notice);
+  });
   return_to_best(design, options.verdict, result);
   judge_numbers(design, options.checks_numbers ? Scrutiny::close : Scrutiny::none, result);
   return result;

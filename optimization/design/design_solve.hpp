@@ -24,4 +24,13 @@ Result judge_design(DesignProblem& problem, const SolveOptions& options,
 /// most elements.
 EvaluationRecord simulated_with(const ProblemFile& file, EvaluationRecord record);
 
+/// search() for a problem file: the records know its setting.
+Result search_with_setting(DesignProblem& problem, const SolveOptions& options,
+                           const Observer& observer);
+
+/// Whether a search could evaluate its start.
+inline bool has_moved(const Result& result) {
+  return result.iterations > 0 && !result.history.front().has_failed();
+}
+
 }  // namespace pleuel

@@ -37,17 +37,14 @@ Eigen::VectorXd search_region(const MadeBodies& bodies, const Eigen::VectorXd& x
                               Result& before, const Observer& observer) {
   DesignProblem problem(bodies.continued_around(x, radius), execution.tasks.jobs, execution.store);
   problem.start_from(x);
-  const ProblemFile& file = problem.file();
   SolveOptions strict = options;
   strict.verdict.violation = tight_violation;
-  Result result = search(problem, strict, [&](const EvaluationRecord& record) {
-    observer(simulated_with(file, record));
+  Eigen::VectorXd found = x;
+  before = run_after(before, observer, [&](const Observer& hears) {
+    Result result = search_with_setting(problem, strict, hears);
+    if (has_moved(result)) found = result.x;
+    return result;
   });
-  for (EvaluationRecord& record : result.history) record = simulated_with(file, std::move(record));
-  const bool has_moved = result.iterations > 0 && !result.history.front().has_failed();
-  const Eigen::VectorXd found = has_moved ? result.x : x;
-  continue_from(before, result);
-  before = std::move(result);
   return found;
 }
 
@@ -57,9 +54,6 @@ Eigen::VectorXd search_between_calls(MadeBodies& bodies, const Eigen::VectorXd& 
                                      const SolveOptions& options, const Execution& execution,
                                      Result& before, const Observer& observer,
                                      const Notice& notice) {
-  const auto tell = [&](const std::string& text) {
-    if (notice) notice(text);
-  };
   double radius = first_radius;
   Eigen::VectorXd best = x;
   while (bodies.designs() < most_designs && radius > least_radius) {
@@ -69,7 +63,8 @@ Eigen::VectorXd search_between_calls(MadeBodies& bodies, const Eigen::VectorXd& 
     if (step < small_step) break;
     try {
       const double error = bodies.make_at(next);
-      tell(
+      notify(
+          notice,
           fmt::format("bodies were made for design {}, {:.2g} % away; their stiffness was foretold "
                       "to {:.2g} %",
                       bodies.designs(), 100.0 * step, 100.0 * error));
@@ -78,7 +73,7 @@ Eigen::VectorXd search_between_calls(MadeBodies& bodies, const Eigen::VectorXd& 
       radius = std::min(radius, longest_next_step * step);
       best = next;
     } catch (const SimulationError& failure) {
-      tell(fmt::format("{}: the next step is shorter", failure.what()));
+      notify(notice, fmt::format("{}: the next step is shorter", failure.what()));
       radius *= 0.25;
     }
   }

@@ -10,8 +10,8 @@
 #include "core/base/int_size.hpp"
 #include "core/base/parallel.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/scene/load_cases.hpp"
 #include "core/scene/packed_problem.hpp"
-#include "optimization/design/packed_solution.hpp"
 #include "optimization/result.hpp"
 #include "optimization/scaling.hpp"
 #include "optimization/solve.hpp"
@@ -112,8 +112,42 @@ std::string sentence_of(const MultiStart& all) {
   return text;
 }
 
-/// What a search tells.
-enum class Told : char { record, notice };
+/// A solution for another process, with what the problem of its last stage differs by from the file.
+std::string pack_solution(const StagedSolution& solution) {
+  const DesignProblem& problem = *solution.problem;
+  std::vector<EffectSettings> effects;
+  std::vector<std::optional<GradientChoice>> methods;
+  for (std::size_t c = 0; c < problem.case_count(); ++c) {
+    effects.push_back(problem.load_case(c).file().effects);
+    methods.push_back(problem.load_case(c).method());
+  }
+  return packed(solution.result, solution.stages, effects, methods);
+}
+
+/// @param file     that was solved
+/// @param threads  of the problem that is made again
+StagedSolution unpack_solution(const std::string& bytes, const ProblemFile& file, int threads) {
+  StagedSolution solution;
+  ProblemFile solved = file;
+  std::vector<EffectSettings> effects;
+  std::vector<std::optional<GradientChoice>> methods;
+  unpack(bytes, solution.result, solution.stages, effects, methods);
+  const std::vector<ProblemFile*> problems = simulated_problems(solved);
+  for (std::size_t c = 0; c < problems.size(); ++c) {
+    problems[c]->effects = std::move(effects[c]);
+    const bool is_chosen = !solution.stages.empty() && !solution.stages.back().settings.empty();
+    if (!is_chosen) continue;
+    *problems[c] = refined(std::move(*problems[c]), solution.stages.back().settings[c].setting);
+  }
+  solution.problem = std::make_unique<DesignProblem>(std::move(solved), threads);
+  for (std::size_t c = 0; c < methods.size(); ++c) {
+    if (methods[c]) solution.problem->load_case(c).decide_method(*methods[c]);
+  }
+  return solution;
+}
+
+/// What a message of a search is.
+enum class MessageKind : char { record, notice };
 
 /// A search from each of several designs.
 struct SearchData {
@@ -127,9 +161,11 @@ struct SearchData {
                   EvaluationStore* store) const {
     const Execution here = {{.jobs = available_threads()}, store};
     const Observer observer = [&](const EvaluationRecord& record) {
-      caller.tell(packed(Told::record, record));
+      caller.tell(packed(MessageKind::record, record));
     };
-    const Notice notice = [&](const std::string& text) { caller.tell(packed(Told::notice, text)); };
+    const Notice notice = [&](const std::string& text) {
+      caller.tell(packed(MessageKind::notice, text));
+    };
     return pack_solution(solve_in_stages(file, starts[task], options, here, observer, notice));
   }
 };
@@ -149,18 +185,17 @@ class Searches : public StoredTasks<SearchData> {
   void hear(int task, const std::string& message) override {
     announce(task);
     Unpacker unpacker(message);
-    Told kind = Told::record;
+    MessageKind kind = MessageKind::record;
     unpacker(kind);
-    if (kind == Told::notice) {
+    if (kind == MessageKind::notice) {
       std::string text;
       unpacker(text);
-      if (notice_) notice_(text);
-      return;
+      return notify(notice_, text);
     }
     EvaluationRecord record;
     unpacker(record);
     seen_.push_back(record);
-    if (observer_) observer_(following(record, before_));
+    show(observer_, following(record, before_));
   }
 
   void take(int task, const std::string& answer) override {
@@ -177,7 +212,7 @@ class Searches : public StoredTasks<SearchData> {
     none.result.x = start(task);
     none.result.history = std::move(seen_);
     none.result.evaluations = int_size(none.result.history);
-    if (notice_) notice_(none.result.message);
+    notify(notice_, none.result.message);
     add(std::move(none));
   }
 
@@ -191,24 +226,27 @@ class Searches : public StoredTasks<SearchData> {
     if (task < announced_) return;
     count_unfinished();
     announced_ = task + 1;
-    if (notice_) notice_(fmt::format("start {} of {}", task + 1, data().starts.size()));
+    notify(notice_, fmt::format("start {} of {}", task + 1, data().starts.size()));
   }
 
   /// After a stop, others are heard after a search that did not end.
   void count_unfinished() {
     if (seen_.empty()) return;
-    before_.evaluations += seen_.back().evaluation;
-    before_.iterations += seen_.back().iteration;
-    before_.seconds += seen_.back().seconds;
-    seen_.clear();
+    const EvaluationRecord& last = seen_.back();
+    add_effort(last.evaluation, last.iteration, last.seconds);
   }
 
   void add(StagedSolution solution) {
-    before_.evaluations += solution.result.evaluations;
-    before_.iterations += solution.result.iterations;
-    before_.seconds += solution.result.seconds;
-    seen_.clear();
+    const Result& result = solution.result;
+    add_effort(result.evaluations, result.iterations, result.seconds);
     solutions_.push_back(std::move(solution));
+  }
+
+  void add_effort(int evaluations, int iterations, double seconds) {
+    before_.evaluations += evaluations;
+    before_.iterations += iterations;
+    before_.seconds += seconds;
+    seen_.clear();
   }
 
   int jobs_;

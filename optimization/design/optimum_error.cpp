@@ -37,7 +37,7 @@ std::string advice(const ProblemFile& file, const ErrorBar& bar, double excess) 
 /// be trusted (core/trust/resolution.hpp).
 constexpr double most_unasked_error = 0.1;
 
-double share_of(const ErrorBar& bar, double size) {
+double relative_error(const ErrorBar& bar, double size) {
   return size > 0.0 ? bar.bound() / size : 0.0;
 }
 
@@ -47,7 +47,7 @@ std::string complaint(const ProblemFile& file, const std::string& what, const Er
                       double size, const std::string& failed_run) {
   const bool is_asked = file.accuracy.chooses_setting;
   const double target = is_asked ? file.accuracy.target : most_unasked_error;
-  const double share = share_of(bar, size);
+  const double share = relative_error(bar, size);
   if (!bar.is_modelled) return "";  // it is a doubt that forbids more
   if (bar.is_resolved() && share <= target) return "";
   const std::string amount =
@@ -66,38 +66,31 @@ bool may_break(const ConstraintSettings& limit, double value, double error) {
          (limit.lower && value - error < *limit.lower);
 }
 
-/// What the objective is made from: calls add(response, factor).
-template <class Add>
-void for_each_objective(DesignProblem& design, const Result& result, const Add& add) {
+/// What f + Σ μ c is made of: the objective and what is limited, each a response of one case. Where f is
+/// maximized it is f − Σ μ c, as the multipliers are those of −f.
+std::vector<WeightedResponse> parts_of_optimum(DesignProblem& design, const Result& result) {
   const ProblemFile& file = design.file();
+  std::vector<WeightedResponse> parts;
   const std::size_t objective = design.objective_response();
   if (file.objective->over_cases == OverCases::same) {
-    for (const WeightedResponse& part : design.linearized_at(result.x, objective).parts) {
-      add(part.response, part.weight);
-    }
-    return;
-  }
-  const std::size_t of_case = file.case_responses[objective].index;
-  for (std::size_t c = 0; c < design.case_count(); ++c) {
+    parts = design.linearized_at(result.x, objective).parts;
+  } else {
+    const std::size_t of_case = file.case_responses[objective].index;
     const bool has_shares = result.case_shares.size() > 0;
-    const double factor = has_shares ? result.case_shares(c) : design.objective_weight(c);
-    if (factor != 0.0) add(joined_response(file, {c, of_case}), factor);
+    for (std::size_t c = 0; c < design.case_count(); ++c) {
+      const double factor = has_shares ? result.case_shares(c) : design.objective_weight(c);
+      if (factor != 0.0) parts.push_back({joined_response(file, {c, of_case}), factor});
+    }
   }
-}
-
-/// Calls add(response, factor) for what f + Σ μ c is made of: the objective and what is limited, each a
-/// response of one case. Where f is maximized it is f − Σ μ c, as the multipliers are those of −f.
-template <class Add>
-void for_each_share(DesignProblem& design, const Result& result, const Add& add) {
-  for_each_objective(design, result, add);
   for (std::size_t i = 0; i < design.constraints().size(); ++i) {
     const auto response = design.response_of(i);
     const double multiplier = result.constraint_multipliers(i);
     if (!response || multiplier == 0.0) continue;
     for (const WeightedResponse& part : design.linearized_at(result.x, *response).parts) {
-      add(part.response, part.weight * design.objective_sign() * multiplier);
+      parts.push_back({part.response, part.weight * design.objective_sign() * multiplier});
     }
   }
+  return parts;
 }
 
 double nearest_limit(const ConstraintSettings& limit, double value) {
@@ -106,10 +99,16 @@ double nearest_limit(const ConstraintSettings& limit, double value) {
   return *limit.upper - value < value - *limit.lower ? *limit.upper : *limit.lower;
 }
 
-/// Calls visit(limit, error, size) for each limit that the error of its value could break.
-template <class Visit>
-void for_each_open_limit(DesignProblem& design, const Result& result, const Trust& trust,
-                         const Visit& visit) {
+/// A limit that the error of its value could break, and what the error is compared with.
+struct OpenLimit {
+  const std::string& response;
+  const ErrorBar& error;
+  double size;
+};
+
+std::vector<OpenLimit> open_limits(DesignProblem& design, const Result& result,
+                                   const Trust& trust) {
+  std::vector<OpenLimit> open;
   const std::vector<ConstraintSettings>& limits = design.file().constraints;
   for (std::size_t i = 0; i < limits.size(); ++i) {
     const auto response = design.response_of(i);
@@ -117,8 +116,9 @@ void for_each_open_limit(DesignProblem& design, const Result& result, const Trus
     const ErrorBar& error = *trust.errors[*response];
     const double value = result.evaluation.constraints(i);
     if (!may_break(limits[i], value, error.bound())) continue;
-    visit(limits[i], error, std::abs(nearest_limit(limits[i], value)));
+    open.push_back({limits[i].response, error, std::abs(nearest_limit(limits[i], value))});
   }
+  return open;
 }
 
 }  // namespace
@@ -126,19 +126,16 @@ void for_each_open_limit(DesignProblem& design, const Result& result, const Trus
 std::optional<ErrorBar> optimum_error(DesignProblem& design, const Result& result,
                                       const Trust& trust) {
   if (trust.errors.empty() || !has_prices(result)) return std::nullopt;
-  std::vector<WeightedResponse> shares;
-  for_each_share(design, result, [&](std::size_t response, double factor) {
-    shares.push_back({response, factor});
-  });
-  return error_of_sum(design.file(), trust, shares, std::abs(result.evaluation.objective))
+  return error_of_sum(design.file(), trust, parts_of_optimum(design, result),
+                      std::abs(result.evaluation.objective))
       .value_or(ErrorBar());
 }
 
 double optimum_change(DesignProblem& design, const Result& result, const Eigen::VectorXd& changes) {
   double change = 0.0;
-  for_each_share(design, result, [&](std::size_t response, double factor) {
-    change += factor * changes(response);
-  });
+  for (const WeightedResponse& part : parts_of_optimum(design, result)) {
+    change += part.weight * changes(part.response);
+  }
   return change;
 }
 
@@ -150,15 +147,13 @@ std::string inaccuracy(DesignProblem& design, const Result& result, const Trust&
       complaint(file, fmt::format("the optimum of {}", file.objective->response), *bar,
                 std::abs(result.evaluation.objective), trust.failed_run);
   if (!of_objective.empty()) return of_objective;
-  std::string of_limit;
-  for_each_open_limit(design, result, trust,
-                      [&](const ConstraintSettings& limit, const ErrorBar& error, double size) {
-                        const std::string what =
-                            fmt::format("\"{}\", which is limited,", limit.response);
-                        if (!of_limit.empty()) return;
-                        of_limit = complaint(file, what, error, size, trust.failed_run);
-                      });
-  return of_limit;
+  for (const OpenLimit& limit : open_limits(design, result, trust)) {
+    const std::string of_limit =
+        complaint(file, fmt::format("\"{}\", which is limited,", limit.response), limit.error,
+                  limit.size, trust.failed_run);
+    if (!of_limit.empty()) return of_limit;
+  }
+  return "";
 }
 
 std::string accuracy_text(DesignProblem& design, const Result& result, const Trust& trust) {
@@ -166,14 +161,12 @@ std::string accuracy_text(DesignProblem& design, const Result& result, const Tru
     return fmt::format("± {} %", significant(100.0 * share, 2));
   };
   std::string text =
-      "to " + percent(share_of(*result.error, std::abs(result.evaluation.objective)));
-  for_each_open_limit(design, result, trust,
-                      [&](const ConstraintSettings& limit, const ErrorBar& error, double size) {
-                        const double share = share_of(error, size);
-                        if (share <= design.file().accuracy.target) return;
-                        text += fmt::format(", the limit on \"{}\" to {}", limit.response,
-                                            percent(share));
-                      });
+      "to " + percent(relative_error(*result.error, std::abs(result.evaluation.objective)));
+  for (const OpenLimit& limit : open_limits(design, result, trust)) {
+    const double ratio = relative_error(limit.error, limit.size);
+    if (ratio <= design.file().accuracy.target) continue;
+    text += fmt::format(", the limit on \"{}\" to {}", limit.response, percent(ratio));
+  }
   return text;
 }
 

@@ -3,6 +3,7 @@
 #include "core/scene/response_parts.hpp"
 #include "optimization/design/design_problem.hpp"
 #include "optimization/design/peak_windows.hpp"
+#include "optimization/phase_one.hpp"
 
 namespace pleuel {
 
@@ -57,72 +58,58 @@ class PeakProblem : public Problem {
   bool divides_time() const;
 
   /// The constraint of the file that each row is of; none for those of the objective.
-  const std::vector<std::optional<std::size_t>>& constraint_of_row() const {
-    return constraint_of_row_;
-  }
+  const ConstraintOfRow& constraint_of_row() const { return constraint_of_row_; }
 
   /// How much of the objective is that of each case, by the multipliers of the rows: of the worst
   /// case shares that add up to 1. Empty where t does not stand for several cases.
   Eigen::VectorXd objective_shares(const Eigen::VectorXd& multipliers) const;
 
   /// x without t.
-  Eigen::VectorXd design_of(const Eigen::VectorXd& x) const;
+  Eigen::VectorXd design_of(const Eigen::VectorXd& x) const {
+    return x.head(problem_.variables().size());
+  }
   /// The objective of the file: with t, its highest window.
   double fold_objective(double objective, const Eigen::VectorXd& rows) const;
   /// Values of the rows as values of the constraints: the worst of each.
-  Eigen::VectorXd fold_values(const Eigen::VectorXd& rows) const;
+  Eigen::VectorXd fold_values(const Eigen::VectorXd& rows) const {
+    return worst_values(constraint_of_row_, rows, problem_.constraints());
+  }
   /// Multipliers of the rows as those of the constraints: their sums.
   Eigen::VectorXd fold_multipliers(const Eigen::VectorXd& rows) const;
 
  private:
-  /// How one limit, or the objective of a case, is split.
-  struct Split {
-    std::size_t load_case = 0;
-    std::optional<std::size_t> constraint;      ///< of the file; none of the objective
-    std::size_t in_case = 0;                    ///< the same in the problem of its case
-    std::size_t response = 0;                   ///< in the problem of its case
-    std::optional<std::size_t> part = {};       ///< that response, if it is one of several
-    std::optional<PeakDivision> division = {};  ///< none: one row, as it is
-    /// In place of a case: a response of the joined problem that is made from several.
-    std::optional<std::size_t> over_cases = {};
-    /// Of a part of a response over cases: what it is multiplied with.
-    std::optional<double> sign = {};
-
-    int rows() const { return division ? division->peaks() : 1; }
-  };
-
-  /// t of the objective of some cases, and what it counts in the objective.
-  struct Bound {
+  /// An epigraph variable t, which bounds the objective of some cases, and what it counts in the objective.
+  struct EpigraphVariable {
     double weight = 1.0;
-    std::vector<Split> splits;
+    std::vector<RowSource> sources = {};
     Eigen::Index first_row = 0, rows = 0;
   };
 
-  /// One for each response that is pressed upon.
-  std::vector<Split> split(std::size_t load_case, std::optional<std::size_t> constraint) const;
+  /// Of a limit or, without a constraint, of the objective of a case: one for each response that is pressed upon.
+  std::vector<RowSource> sources_in_case(std::size_t load_case,
+                                         std::optional<std::size_t> constraint) const;
   /// The same of a response of the joined problem.
-  std::vector<Split> split_over_cases(std::size_t response,
-                                      std::optional<std::size_t> constraint) const;
-  Split told_apart(Split one, Extreme side) const;
-  const ResponseSettings& response_of(const Split& split) const;
-  std::vector<Split> objective_over_cases() const;
+  std::vector<RowSource> sources_over_cases(std::size_t response,
+                                            std::optional<std::size_t> constraint) const;
+  std::vector<RowSource> objective_sources() const;
   std::optional<Extreme> pressed_side(std::optional<std::size_t> constraint) const;
+  const ResponseSettings& response_of(const RowSource& source) const;
+  RowSource divided(RowSource source, Extreme side) const;
   PeakDivision division_of(std::size_t load_case, const ResponseSettings& response) const;
-  void add_rows(const Split& split, const Constraint& limits);
-  bool objective_has_peaks() const;
+  void add_rows(const RowSource& source, std::optional<std::size_t> constraint,
+                const Constraint& limits);
   void bound_objective();
-  void add_bound(Bound bound);
-  void start_bounds();
+  void add_epigraph_variable(EpigraphVariable bound);
+  void start_epigraph_variables();
   void name_rows();
 
   DesignProblem& problem_;
   int windows_;
   std::vector<Variable> variables_;
   std::vector<Constraint> rows_;
-  std::vector<std::optional<std::size_t>> constraint_of_row_;
-  std::vector<Split> splits_;  ///< constraint by constraint
-  std::vector<Bound> bounds_;  ///< of the objective, where each t is a variable
-  NamedRows named_rows_;       ///< all that is split, as it is evaluated
+  ConstraintOfRow constraint_of_row_;
+  NamedRows named_rows_;                  ///< all of them, as they are evaluated
+  std::vector<EpigraphVariable> bounds_;  ///< of the objective
 };
 
 }  // namespace pleuel

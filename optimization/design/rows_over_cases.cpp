@@ -10,6 +10,12 @@
 
 namespace pleuel {
 
+RowSource response_row(const ProblemFile& joined, std::size_t response, double sign) {
+  const OfCase of_case = case_of_response(joined, response);
+  if (is_of_several(of_case)) return {0, {.sign = sign}, response};
+  return {of_case.load_case, {.part = of_case.index, .sign = sign}};
+}
+
 PartRows::PartRows(const ProblemFile& joined, const std::vector<std::size_t>& responses)
     : joined_(joined) {
   std::set<std::size_t> parts;
@@ -22,22 +28,18 @@ PartRows::PartRows(const ProblemFile& joined, const std::vector<std::size_t>& re
   }
 }
 
-NamedRows PartRows::added_to(NamedRows rows) const {
-  if (from_end_.empty()) return rows;
-  rows.name += ", with";
+void PartRows::add_to(RowsOfCases& rows, std::string& name) const {
+  if (from_end_.empty()) return;
+  name += ", with";
   for (const auto& [part, place] : from_end_) {
-    const OfCase of_case = case_of_response(joined_, part);
-    ConstraintRows row;
-    row.part = of_case.index;
-    row.sign = 1.0;
-    rows.cases[of_case.load_case].of.push_back(row);
-    rows.name += fmt::format(" {}", joined_.responses[part].name);
+    const RowSource source = response_row(joined_, part);
+    rows[source.load_case].push_back(source.rows);
+    name += fmt::format(" {}", joined_.responses[part].name);
   }
-  return rows;
 }
 
 double PartRows::combined(std::size_t response, const Eigen::VectorXd& x,
-                          const std::vector<DesignCase::Answer>& answers,
+                          const std::vector<StoredEvaluation>& answers,
                           Eigen::VectorXd* gradient) const {
   const auto row_of = [&](std::size_t part, const Evaluation& evaluation) {
     return evaluation.constraints.size() - from_end_.at(part);

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,25 +15,28 @@
 
 namespace pleuel {
 
-/// Rows of one load case, and where they stand among those of all cases.
-struct CaseRows {
-  std::vector<ConstraintRows> of;
-  std::vector<Eigen::Index> places = {};
+/// Where some components of a design problem come from: a case, or several.
+struct RowSource {
+  std::size_t load_case = 0;
+  ConstraintRows rows = {};  ///< in the problem of the case
+  /// In place of a case: a response of the joined problem that is made from several. One component, multiplied
+  /// with the sign of `rows`.
+  std::optional<std::size_t> over_cases = {};
+
+  int count() const { return over_cases ? 1 : rows.count(); }
 };
 
-/// A row that is made from responses of several cases.
-struct RowOverCases {
-  std::size_t response = 0;  ///< of the joined problem
-  Eigen::Index place = 0;    ///< among the rows of all cases
-  double sign = 1.0;         ///< that its value is multiplied with
-};
+/// A response of the joined problem by itself, neither limited nor minimized in its case.
+RowSource response_row(const ProblemFile& joined, std::size_t response, double sign = 1.0);
 
-/// Rows of all cases, with a name that tells them from other rows of the same file.
+/// Components of a design problem, with a name that tells them from others of the same file.
 struct NamedRows {
   std::string name;
-  std::vector<CaseRows> cases;  ///< one a case
-  std::vector<RowOverCases> over_cases = {};
+  std::vector<RowSource> sources;
 };
+
+/// Rows that each case is asked for.
+using RowsOfCases = std::vector<std::vector<ConstraintRows>>;
 
 /// What responses over cases are made from, as further rows of the cases: asked for behind their
 /// own, and put together when all are known.
@@ -41,14 +45,14 @@ class PartRows {
   /// @param responses  over cases, or of one case, by their places in the joined problem
   PartRows(const ProblemFile& joined, const std::vector<std::size_t>& responses);
 
-  /// The same rows, with those of the parts behind them.
-  NamedRows added_to(NamedRows rows) const;
+  /// Adds the rows of the parts behind others, and to their name.
+  void add_to(RowsOfCases& rows, std::string& name) const;
 
   /// Value of one of the responses, and its gradient where it is asked for.
-  /// @param answers   one a case, to the rows of added_to()
+  /// @param answers   one a case, to the rows of add_to()
   /// @param gradient  may be null
   double combined(std::size_t response, const Eigen::VectorXd& x,
-                  const std::vector<DesignCase::Answer>& answers, Eigen::VectorXd* gradient) const;
+                  const std::vector<StoredEvaluation>& answers, Eigen::VectorXd* gradient) const;
 
  private:
   const ProblemFile& joined_;

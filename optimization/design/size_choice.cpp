@@ -58,11 +58,12 @@ class SizeSearch {
                                 variable_scales(problem, solution_.result.x));
     const double most = is_optimized_ ? most_optimized : most_simulated_choices;
     report_.is_exhaustive = report_.combinations <= most;
-    notify(fmt::format(
-        "the optimum between the sizes has {} = {} ({})", problem.file().objective->response,
-        objective_text(report_.relaxed_objective), to_string(report_.relaxed_status)));
+    notify(notice_, fmt::format("the optimum between the sizes has {} = {} ({})",
+                                problem.file().objective->response,
+                                objective_text(report_.relaxed_objective),
+                                to_string(report_.relaxed_status)));
     if (report_.is_exhaustive) {
-      notify(fmt::format("all {} choices are tried", report_.combinations));
+      notify(notice_, fmt::format("all {} choices are tried", report_.combinations));
       attempt(lists_.all(), report_.relaxed_x);
     } else {
       search();
@@ -89,8 +90,7 @@ class SizeSearch {
   }
 
   void keep(const Sizes& choice, SizeTrial trial) {
-    add_effort(trial);
-    trial.history.clear();
+    add_effort(std::exchange(trial.history, {}), trial.seconds);
     ++report_.tried;
     if (trial.keeps_limits()) ++report_.feasible;
     const SizeTrial& kept = tried_.emplace(choice, std::move(trial)).first->second;
@@ -98,19 +98,19 @@ class SizeSearch {
   }
 
   /// The effort of the whole run, in the relaxed result.
-  void add_effort(SizeTrial& trial) {
+  void add_effort(History history, double seconds) {
     Result& all = solution_.result;
-    for (EvaluationRecord& record : trial.history) {
+    for (EvaluationRecord& record : history) {
       record = following(std::move(record), all);
-      if (observer_) observer_(record);
+      show(observer_, record);
     }
-    for (const EvaluationRecord& record : trial.history) {
+    for (const EvaluationRecord& record : history) {
       ++all.evaluations;
       if (record.request == Request::values_and_gradients) ++all.gradient_evaluations;
       all.iterations = std::max(all.iterations, record.iteration);
     }
-    all.seconds += trial.seconds;
-    all.history.insert(all.history.end(), trial.history.begin(), trial.history.end());
+    all.seconds += seconds;
+    all.history.insert(all.history.end(), history.begin(), history.end());
   }
 
   // ---- search
@@ -134,7 +134,8 @@ class SizeSearch {
         is_settled_ = true;
         return;
       }
-      notify(fmt::format("after {} choices: {} = {}{}", report_.tried, file_.objective->response,
+      notify(notice_,
+             fmt::format("after {} choices: {} = {}{}", report_.tried, file_.objective->response,
                          objective_text(tried_.at(*best_).objective),
                          tried_.at(*best_).keeps_limits() ? "" : ", outside the limits"));
     }
@@ -155,33 +156,23 @@ class SizeSearch {
     const Eigen::VectorXd& x = tried_.at(from).x;
     DesignProblem problem(file_, execution_.tasks.jobs, execution_.store);
     keep_methods(problem);
-    Result result;
-    result.x = x;
+    const double violation = tried_.at(from).max_violation;
     const Stopwatch stopwatch;
     Attempt attempt = attempt_evaluation(problem, x, Request::values_and_gradients);
-    SizeTrial effort;
-    EvaluationRecord record;
+    EvaluationRecord record = record_of(x, Request::values_and_gradients, attempt);
     record.evaluation = record.iteration = 1;
     record.purpose = Purpose::audit;
-    record.request = Request::values_and_gradients;
-    record.x = x;
-    record.failure = attempt.failure;
-    if (attempt.evaluation) {
-      record.objective = attempt.evaluation->objective;
-      record.constraints = attempt.evaluation->constraints;
-      record.max_violation = tried_.at(from).max_violation;
-    }
-    effort.seconds = record.seconds = stopwatch.seconds();
-    effort.history = {simulated_with(file_, std::move(record))};
-    add_effort(effort);
+    if (attempt.evaluation) record.max_violation = violation;
+    const double seconds = record.seconds = stopwatch.seconds();
+    add_effort({simulated_with(file_, std::move(record))}, seconds);
     if (!attempt.evaluation) return std::nullopt;
+    Result result;
+    result.x = x;
     result.evaluation = std::move(*attempt.evaluation);
     if (is_optimized_) {
-      const ProblemFile fixed = with_sizes(file_, x);
-      const DesignProblem others(fixed);
+      const DesignProblem others(with_sizes(file_, x));
       result.constraint_multipliers =
-          audit_kkt(others, {x, result.evaluation, tried_.at(from).max_violation},
-                    result.evaluation, scales_)
+          audit_kkt(others, {x, result.evaluation, violation}, result.evaluation, scales_)
               .constraint_multipliers;
     }
     return result;
@@ -224,15 +215,11 @@ class SizeSearch {
     solution_.problem = std::make_unique<DesignProblem>(with_sizes(file_, best.x),
                                                         execution_.tasks.jobs, execution_.store);
     solution_.problem->start_from(best.x);
-    const Observer observe = [&](const EvaluationRecord& record) {
-      if (observer_) observer_(following(record, before));
-    };
-    const bool has_free =
-        std::any_of(solution_.problem->variables().begin(), solution_.problem->variables().end(),
-                    [](const Variable& variable) { return !variable.is_fixed(); });
-    Result result = has_free ? solve_design(*solution_.problem, options_, observe, notice_)
-                             : judge_design(*solution_.problem, options_, observe);
-    continue_from(before, result);
+    const bool has_free = !std::ranges::all_of(solution_.problem->variables(), &Variable::is_fixed);
+    Result result = run_after(before, observer_, [&](const Observer& observer) {
+      return has_free ? solve_design(*solution_.problem, options_, observer, notice_)
+                      : judge_design(*solution_.problem, options_, observer);
+    });
     result.restarts = before.restarts;
     result.backend = before.backend;
     report_.is_choice = true;
@@ -321,10 +308,6 @@ class SizeSearch {
     return count < 1e6 ? fmt::format("{:.0f}", count) : fmt::format("{:.2g}", count);
   }
 
-  void notify(const std::string& text) const {
-    if (notice_) notice_(text);
-  }
-
   StagedSolution& solution_;
   const ProblemFile file_;
   SolveOptions options_;
@@ -348,18 +331,15 @@ double SizeChoiceReport::penalty(double objective) const {
 }
 
 bool has_choices(const ProblemFile& file) {
-  return std::any_of(file.variables.begin(), file.variables.end(),
-                     [](const DesignVariable& variable) { return variable.has_choices(); });
+  return std::ranges::any_of(file.variables, &DesignVariable::has_choices);
 }
 
 bool keeps_choices(const ProblemFile& file, const Eigen::VectorXd& x) {
   for (std::size_t i = 0; i < file.variables.size(); ++i) {
     const std::vector<SizeChoice>& choices = file.variables[i].choices;
-    if (choices.empty()) continue;
-    if (std::none_of(choices.begin(), choices.end(),
-                     [&](const SizeChoice& one) { return one.value == x(i); })) {
-      return false;
-    }
+    const bool is_chosen =
+        choices.empty() || std::ranges::count(choices, x(i), &SizeChoice::value) > 0;
+    if (!is_chosen) return false;
   }
   return true;
 }

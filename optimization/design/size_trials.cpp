@@ -17,11 +17,10 @@ namespace pleuel {
 
 namespace {
 
-EvaluationRecord failed_record(const Eigen::VectorXd& x, const std::string& failure) {
-  EvaluationRecord record;
+/// Of the only evaluation of a trial.
+EvaluationRecord only_record(const Eigen::VectorXd& x, const Attempt& attempt) {
+  EvaluationRecord record = record_of(x, Request::values, attempt);
   record.evaluation = 1;
-  record.x = x;
-  record.failure = failure;
   return record;
 }
 
@@ -45,15 +44,15 @@ struct TrialData {
     DesignProblem design(file, available_threads(), store);
     const Stopwatch stopwatch;
     const Attempt attempt = attempt_evaluation(design, x, Request::values);
-    SizeTrial trial;
-    trial.x = x;
-    EvaluationRecord record = failed_record(x, attempt.failure);
+    EvaluationRecord record = only_record(x, attempt);
+    record.seconds = stopwatch.seconds();
+    SizeTrial trial{.x = x, .objective = record.objective};
     if (attempt.evaluation) {
-      trial.objective = record.objective = attempt.evaluation->objective;
-      trial.constraints = record.constraints = attempt.evaluation->constraints;
-      trial.max_violation = record.max_violation = max_violation(design, trial.constraints, scales);
+      record.max_violation = max_violation(design, record.constraints, scales);
+      trial.max_violation = record.max_violation;
     }
-    trial.seconds = record.seconds = stopwatch.seconds();
+    trial.constraints = record.constraints;
+    trial.seconds = record.seconds;
     trial.history = {simulated_with(file, std::move(record))};
     return trial;
   }
@@ -90,7 +89,7 @@ class Trials : public StoredTasks<TrialData> {
 
   void fail(int task, const std::string& failure) override {
     trials_[task].x = data().designs[task];
-    trials_[task].history = {failed_record(data().designs[task], failure)};
+    trials_[task].history = {only_record(data().designs[task], {std::nullopt, failure})};
   }
 
   std::vector<SizeTrial> take_trials() { return std::move(trials_); }
@@ -108,12 +107,12 @@ bool is_better(const SizeTrial& one, const SizeTrial& other) {
 }
 
 bool needs_optimization(const ProblemFile& file) {
-  return std::any_of(file.variables.begin(), file.variables.end(),
-                     [](const DesignVariable& variable) {
-                       return !variable.has_choices() && variable.lower < variable.upper;
-                     }) ||
-         std::any_of(file.constraints.begin(), file.constraints.end(),
-                     [](const ConstraintSettings& one) { return one.deviations > 0.0; });
+  const auto is_free = [](const DesignVariable& variable) {
+    return !variable.has_choices() && variable.lower < variable.upper;
+  };
+  return std::ranges::any_of(file.variables, is_free) ||
+         std::ranges::any_of(file.constraints,
+                             [](const ConstraintSettings& one) { return one.deviations > 0.0; });
 }
 
 ProblemFile with_sizes(ProblemFile file, const Eigen::VectorXd& x) {

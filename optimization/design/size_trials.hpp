@@ -15,8 +15,8 @@ namespace pleuel {
 struct SizeTrial {
   Eigen::VectorXd x;  ///< [SI]
   double objective = 0.0, max_violation = std::numeric_limits<double>::infinity();
-  Eigen::VectorXd constraints;
-  History history;
+  Eigen::VectorXd constraints = {};
+  History history = {};
   double seconds = 0.0;
 
   bool has_failed() const { return constraints.size() == 0 && !std::isfinite(max_violation); }

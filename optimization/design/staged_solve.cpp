@@ -112,7 +112,7 @@ class StagedSolve {
     if (next.effects.tolerance <= 0.0) return false;
     decide_effects(next, solution_.result.x);
     if (left_out(next) == left_out(solution_.problem->file())) return false;
-    if (notice_) notice_("effects that were left out at the start matter here, and are taken back");
+    notify(notice_, "effects that were left out at the start matter here, and are taken back");
     begin_stage({}, std::move(next), solution_.result.x);
     return true;
   }
@@ -144,9 +144,7 @@ class StagedSolve {
     is_new = is_new || left_out(chosen) != left_out(solution_.problem->file());
     if (!is_new && solution_.result.evaluation.has_gradients()) return false;
     stage.choice_seconds = watch.seconds();
-    for (const std::string& text : notices) {
-      if (notice_) notice_(text);
-    }
+    for (const std::string& text : notices) notify(notice_, text);
     begin_stage(std::move(stage), std::move(chosen), x);
     return is_new;
   }
@@ -163,16 +161,13 @@ class StagedSolve {
   bool search_from(Eigen::VectorXd& x) {
     SolveOptions coarse = options_;
     coarse.tolerance = std::max(options_.tolerance, search_share * solution_.stages.back().target);
-    const ProblemFile& file = solution_.problem->file();
-    Result result = search(*solution_.problem, coarse, [&](const EvaluationRecord& record) {
-      observe(simulated_with(file, record));
+    bool can_go_on = false;
+    add([&](const Observer& observer) {
+      Result result = search_with_setting(*solution_.problem, coarse, observer);
+      can_go_on = has_moved(result);
+      if (can_go_on) x = result.x;
+      return result;
     });
-    for (EvaluationRecord& record : result.history) {
-      record = simulated_with(file, std::move(record));
-    }
-    const bool can_go_on = result.iterations > 0 && !result.history.front().has_failed();
-    if (can_go_on) x = result.x;
-    add(std::move(result));
     return can_go_on;
   }
 
@@ -180,21 +175,20 @@ class StagedSolve {
     SolveOptions rest = options_;
     rest.max_iterations = std::max(1, options_.max_iterations - solution_.result.iterations);
     rest.earlier = {solution_.result.iterations, solution_.result.restarts};
-    add(solve_design(
-        *solution_.problem, rest, [&](const EvaluationRecord& record) { observe(record); },
-        notice_));
+    add([&](const Observer& observer) {
+      return solve_design(*solution_.problem, rest, observer, notice_);
+    });
   }
 
-  void observe(const EvaluationRecord& record) const {
-    if (observer_) observer_(following(record, solution_.result));
-  }
-
-  void add(Result result) {
+  void add(const ObservedRun& run) {
     Stage& stage = solution_.stages.back();
-    stage.evaluations = result.evaluations;
-    stage.seconds = result.seconds;
     const bool is_first = solution_.result.history.empty();
-    continue_from(solution_.result, result);
+    Result result = run_after(solution_.result, observer_, [&](const Observer& observer) {
+      Result own = run(observer);
+      stage.evaluations = own.evaluations;
+      stage.seconds = own.seconds;
+      return own;
+    });
     if (!is_first) ++result.restarts;
     solution_.result = std::move(result);
   }
@@ -216,9 +210,7 @@ class MadeSolve {
       : bodies_(file),
         options_(options),
         execution_(execution),
-        observer_([&](const EvaluationRecord& record) {
-          if (observer) observer(following(record, before_));
-        }),
+        observer_(observer),
         notice_(notice) {
     options_.takes_verified_start = true;
   }
@@ -230,8 +222,9 @@ class MadeSolve {
     bool can_go_on = true;
     for (int round = 1; round < most_judgements && can_go_on && has_left(solution); ++round) {
       can_go_on = make_at(solution.result.x);
-      tell(can_go_on ? "bodies were made for the design that was found, which is judged again"
-                     : "the last design that bodies were made for is judged in its place");
+      notify(notice_, can_go_on
+                          ? "bodies were made for the design that was found, which is judged again"
+                          : "the last design that bodies were made for is judged in its place");
       if (!can_go_on) options_.max_iterations = 1;
       ProblemFile next = solution.problem->file();
       next.accuracy.chooses_setting = false;  // that is done
@@ -246,10 +239,6 @@ class MadeSolve {
  private:
   static constexpr int most_judgements = 5;
 
-  void tell(const std::string& text) const {
-    if (notice_) notice_(text);
-  }
-
   /// @returns whether there are bodies
   bool make_at(const Eigen::VectorXd& x) {
     try {
@@ -257,7 +246,7 @@ class MadeSolve {
       made_for_ = x;
       return true;
     } catch (const SimulationError& failure) {
-      tell(failure.what());
+      notify(notice_, failure.what());
       return false;
     }
   }
@@ -267,9 +256,12 @@ class MadeSolve {
   }
 
   StagedSolution solve(const ProblemFile& file, const Eigen::VectorXd& x) {
-    StagedSolution solution = StagedSolve(file, options_, execution_, observer_, notice_).run(x);
-    continue_from(before_, solution.result);
-    before_ = solution.result;
+    StagedSolution solution;
+    before_ = run_after(before_, observer_, [&](const Observer& observer) {
+      solution = StagedSolve(file, options_, execution_, observer, notice_).run(x);
+      return std::move(solution.result);
+    });
+    solution.result = before_;
     return solution;
   }
 
@@ -278,7 +270,7 @@ class MadeSolve {
   const Execution& execution_;
   Result before_;             ///< effort and history so far
   Eigen::VectorXd made_for_;  ///< the last design with bodies
-  const Observer observer_;
+  const Observer& observer_;
   const Notice& notice_;
 };
 

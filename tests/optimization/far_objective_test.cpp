@@ -11,7 +11,7 @@
 #include "known_problems.hpp"
 #include "optimization/backends.hpp"
 #include "optimization/find_optimum.hpp"
-#include "optimization/objective_bend.hpp"
+#include "optimization/scaling.hpp"
 
 namespace pleuel::test::far_objective_test {
 namespace {
@@ -59,7 +59,7 @@ KnownProblem penalty() {
 /// 2 x² + 3 y² + 10 x z with z fixed: s ∘ ∇f changes by s² f'' a step of s, with s = 0.5 of x and 3,
 /// its range, of y, which is at its upper bound. 54 is the larger one; that of the fixed z does not
 /// count.
-TEST(ObjectiveBend, IsTheScaledCurvatureOfFreeVariables) {
+TEST(ObjectiveCurvature, IsTheScaledCurvatureOfFreeVariables) {
   FunctionProblem problem({{"x", 0.5, 0.0, 1.0}, {"y", 4.0, 1.0, 4.0}, {"z", 30.0, 30.0, 30.0}}, {},
                           by_complex_step([](const auto& x) {
                             return column(
@@ -68,12 +68,12 @@ TEST(ObjectiveBend, IsTheScaledCurvatureOfFreeVariables) {
   const Eigen::Vector3d x(0.5, 4.0, 30.0);
   const Evaluation at = problem.evaluate(x, Request::values_and_gradients);
   Evaluation there;
-  const double bend = objective_bend(problem, x, at, [&](const Eigen::VectorXd& beside) {
+  const double curvature = objective_curvature(problem, x, at, [&](const Eigen::VectorXd& beside) {
     EXPECT_LE(beside[1], 4.0);
     there = problem.evaluate(beside, Request::values_and_gradients);
     return &there;
   });
-  EXPECT_NEAR(bend, 3.0 * 3.0 * 6.0, 1e-9);
+  EXPECT_NEAR(curvature, 3.0 * 3.0 * 6.0, 1e-9);
 }
 
 class FarObjective : public testing::TestWithParam<std::string> {};

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "optimization/problem.hpp"
+#include "optimization/scaling.hpp"
 
 namespace pleuel {
 
@@ -14,38 +14,23 @@ double damped_violation(double violation);
 /// dψ/dg
 double damped_violation_slope(double violation);
 
-/// One side of a limit as g = sign · (c − limit) / C ≤ 0.
-struct LimitSide {
-  std::size_t constraint = 0;
-  double sign = 1.0;
-  double limit = 0.0;
-  double magnitude = 1.0;  ///< C
-
-  double violation(const Eigen::VectorXd& constraints) const {
-    return sign * (constraints[constraint] - limit) / magnitude;
-  }
-};
-
-/// Both sides of all limits that are finite.
-/// @param magnitudes  C, one a constraint
-std::vector<LimitSide> limit_sides(const Problem& problem, const Eigen::VectorXd& magnitudes);
-
-/// How far limits have to give: some of them are elastic, the others hold.
+/// Phase 1, how far limits have to give: some of them are elastic, the others hold.
 ///
 ///     minimize z   subject to   ψ(g) ≤ z for elastic limits,   g ≤ 0 for all others,   z ≥ 0
 ///
-/// (its rows as 1 + ψ − z ≤ 1: relative violations stay what they are). A design of it is (x, z). With all limits elastic its optimum is the design of least largest
-/// violation, and the multipliers of its rows, which add up to 1, name the limits that are in
-/// conflict there. With one limit elastic it is what this limit has to give if all others hold.
-class ElasticProblem : public Problem {
+/// (its rows as 1 + ψ − z ≤ 1: relative violations stay what they are). A design of it is (x, z). With all limits
+/// elastic its optimum is the design of least largest violation, and the multipliers of its rows, which add up to
+/// 1, name the limits that are in conflict there. With one limit elastic it is what this limit has to give if all
+/// others hold.
+class PhaseOneProblem : public Problem {
  public:
   /// @param problem     must outlive this
   /// @param is_elastic  one a constraint
   /// @param start       x, where `at_start` is its evaluation
   /// @param magnitudes  C, one a constraint
-  ElasticProblem(Problem& problem, const std::vector<bool>& is_elastic,
-                 const Eigen::VectorXd& start, const Evaluation& at_start,
-                 const Eigen::VectorXd& magnitudes);
+  PhaseOneProblem(Problem& problem, const std::vector<bool>& is_elastic,
+                  const Eigen::VectorXd& start, const Evaluation& at_start,
+                  const Eigen::VectorXd& magnitudes);
 
   const std::vector<Variable>& variables() const override { return variables_; }
   const std::vector<Constraint>& constraints() const override { return rows_; }

@@ -4,11 +4,12 @@
 
 namespace pleuel {
 
-/// Another problem, whose answers derived classes change or follow.
-class ForwardingProblem : public Problem {
+/// Another problem, whose answers derived classes change or follow: the base of all that makes one problem of
+/// another with the same variables.
+class ProblemDecorator : public Problem {
  public:
   /// @param problem  must outlive this
-  explicit ForwardingProblem(Problem& problem) : problem_(problem) {}
+  explicit ProblemDecorator(Problem& problem) : problem_(problem) {}
 
   const std::vector<Variable>& variables() const override { return problem_.variables(); }
   const std::vector<Constraint>& constraints() const override { return problem_.constraints(); }
@@ -28,6 +29,20 @@ class ForwardingProblem : public Problem {
 
  private:
   Problem& problem_;
+};
+
+/// A problem that begins at another design.
+class StartedProblem : public ProblemDecorator {
+ public:
+  StartedProblem(Problem& problem, const Eigen::VectorXd& start)
+      : ProblemDecorator(problem), variables_(problem.variables()) {
+    set_start(variables_, start);
+  }
+
+  const std::vector<Variable>& variables() const override { return variables_; }
+
+ private:
+  std::vector<Variable> variables_;
 };
 
 }  // namespace pleuel

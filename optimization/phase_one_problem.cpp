@@ -1,4 +1,4 @@
-#include "optimization/elastic_problem.hpp"
+#include "optimization/phase_one_problem.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,20 +22,9 @@ double damped_violation_slope(double violation) {
   return violation > 0.0 ? 1.0 / (1.0 + violation) : 1.0;
 }
 
-std::vector<LimitSide> limit_sides(const Problem& problem, const Eigen::VectorXd& magnitudes) {
-  std::vector<LimitSide> sides;
-  for (std::size_t i = 0; i < problem.constraints().size(); ++i) {
-    const Constraint& limits = problem.constraints()[i];
-    const double magnitude = magnitudes[i];
-    if (limits.has_upper()) sides.push_back({i, 1.0, limits.upper, magnitude});
-    if (limits.has_lower()) sides.push_back({i, -1.0, limits.lower, magnitude});
-  }
-  return sides;
-}
-
-ElasticProblem::ElasticProblem(Problem& problem, const std::vector<bool>& is_elastic,
-                               const Eigen::VectorXd& start, const Evaluation& at_start,
-                               const Eigen::VectorXd& magnitudes)
+PhaseOneProblem::PhaseOneProblem(Problem& problem, const std::vector<bool>& is_elastic,
+                                 const Eigen::VectorXd& start, const Evaluation& at_start,
+                                 const Eigen::VectorXd& magnitudes)
     : problem_(problem), variables_(problem.variables()), sides_(limit_sides(problem, magnitudes)) {
   double largest = 0.0;
   for (const LimitSide& side : sides_) {
@@ -45,15 +34,12 @@ ElasticProblem::ElasticProblem(Problem& problem, const std::vector<bool>& is_ela
       largest = std::max(largest, damped_violation(side.violation(at_start.constraints)));
     }
   }
-  for (std::size_t i = 0; i < variables_.size(); ++i) {
-    Variable& variable = variables_[i];
-    variable.start = std::clamp(start[i], variable.lower, variable.upper);
-  }
+  set_start(variables_, within_bounds(problem, start));
   variables_.push_back(
       {"violation", largest, 0.0, infinity, std::max(least_violation_magnitude, largest)});
 }
 
-Evaluation ElasticProblem::evaluate(const Eigen::VectorXd& xz, Request request) {
+Evaluation PhaseOneProblem::evaluate(const Eigen::VectorXd& xz, Request request) {
   const Evaluation inner = problem_.evaluate(design_of(xz), request);
   const Eigen::Index last = xz.size() - 1;
   Evaluation evaluation;
