@@ -12,11 +12,11 @@
 
 #include "cli/files/run_picture.hpp"
 #include "cli/files/trajectory_csv.hpp"
+#include "cli/reports/analysis_report.hpp"
 #include "cli/reports/case_report.hpp"
 #include "cli/reports/drives_report.hpp"
 #include "cli/reports/effects_report.hpp"
 #include "cli/reports/influence_report.hpp"
-#include "cli/reports/monitors_report.hpp"
 #include "cli/reports/optimum_report.hpp"
 #include "core/base/error.hpp"
 #include "core/base/stop.hpp"

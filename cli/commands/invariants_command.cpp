@@ -72,11 +72,8 @@ Json file_document(const InvariantsFile& file, const fs::path& path) {
 
 Outcome report(const std::vector<InvariantsFile>& files, const std::vector<fs::path>& paths) {
   Outcome outcome{ExitCode::done, {{"bodies", Json::array()}, {"warnings", Json::array()}}, ""};
-  Table table({{"body", Table::Align::left},
-               {"coordinates"},
-               {"places"},
-               {"variables"},
-               {"written to", Table::Align::left}});
+  Table table(
+      {left_aligned("body"), "coordinates", "places", "variables", left_aligned("written to")});
   for (std::size_t i = 0; i < files.size(); ++i) {
     outcome.document["bodies"].push_back(file_document(files[i], paths[i]));
     table.add_row({files[i].body, std::to_string(files[i].coordinates.size()),

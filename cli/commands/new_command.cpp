@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 Outcome list_starters(const Arguments& arguments) {
   Outcome outcome;
   outcome.document = {{"kinds", Json::object()}};
-  Table table({{"kind", Table::Align::left}, {"", Table::Align::left}});
+  Table table({left_aligned("kind"), left_aligned("")});
   for (const Starter& starter : starters()) {
     outcome.document["kinds"][starter.kind] = starter.description;
     table.add_row({starter.kind, starter.description});

@@ -158,10 +158,11 @@ Outcome run_optimize(const Arguments& arguments) {
     return document;
   };
   if (arguments.wants_all_warnings) optimum.consequences = 0;
-  show(arguments.progress(), optimum_report(optimum, arguments.is_verbose) +
+  const Json document = result_document();
+  show(arguments.progress(), optimum_report(optimum, document, arguments.is_verbose) +
                                  (answer.sizes ? sizes_text(solved, *answer.sizes, result) : "") +
                                  starts_text(solved, all) + stages_text(solution.stages));
-  record.write("result.json", result_document());
+  record.write("result.json", document);
   Examined examined;
   solution.problem->forget_analyses();
   if (optimum.has_design()) {

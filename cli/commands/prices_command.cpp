@@ -110,9 +110,8 @@ Json make_document(const ProblemFile& problem, const AnalyzedDesign& design,
   for (const NumberPrice& price : list.prices) {
     document["prices"][price.name] = price_document(price);
   }
-  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
-    document["variables"][problem.variables[i].name]["value"] = design.x(i);
-  }
+  const Json values = by_name(problem.variables, design.x);
+  for (const auto& [variable, x] : values.items()) document["variables"][variable]["value"] = x;
   return document;
 }
 
@@ -140,13 +139,9 @@ std::string shown_name(const NumberPrice& price) {
 
 std::string prices_text(const ProblemFile& problem, const PriceList& list) {
   const ShownUnit objective = unit_of(find_response(problem, problem.objective->response));
-  Table table({{"number", Table::Align::left},
-               {"value"},
-               {"unit", Table::Align::left},
-               {fmt::format("{}/unit", objective.name)},
-               {fmt::format("{} at +1 %", objective.name)},
-               {"at +1 %"},
-               {"", Table::Align::left}});
+  Table table({left_aligned("number"), "value", left_aligned("unit"),
+               fmt::format("{}/unit", objective.name), fmt::format("{} at +1 %", objective.name),
+               "at +1 %", left_aligned("")});
   std::size_t lines = 0;
   for (const NumberPrice& price : list.prices) {
     if (price.per_unit == 0.0) continue;

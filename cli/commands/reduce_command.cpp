@@ -55,7 +55,7 @@ std::string understood_text(const ReducedBody& body, const ReductionModel& model
 }
 
 std::string modes_text(const ReducedBody& body) {
-  Table table({{"mode with held interfaces", Table::Align::left}, {"frequency [Hz]"}});
+  Table table({left_aligned("mode with held interfaces"), "frequency [Hz]"});
   for (Eigen::Index i = 0; i < body.frequencies.size(); ++i) {
     table.add_row({std::to_string(i + 1), fmt::format("{:.1f}", hertz(body.frequencies(i)))});
   }

@@ -32,14 +32,8 @@ std::vector<OlderRun> runs_in(const fs::path& folder) {
 }
 
 std::string table_text(const std::vector<OlderRun>& runs) {
-  Table table({{"run", Table::Align::left},
-               {"command", Table::Align::left},
-               {"status", Table::Align::left},
-               {"objective"},
-               {"", Table::Align::left},
-               {"time"},
-               {"date"},
-               {"problem", Table::Align::left}});
+  Table table({left_aligned("run"), left_aligned("command"), left_aligned("status"), "objective",
+               left_aligned(""), "time", "date", left_aligned("problem")});
   for (const OlderRun& run : runs) {
     const auto objective = run.objective(), seconds = run.seconds();
     table.add_row({run.folder.filename().string(), run.command(), run.status(),

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "cli/input/fingerprint.hpp"
-#include "cli/input/own_file.hpp"
 #include "cli/text/wrapped_text.hpp"
 
 namespace pleuel {

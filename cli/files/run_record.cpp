@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/files/older_run.hpp"
 #include "cli/files/report_page.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "cli/versions.hpp"

@@ -15,11 +15,7 @@ namespace pleuel {
 namespace {
 
 Json of_responses(const ProblemFile& problem, const Eigen::VectorXd& numbers) {
-  Json document = Json::object();
-  for (Eigen::Index i = 0; i < numbers.size(); ++i) {
-    document[problem.responses[i].name] = numbers(i);
-  }
-  return document;
+  return by_name(problem.responses, numbers);
 }
 
 Json number_or_null(const std::optional<double>& number) {
@@ -37,17 +33,6 @@ void add_measures(const ProblemFile& problem, const AccuracyRun& run, Json& docu
   document["work"] = {{"steps", run.steps},
                       {"newton_iterations", run.newton_iterations},
                       {"factorizations", run.factorizations}};
-}
-
-Json run_document(const ProblemFile& problem, const AccuracyRun& run) {
-  Json document = {{"settings", settings_document(run.settings)}};
-  if (run.has_failed()) {
-    document["failure"] = run.failure;
-    return document;
-  }
-  document["warnings"] = texts_of(run.doubts);
-  add_measures(problem, run, document);
-  return document;
 }
 
 /// Of the setting, and of what is changed of it.
@@ -166,10 +151,7 @@ Json optimum_document(const ProblemInput& input, const OptimumStudy& optima,
   document["objective"] = run.objective;
   document["error"] = run.change;
   document["relative_error"] = optima.relative_error(run);
-  document["variables"] = Json::object();
-  for (std::size_t i = 0; i < input.problem.variables.size(); ++i) {
-    document["variables"][input.problem.variables[i].name] = run.x(i);
-  }
+  document["variables"] = by_name(input.problem.variables, run.x);
   return document;
 }
 
@@ -204,6 +186,17 @@ Json settings_document(const Discretization& settings) {
   } else {
     document["element_factor"] = settings.factor;
   }
+  return document;
+}
+
+Json run_document(const ProblemFile& problem, const AccuracyRun& run) {
+  Json document = {{"settings", settings_document(run.settings)}};
+  if (run.has_failed()) {
+    document["failure"] = run.failure;
+    return document;
+  }
+  document["warnings"] = texts_of(run.doubts);
+  add_measures(problem, run, document);
   return document;
 }
 

@@ -34,11 +34,7 @@ void add_influence(const ProblemFile& problem, const EffectInfluence& influence,
     entry["failure"] = influence.failure;
     return;
   }
-  entry["influence"] = Json::object();
-  for (std::size_t i = 0; i < problem.responses.size(); ++i) {
-    const double change = influence.changes(i);
-    entry["influence"][problem.responses[i].name] = change;
-  }
+  entry["influence"] = by_name(problem.responses, influence.changes);
   entry["unknowns"] = influence.unknowns;
   entry["iterations"] = influence.iterations;
   if (influence.time) entry["time"] = time_change_document(*influence.time);
@@ -98,12 +94,8 @@ Json effects_document(const ProblemFile& problem, const Model& model,
 }
 
 std::string effects_text(const Model& model) {
-  Table table({{"effect", Table::Align::left},
-               {"of", Table::Align::left},
-               {"built", Table::Align::left},
-               {"decision", Table::Align::left},
-               {"saves"},
-               {"because", Table::Align::left}});
+  Table table({left_aligned("effect"), left_aligned("of"), left_aligned("built"),
+               left_aligned("decision"), "saves", left_aligned("because")});
   for (const auto& [effect, bodies] : alike_effects(model)) {
     table.add_row({effect->name, bodies_text(bodies), effect->is_built ? "yes" : "no",
                    kind_of(*effect),

@@ -166,11 +166,11 @@ void mark_effects(const MeasuredEffects& effects, Json& document) {
 
 std::string influences_text(const MeasuredEffects& effects, bool shows_all) {
   if (effects.influences.empty()) return "";
-  std::vector<Table::Column> columns = {
-      {"without", Table::Align::left}, {"of", Table::Align::left}, {"unknowns"}, {"iterations"}};
-  if (has_times(effects)) columns.push_back({"time"});
-  if (effects.price) columns.push_back({"optimum"});
-  columns.push_back({"largest change of a response", Table::Align::left});
+  std::vector<Table::Column> columns = {left_aligned("without"), left_aligned("of"), "unknowns",
+                                        "iterations"};
+  if (has_times(effects)) columns.push_back("time");
+  if (effects.price) columns.push_back("optimum");
+  columns.push_back(left_aligned("largest change of a response"));
   Table table(columns);
   const std::vector<bool> matters = effects_that_matter(effects);
   for (std::size_t i = 0; i < matters.size(); ++i) {

@@ -39,13 +39,4 @@ struct Optimum {
   }
 };
 
-/// The limit of a constraint that is nearer to its value, and how much of it is used.
-struct UsedLimit {
-  double limit = 0.0;
-  bool is_upper = true;
-  std::optional<double> utilisation;  ///< 1 = at the limit; none where the ratio says nothing
-};
-
-UsedLimit used_limit(const ConstraintSettings& constraint, double value);
-
 }  // namespace pleuel

@@ -1,8 +1,9 @@
 #include "cli/reports/optimum_document.hpp"
 
+#include "cli/reports/analysis_report.hpp"
 #include "cli/reports/case_report.hpp"
 #include "cli/reports/error_report.hpp"
-#include "cli/reports/monitors_report.hpp"
+#include "cli/reports/limits_report.hpp"
 #include "cli/reports/plain_verdict.hpp"
 #include "cli/reports/scene_report.hpp"
 #include "core/scene/case_goals.hpp"
@@ -26,17 +27,12 @@ Json objective_document(const Optimum& optimum) {
 
 Json constraint_document(const Optimum& optimum, std::size_t i) {
   const ConstraintSettings& constraint = optimum.problem.constraints[i];
-  const double value = optimum.result.evaluation.constraints(i);
-  const UsedLimit used = used_limit(constraint, value);
-  Json document = {{"value", value},
-                   {"limit", used.limit},
-                   {"side", used.is_upper ? "upper" : "lower"},
-                   {"unit", unit_of(optimum.problem, constraint).si}};
+  Json document =
+      limit_entry(optimum.problem, constraint, optimum.result.evaluation.constraints(i));
   if (has_prices(optimum.result)) {
     document["multiplier"] =
         optimum.problem.objective->sign() * optimum.result.constraint_multipliers(i);
   }
-  if (used.utilisation) document["utilisation"] = *used.utilisation;
   if (constraint.deviations > 0.0) document["deviations"] = constraint.deviations;
   const std::string load_case = case_of(optimum.problem, i);
   if (!load_case.empty()) {

@@ -79,11 +79,8 @@ class ActionRow {
 }  // namespace
 
 std::string joints_text(const ProblemFile& problem) {
-  Table table({{"joint", Table::Align::left},
-               {"kind", Table::Align::left},
-               {"of", Table::Align::left},
-               {"free in space"},
-               {"the second body", Table::Align::left}});
+  Table table({left_aligned("joint"), left_aligned("kind"), left_aligned("of"), "free in space",
+               left_aligned("the second body")});
   for (const Joint& joint : problem.scene.joints) {
     const JointKind& kind = kind_of(joint.type);
     std::string freedom(kind.freedom);
@@ -96,10 +93,8 @@ std::string joints_text(const ProblemFile& problem) {
 
 std::string actions_text(const ProblemFile& problem, const Eigen::VectorXd& x) {
   const Design<double> design(x.begin(), x.end());
-  Table table({{"acts", Table::Align::left},
-               {"kind", Table::Align::left},
-               {"on", Table::Align::left},
-               {"smallest … largest", Table::Align::left}});
+  Table table({left_aligned("acts"), left_aligned("kind"), left_aligned("on"),
+               left_aligned("smallest … largest")});
   for (const Joint& joint : problem.scene.joints) {
     if (!joint.drive) continue;
     const bool turns = joint.drive->coordinate == DrivenCoordinate::angle;

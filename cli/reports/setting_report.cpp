@@ -131,14 +131,8 @@ Json stages_document(const std::vector<Stage>& stages) {
 }
 
 std::string stages_text(const std::vector<Stage>& stages) {
-  Table table({{"target"},
-               {"step"},
-               {"elements"},
-               {"known to"},
-               {"by", Table::Align::left},
-               {"found in"},
-               {"evaluations"},
-               {"seconds"}});
+  Table table({"target", "step", "elements", "known to", left_aligned("by"), "found in",
+               "evaluations", "seconds"});
   for (const Stage& stage : stages) {
     if (stage.target <= 0.0) continue;
     for (const TriedSetting& setting : stage.settings) {
