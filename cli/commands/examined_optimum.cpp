@@ -16,7 +16,6 @@
 #include "cli/reports/case_report.hpp"
 #include "cli/reports/drives_report.hpp"
 #include "cli/reports/effects_report.hpp"
-#include "cli/reports/influence_report.hpp"
 #include "cli/reports/optimum_report.hpp"
 #include "core/base/error.hpp"
 #include "core/base/stop.hpp"

@@ -249,7 +249,7 @@ std::string seconds_text(const std::vector<MethodResult>& results, double simula
 void write_run(RunRecord& record, const Arguments& arguments, const ProblemInput& input,
                Analysis& analysis, Outcome& outcome) {
   record.begin_phase("histories");
-  record.write("result.json", outcome.document);
+  record.write_result(outcome.document);
   write_trajectory(record.result("trajectory.csv"), analysis);
   if (arguments.wants_histories) {
     write_history_gradients(record.result("gradients.csv"), input.problem, analysis);

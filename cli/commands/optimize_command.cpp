@@ -15,7 +15,6 @@
 #include "cli/input/solve_settings.hpp"
 #include "cli/reports/case_report.hpp"
 #include "cli/reports/effects_report.hpp"
-#include "cli/reports/influence_report.hpp"
 #include "cli/reports/iteration_lines.hpp"
 #include "cli/reports/optimum_document.hpp"
 #include "cli/reports/optimum_report.hpp"
@@ -162,7 +161,7 @@ Outcome run_optimize(const Arguments& arguments) {
   show(arguments.progress(), optimum_report(optimum, document, arguments.is_verbose) +
                                  (answer.sizes ? sizes_text(solved, *answer.sizes, result) : "") +
                                  starts_text(solved, all) + stages_text(solution.stages));
-  record.write("result.json", document);
+  record.write_result(document);
   Examined examined;
   solution.problem->forget_analyses();
   if (optimum.has_design()) {

@@ -236,7 +236,7 @@ Outcome run_prices(const Arguments& arguments) {
                   make_document(input.problem, design, list), report(input.problem, design, list)};
   outcome.text += fmt::format("Written to {}: prices.csv, result.json, run_card.json\n",
                               record.folder().string());
-  record.write("result.json", outcome.document);
+  record.write_result(outcome.document);
   write_csv(record.result("prices.csv"), list);
   record.show_picture([&] {
     return run_picture(input.problem, {{arguments.design ? "design" : "start", input.design}});

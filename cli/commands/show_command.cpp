@@ -150,7 +150,7 @@ Outcome show_in_folder(const Arguments& arguments, const ProblemInput& input) {
   RunRecord record(arguments, input, Json::object());
   record.begin_phase("show");
   Shown shown = describe(input.problem, input.design);
-  record.write("result.json", shown.document);
+  record.write_result(shown.document);
   record.show_picture([&] { return picture_of(arguments, input, shown.motion); });
   Outcome outcome{ExitCode::done, shown.document, shown.text};
   record.finish(outcome);

@@ -10,7 +10,6 @@
 #include "cli/input/problem_input.hpp"
 #include "cli/reports/analysis_report.hpp"
 #include "cli/reports/effects_report.hpp"
-#include "cli/reports/influence_report.hpp"
 #include "cli/reports/limits_report.hpp"
 #include "cli/reports/scene_report.hpp"
 #include "cli/reports/setting_report.hpp"
@@ -195,7 +194,7 @@ Outcome run_simulate(const Arguments& arguments) {
   if (input.choice) outcome.document["setting"] = setting_document(input, *input.choice);
   outcome.document["variables"] = variables_document(input.problem, input.design);
   outcome.document["constraints"] = limits;
-  record.write("result.json", outcome.document);
+  record.write_result(outcome.document);
   write_trajectory(record.result("trajectory.csv"), *analysis, run.bands);
   record.show_picture([&] {
     const std::string name = arguments.design ? "design" : "start";

@@ -274,7 +274,7 @@ Outcome run_uncertainty(const Arguments& arguments) {
       fmt::format("Written to {}: uncertainty.csv, result.json, run_card.json, run.sqlite\n",
                   record.folder().string());
   store.finish(outcome);
-  record.write("result.json", outcome.document);
+  record.write_result(outcome.document);
   write_histories(record.result("uncertainty.csv"), problem, study);
   record.show_picture([&] {
     return run_picture(input.problem, {{arguments.design ? "design" : "start", input.design}});

@@ -9,6 +9,12 @@ std::string to_text(const Json& document) {
   return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+Json versioned(const Json& document) {
+  Json whole = {{"version", 1}};
+  whole.update(document);
+  return whole;
+}
+
 std::optional<std::string> first_reordered(const Json& one, const Json& other) {
   if (one == other || one.type() != other.type() || one.size() != other.size()) return std::nullopt;
   if (one.is_object()) {

@@ -23,6 +23,9 @@ Json by_name(const std::vector<Named>& things, const Numbers& numbers) {
 /// An indented document that ends with a newline; numbers read back exactly.
 std::string to_text(const Json& document);
 
+/// A document that a command prints or keeps, with the version of its keys before them.
+Json versioned(const Json& document);
+
 /// Of documents that are equal but for the order of keys: the first object whose keys stand in
 /// another order, as a JSON pointer. None if the order is the same.
 std::optional<std::string> first_reordered(const Json& one, const Json& other);
