@@ -7,14 +7,13 @@
 
 #include <fmt/format.h>
 
-#include "cli/input/fingerprint.hpp"
 #include "cli/input/problem_input.hpp"
-#include "cli/reports/case_report.hpp"
 #include "cli/reports/limits_report.hpp"
 #include "cli/reports/over_cases_report.hpp"
 #include "cli/text/console.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/error.hpp"
+#include "core/base/plain_file_name.hpp"
 #include "core/base/stop.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/problem_reader.hpp"

@@ -121,14 +121,12 @@ struct MethodFindings {
 };
 
 Json comparison_document(const ProblemFile& problem, const std::vector<ComparedMethod>& compared) {
-  Json document = Json::array();
-  for (const ComparedMethod& one : compared) {
-    document.push_back({{"method", to_string(one.method)},
-                        {"step", one.step > 0.0 ? Json(one.step) : Json(nullptr)},
-                        {"seconds", one.seconds},
-                        {"errors", by_name(problem.responses, one.errors)}});
-  }
-  return document;
+  return list_of(compared, [&](const ComparedMethod& one) {
+    return Json{{"method", to_string(one.method)},
+                {"step", one.step > 0.0 ? Json(one.step) : Json(nullptr)},
+                {"seconds", one.seconds},
+                {"errors", by_name(problem.responses, one.errors)}};
+  });
 }
 
 /// Of each method with its best step.

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -7,13 +6,11 @@
 
 #include "cli/commands/commands.hpp"
 #include "cli/commands/examined_optimum.hpp"
-#include "cli/files/command_text.hpp"
 #include "cli/files/failed_design.hpp"
 #include "cli/files/history_csv.hpp"
 #include "cli/files/run_record.hpp"
 #include "cli/files/run_store.hpp"
 #include "cli/input/solve_settings.hpp"
-#include "cli/reports/case_report.hpp"
 #include "cli/reports/effects_report.hpp"
 #include "cli/reports/iteration_lines.hpp"
 #include "cli/reports/optimum_document.hpp"
@@ -24,8 +21,6 @@
 #include "cli/reports/warnings.hpp"
 #include "cli/text/console.hpp"
 #include "cli/text/wrapped_text.hpp"
-#include "core/base/error.hpp"
-#include "core/base/stop.hpp"
 #include "core/scene/body_rules.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/trust/far_limits.hpp"
@@ -35,7 +30,6 @@
 #include "optimization/design/optimum_error.hpp"
 #include "optimization/design/staged_solve.hpp"
 #include "optimization/design/whole_search.hpp"
-#include "optimization/prices.hpp"
 
 namespace pleuel {
 

@@ -21,7 +21,6 @@
 #include "core/scene/case_goals.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/shown_unit.hpp"
-#include "optimization/prices.hpp"
 #include "studies/missing_settings.hpp"
 #include "studies/pareto.hpp"
 #include "studies/pareto_knee.hpp"

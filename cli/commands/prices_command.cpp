@@ -11,7 +11,6 @@
 #include "cli/input/solve_settings.hpp"
 #include "cli/reports/iteration_lines.hpp"
 #include "cli/reports/warnings.hpp"
-#include "cli/text/console.hpp"
 #include "cli/text/table.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/number_text.hpp"
@@ -103,13 +102,10 @@ Json make_document(const ProblemFile& problem, const AnalyzedDesign& design,
                      {"value", list.objective},
                      {"unit", unit_of(find_response(problem, name)).si}}},
                    {"kkt_residual", list.residual},
-                   {"prices", Json::object()},
+                   {"prices", named_entries(list.prices, price_document)},
                    {"variables", Json::object()},
                    {"unknown", list.unknown},
                    {"warnings", design.warnings}};
-  for (const NumberPrice& price : list.prices) {
-    document["prices"][price.name] = price_document(price);
-  }
   const Json values = by_name(problem.variables, design.x);
   for (const auto& [variable, x] : values.items()) document["variables"][variable]["value"] = x;
   return document;

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <map>
-#include <optional>
 
 #include <fmt/format.h>
 
@@ -10,7 +9,6 @@
 #include "cli/files/output_file.hpp"
 #include "cli/files/report_page.hpp"
 #include "cli/files/run_folder.hpp"
-#include "cli/text/console.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/error.hpp"
 

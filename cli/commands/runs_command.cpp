@@ -43,7 +43,7 @@ std::string table_text(const std::vector<OlderRun>& runs) {
   return table.text();
 }
 
-Json run_document(const OlderRun& run) {
+Json listed_run(const OlderRun& run) {
   Json document = {{"folder", run.folder.string()},
                    {"command", run.command()},
                    {"problem", run.problem()},
@@ -78,8 +78,7 @@ Outcome run_runs(const Arguments& arguments) {
       return one.written() < other.written();
     });
   }
-  outcome.document = {{"runs", Json::array()}};
-  for (const OlderRun& run : runs) outcome.document["runs"].push_back(run_document(run));
+  outcome.document = {{"runs", list_of(runs, listed_run)}};
   outcome.text = runs.empty() ? fmt::format("{}: no runs\n", folder.string()) : table_text(runs);
   return outcome;
 }

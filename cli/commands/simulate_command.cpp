@@ -1,4 +1,3 @@
-#include <algorithm>
 
 #include <fmt/format.h>
 
@@ -21,7 +20,6 @@
 #include "core/base/stop.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/integration/periodic_start.hpp"
-#include "core/scene/reading/override.hpp"
 #include "core/trust/doubts.hpp"
 #include "core/trust/proportions.hpp"
 #include "core/trust/ranking.hpp"

@@ -26,7 +26,7 @@ std::string run_name(const Json& run) {
   return case_name(run) + ", " + text_at(run, "/formulation");
 }
 
-Json run_document(const StabilityRun& run) {
+Json stability_entry(const StabilityRun& run) {
   Json document = {
       {"file", run.file.string()}, {"problem", run.problem}, {"formulation", run.formulation}};
   if (!run.is_ok()) {
@@ -46,14 +46,13 @@ Json run_document(const StabilityRun& run) {
 }
 
 Json make_document(const std::vector<StabilityRun>& runs, bool is_whole) {
-  Json document = {
-      {"status", study_status(is_whole)}, {"formulations", Json::array()}, {"runs", Json::array()}};
+  Json document = {{"status", study_status(is_whole)}, {"formulations", Json::array()}};
   for (const auto* compared : {&compared_formulations(), &compared_schemes()}) {
     for (const ComparedFormulation& formulation : *compared) {
       document["formulations"].push_back(formulation.name);
     }
   }
-  for (const StabilityRun& run : runs) document["runs"].push_back(run_document(run));
+  document["runs"] = list_of(runs, stability_entry);
   return document;
 }
 
@@ -122,7 +121,7 @@ std::vector<StabilityRun> run_all(const Arguments& arguments, std::size_t all,
       [&](const StabilityRun& run) {
         keep(run);
         ++done;
-        progress.print(fmt::format("  {}: {}", run_name(run_document(run)),
+        progress.print(fmt::format("  {}: {}", run_name(stability_entry(run)),
                                    run.is_ok() ? duration(run.seconds) : "failed"));
         progress.show_share(fmt::format("{} of {} runs", done, all), double(done) / double(all));
       },
@@ -145,7 +144,7 @@ Outcome run_stability(const Arguments& arguments) {
       inputs.size() * (compared_formulations().size() + compared_schemes().size());
   const std::vector<StabilityRun> runs = run_all(arguments, all, [&](const StabilityRun& run) {
     if (!csv) csv.emplace(record.result("stability.csv"), stability_columns());
-    csv->add(run_document(run));
+    csv->add(stability_entry(run));
   });
   const bool is_whole = runs.size() == all;
   Outcome outcome{is_whole ? ExitCode::done : ExitCode::not_verified, make_document(runs, is_whole),

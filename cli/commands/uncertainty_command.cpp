@@ -71,11 +71,14 @@ Json limit_document(const ProblemFile& problem, const UncertaintyStudy& study,
 }
 
 Json make_document(const ProblemFile& problem, const UncertaintyStudy& study) {
+  const auto limit_entry = [&](const LimitScatter& limit) {
+    return limit_document(problem, study, limit);
+  };
   Json document = {
       {"status", study_status(!study.is_interrupted)},
       {"parameters", Json::object()},
       {"responses", Json::object()},
-      {"limits", Json::array()},
+      {"limits", list_of(study.limits, limit_entry)},
       {"samples", study.samples},
       {"failures", study.failures},
       {"warnings", texts_of(study.doubts)},
@@ -88,9 +91,6 @@ Json make_document(const ProblemFile& problem, const UncertaintyStudy& study) {
   }
   for (std::size_t i = 0; i < study.responses.size(); ++i) {
     document["responses"][problem.responses[i].name] = response_document(problem, study, i);
-  }
-  for (const LimitScatter& limit : study.limits) {
-    document["limits"].push_back(limit_document(problem, study, limit));
   }
   return document;
 }

@@ -50,9 +50,6 @@ std::string first_difference(const Json& there, const Json& here) {
 RunStore::RunStore(RunRecord& record, const Arguments& arguments, const ProblemInput& input,
                    Json options)
     : record_(record) {
-  Json variables = Json::array(), constraints = Json::array();
-  for (const auto& variable : input.problem.variables) variables.push_back(variable.name);
-  for (const auto& constraint : input.problem.constraints) constraints.push_back(constraint.name);
   description_ = {{"command", arguments.command},
                   {"arguments", arguments.words},
                   {"problem", input.effective},
@@ -61,8 +58,8 @@ RunStore::RunStore(RunRecord& record, const Arguments& arguments, const ProblemI
                   {"options", std::move(options)},
                   {"versions", record.versions()},
                   {"program", program_fingerprint()},
-                  {"variables", variables},
-                  {"constraints", constraints}};
+                  {"variables", list_of(input.problem.variables, &DesignVariable::name)},
+                  {"constraints", list_of(input.problem.constraints, &ConstraintSettings::name)}};
   if (arguments.resumes) open_older();
 }
 

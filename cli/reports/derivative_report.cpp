@@ -20,12 +20,9 @@ int digits_of(double relative_error) {
 }
 
 Json curve_document(const std::vector<CentralDifference>& curve) {
-  Json document = Json::array();
-  for (const CentralDifference& difference : curve) {
-    document.push_back(
-        {{"step", difference.step}, {"difference", difference.value}, {"error", difference.error}});
-  }
-  return document;
+  return list_of(curve, [](const CentralDifference& one) {
+    return Json{{"step", one.step}, {"difference", one.value}, {"error", one.error}};
+  });
 }
 
 Json variable_document(const JudgedDerivative& judged) {

@@ -9,7 +9,7 @@
 #include "cli/reports/case_report.hpp"
 #include "cli/reports/document_table.hpp"
 #include "cli/reports/error_report.hpp"
-#include "cli/reports/plain_verdict.hpp"
+#include "cli/reports/optimum_document.hpp"
 #include "cli/reports/scene_report.hpp"
 #include "cli/reports/sizes_report.hpp"
 #include "cli/reports/warnings.hpp"

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "cli/reports/optimum.hpp"
+#include "cli/reports/optimum_document.hpp"
 #include "cli/text/json.hpp"
 
 namespace pleuel {

@@ -2,16 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <string>
 #include <vector>
-
-#include <fmt/format.h>
 
 #include "cli/reports/limits_report.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/error.hpp"
-#include "core/base/number_text.hpp"
 #include "core/response/value_over_cases.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/shown_unit.hpp"

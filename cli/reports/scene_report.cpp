@@ -79,15 +79,13 @@ const char* to_string(ReachedBound reached) {
 }
 
 Json bodies_document(const Model& model) {
-  Json document = Json::array();
-  for (const BodyRow& body : body_rows(model)) {
-    document.push_back({{"name", body.name},
-                        {"mass", body.mass},
-                        {"frames", body.frames},
-                        {"elements", body.elements},
-                        {"coordinates", body.rigid + body.elastic}});
-  }
-  return document;
+  return list_of(body_rows(model), [](const BodyRow& body) {
+    return Json{{"name", body.name},
+                {"mass", body.mass},
+                {"frames", body.frames},
+                {"elements", body.elements},
+                {"coordinates", body.rigid + body.elastic}};
+  });
 }
 
 std::string bodies_text(const Model& model) {

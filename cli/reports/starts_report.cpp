@@ -44,22 +44,21 @@ std::string starts_text(const ProblemFile& problem, const MultiStart& all) {
 
 Json starts_document(const ProblemFile& problem, const MultiStart& all) {
   const double sign = problem.objective->sign();
-  Json optima = Json::array(), runs = Json::array();
-  for (const LocalOptimum& one : all.optima) {
-    optima.push_back({{"objective", sign * one.objective},
-                      {"found", one.starts.size()},
-                      {"variables", by_name(problem.variables, one.x)}});
-  }
-  for (const StartRun& one : all.runs) {
+  const auto optimum_entry = [&](const LocalOptimum& one) {
+    return Json{{"objective", sign * one.objective},
+                {"found", one.starts.size()},
+                {"variables", by_name(problem.variables, one.x)}};
+  };
+  const auto run_entry = [&](const StartRun& one) {
     Json run = {{"start", by_name(problem.variables, one.start)},
                 {"status", to_string(one.status)},
                 {"objective", sign * one.objective},
                 {"max_violation", one.max_violation},
                 {"evaluations", one.evaluations}};
     if (one.optimum) run["optimum"] = *one.optimum;
-    runs.push_back(std::move(run));
-  }
-  return {{"optima", optima}, {"runs", runs}};
+    return run;
+  };
+  return {{"optima", list_of(all.optima, optimum_entry)}, {"runs", list_of(all.runs, run_entry)}};
 }
 
 }  // namespace pleuel
