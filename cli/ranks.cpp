@@ -12,10 +12,14 @@
 
 #include "cli/input/fingerprint.hpp"
 #include "cli/interruption.hpp"
-#include "cli/work_makers.hpp"
 #include "core/base/error.hpp"
 #include "core/base/packed.hpp"
 #include "core/base/task_server.hpp"
+#include "optimization/design/multi_start.hpp"
+#include "optimization/design/size_trials.hpp"
+#include "studies/front_ends.hpp"
+#include "studies/pareto.hpp"
+#include "studies/uncertainty.hpp"
 
 namespace pleuel {
 
@@ -34,6 +38,15 @@ std::vector<int> usable_processors() {
     if (CPU_ISSET(i, &usable)) processors.push_back(i);
   }
   return processors;
+}
+
+/// All work that other ranks can do.
+WorkMakers work_makers() {
+  return {{search_work_name, make_search_work},
+          {trial_work_name, make_trial_work},
+          {end_work_name, make_end_work},
+          {point_work_name, make_point_work},
+          {sample_work_name, make_sample_work}};
 }
 
 }  // namespace

@@ -48,7 +48,9 @@ Outcome run_command(const Arguments& arguments) {
   std::optional<ProgramPermission> permission;
   if (arguments.allows_programs) permission.emplace();
   try {
-    return run_named(arguments);
+    Outcome outcome = run_named(arguments);
+    outcome.document = versioned(outcome.document);
+    return outcome;
   } catch (const InputError& error) {
     throw InputError(with_file(error.what(), arguments));
   } catch (const SimulationError& error) {

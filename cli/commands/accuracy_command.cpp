@@ -5,8 +5,7 @@
 
 #include "cli/commands/commands.hpp"
 #include "cli/commands/progress_line.hpp"
-#include "cli/files/accuracy_csv.hpp"
-#include "cli/files/output_file.hpp"
+#include "cli/files/csv_file.hpp"
 #include "cli/files/run_picture.hpp"
 #include "cli/files/run_record.hpp"
 #include "cli/files/run_store.hpp"
@@ -71,14 +70,42 @@ class GridProgress {
   double seconds_a_work_ = 0.0;
 };
 
+/// accuracy.csv: a line for each run as it is done [SI]; empty cells where nothing is known.
+std::vector<CsvColumn> accuracy_columns(const ProblemFile& problem) {
+  const Json::json_pointer run, work("/work");
+  std::vector<CsvColumn> columns = {{"step", Json::json_pointer("/settings/step")},
+                                    {"elements", run / "elements"}};
+  for (const char* name : {"steps", "newton_iterations", "factorizations"}) {
+    columns.push_back({name, work / name});
+  }
+  for (const char* name : {"simulation_seconds", "gradient_seconds"}) {
+    columns.push_back({name, run / name});
+  }
+  for (const std::string kind : {"error", "gradient_error"}) {
+    for (const ResponseSettings& one : problem.responses) {
+      columns.push_back({kind + ":" + one.name, run / (kind + "s") / one.name});
+    }
+  }
+  columns.push_back({"failure", run / "failure"});
+  return columns;
+}
+
+/// Elements, or by how much those of the file are multiplied.
+Json csv_line(const ProblemFile& problem, const AccuracyRun& run) {
+  Json line = run_document(problem, run);
+  line["elements"] = run.settings.elements > 0 ? Json(run.settings.elements)
+                                               : Json(fmt::format("×{:g}", run.settings.factor));
+  return line;
+}
+
 /// Writes accuracy.csv from the first result on, and tells what is done.
 AccuracyObserver make_observer(const ProblemFile& problem, RunRecord& record,
-                               std::optional<AccuracyCsv>& csv, ProgressLine& progress,
+                               std::optional<DocumentCsv>& csv, ProgressLine& progress,
                                GridProgress& grid) {
   AccuracyObserver observer;
   observer.run = [&](const AccuracyRun& run) {
-    if (!csv) csv.emplace(record.result("accuracy.csv"), problem);
-    csv->add(run);
+    if (!csv) csv.emplace(record.result("accuracy.csv"), accuracy_columns(problem));
+    csv->add(csv_line(problem, run));
     progress.print(run_line(setting_text(run.settings), run.seconds(), run.failure));
     grid.see(run);
   };
@@ -120,7 +147,7 @@ Answer find_answer(const ProblemInput& input, const Arguments& arguments, RunRec
       arguments.wants_optimum ? find_optimal_design(input, arguments, store) : input.design;
   record.begin_phase("accuracy");
   const PricedDesign design(problem, x);
-  std::optional<AccuracyCsv> csv;
+  std::optional<DocumentCsv> csv;
   ProgressLine progress(arguments, "the reference");
   GridProgress grid(problem, progress);
   const AccuracyObserver observer = make_observer(problem, record, csv, progress, grid);

@@ -22,7 +22,7 @@ std::string advice(const std::string& name) {
 }  // namespace
 
 Outcome run_backends(const Arguments&) {
-  Table table({{"backend", Table::Align::left}, {"", Table::Align::left}});
+  Table table({left_aligned("backend"), left_aligned("")});
   for (const std::string& name : optimizer_names()) table.add_row({name, advice(name)});
   return {ExitCode::done, {{"backends", optimizer_names()}}, table.text()};
 }

@@ -11,8 +11,6 @@
 #include "cli/reports/analysis_report.hpp"
 #include "cli/reports/derivative_report.hpp"
 #include "cli/reports/effects_report.hpp"
-#include "cli/reports/influence_report.hpp"
-#include "cli/reports/monitors_report.hpp"
 #include "cli/reports/scene_report.hpp"
 #include "cli/reports/ties.hpp"
 #include "cli/reports/warnings.hpp"

@@ -3,7 +3,6 @@
 #include <map>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -13,8 +12,7 @@
 #include "cli/files/output_file.hpp"
 #include "cli/files/report_page.hpp"
 #include "cli/files/run_folder.hpp"
-#include "cli/text/characters.hpp"
-#include "cli/text/table.hpp"
+#include "cli/reports/document_table.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/error.hpp"
 #include "core/base/number_text.hpp"
@@ -26,20 +24,14 @@ namespace pleuel {
 
 namespace {
 
-/// A place where the inputs differ: null where it is missing.
-struct Difference {
-  std::string place;
-  Json first, second;
-};
-
 Json at_or_null(const Json& document, const Json::json_pointer& place) {
   return document.contains(place) ? document.at(place) : Json();
 }
 
-/// Single values wherever both have them; what only one has, as a whole. The order of keys is no
-/// difference.
+/// [{"place", "first", "second"}], null where it is missing: single values wherever both have them;
+/// what only one has, as a whole. The order of keys is no difference.
 void add_differences(const Json& first, const Json& second, const std::string& place,
-                     std::vector<Difference>& differences) {
+                     Json& differences) {
   if (nlohmann::json(first) == nlohmann::json(second)) return;
   if (first.is_object() && second.is_object()) {
     Json all = first;
@@ -51,11 +43,11 @@ void add_differences(const Json& first, const Json& second, const std::string& p
     }
     return;
   }
-  differences.push_back({place, first, second});
+  differences.push_back({{"place", place}, {"first", first}, {"second", second}});
 }
 
-std::vector<Difference> input_differences(const OlderRun& first, const OlderRun& second) {
-  std::vector<Difference> differences;
+Json input_differences(const OlderRun& first, const OlderRun& second) {
+  Json differences = Json::array();
   const auto compare = [&](const char* key, const std::string& place) {
     add_differences(first.card.value(key, Json()), second.card.value(key, Json()), place,
                     differences);
@@ -85,66 +77,57 @@ std::string same_inputs_text(const OlderRun& first, const OlderRun& second) {
                      place->empty() ? "the file" : *place);
 }
 
-std::string inputs_text(const std::vector<Difference>& differences) {
+std::string inputs_text(const Json& differences) {
   constexpr std::size_t narrowest = 20, gaps = 6;
-  Table table({{"input", Table::Align::left},
-               {"first", Table::Align::left},
-               {"second", Table::Align::left}});
   std::size_t places = 0;
-  for (const Difference& one : differences) places = std::max(places, characters(one.place));
+  for (const Json& one : differences) places = std::max(places, characters(text_at(one, "/place")));
   const std::size_t room = line_width() - std::min(line_width(), places + gaps);
-  const std::size_t widest = std::max(narrowest, room / 2);
-  for (const Difference& one : differences) {
-    table.add_row({one.place, value_text(one.first, widest), value_text(one.second, widest)});
-  }
-  return table.text();
+  const auto value_column = [&](const std::string& key) {
+    const auto text = [=](const std::string&, const Json& one) {
+      return value_text(one.at(key), std::max(narrowest, room / 2));
+    };
+    return DocumentColumn{key, text, Table::Align::left};
+  };
+  return table_of(differences,
+                  {text_column("input", "/place"), value_column("first"), value_column("second")})
+      .text();
 }
 
-/// A number that both results have, or one of them.
-struct Compared {
-  std::string group, name, unit;  ///< SI
-  Json first, second;
-  std::string title;  ///< what of it, if that is not its value; of points their number
+/// In which units the first run, or else the second, was asked for its numbers, by groups.
+using Units = std::map<std::string, NamedUnits>;
 
-  bool has_both() const { return first.is_number() && second.is_number(); }
-  std::string shown_name() const { return title.empty() ? name : name + ", " + title; }
-};
+/// A file that cannot be read any more, as where its catalogue is gone, has no units.
+void add_units(const OlderRun& run, Units& units) try {
+  const Json input = run.card.value("input", Json::object());
+  const ProblemFile problem =
+      read_problem_text(run.card.at("problem").dump(), input.value("file", ""), {}).complete();
+  units["variables"].merge(units_of_variables(problem));
+  units["responses"].merge(units_of_responses(problem));
+  units["constraints"].merge(units_of_limits(problem));
+} catch (const std::exception&) {
+}
 
-/// In which units the first run, or else the second, was asked for its numbers.
-class Units {
- public:
-  Units(const OlderRun& first, const OlderRun& second) {
-    add(second);
-    add(first);
-  }
+/// Of a number that both results have, or one of them.
+ShownUnit unit_in(const Units& units, const Json& compared) {
+  const std::string group = text_at(compared, "/group"), si = text_at(compared, "/unit");
+  const auto of_group = units.find(group == "points" ? "responses" : group);
+  if (group == "effort") return {};
+  if (of_group == units.end()) return engineering_unit(si);
+  const auto known = of_group->second.find(text_at(compared, "/name"));
+  const bool fits =
+      known != of_group->second.end() && (known->second.si == si || group == "variables");
+  return fits ? known->second : engineering_unit(si);
+}
 
-  ShownUnit of(const Compared& value) const {
-    const auto known =
-        units_.find({value.group == "points" ? "responses" : value.group, value.name});
-    const bool fits =
-        known != units_.end() && (known->second.si == value.unit || value.group == "variables");
-    return fits ? known->second : engineering_unit(value.unit);
-  }
-
- private:
-  /// A file that cannot be read any more, as where its catalogue is gone, has no units.
-  void add(const OlderRun& run) try {
-    const Json input = run.card.value("input", Json::object());
-    const ProblemFile problem =
-        read_problem_text(run.card.at("problem").dump(), input.value("file", ""), {}).complete();
-    const std::vector<ShownUnit> units = variable_units(problem);
-    for (std::size_t i = 0; i < units.size(); ++i) {
-      units_[{"variables", problem.variables[i].name}] = units[i];
-    }
-    for (const auto& one : problem.responses) units_[{"responses", one.name}] = unit_of(one);
-    for (const auto& one : problem.constraints) {
-      units_[{"constraints", one.name}] = unit_of(problem, one);
-    }
-  } catch (const std::exception&) {
-  }
-
-  std::map<std::pair<std::string, std::string>, ShownUnit> units_;
-};
+/// An entry of "outcome": a number that both results have, or one of them [SI].
+/// @param of  what of it, if that is not its value; of points their number
+Json compared(const std::string& group, const std::string& name, const std::string& of,
+              const std::string& unit, const Json& first, const Json& second) {
+  Json entry = {{"group", group}, {"name", name}};
+  if (!of.empty()) entry["of"] = of;
+  entry.update({{"unit", unit}, {"first", first}, {"second", second}});
+  return entry;
+}
 
 /// A part of a result, by name; nothing where it is not there.
 Json part_of(const OlderRun& run, const std::string& name) {
@@ -166,37 +149,34 @@ struct ComparedKey {
 
 /// The numbers of {NAME: {"value", "deviation", "unit"}} in both results.
 void add_values(const OlderRun& first, const OlderRun& second, const std::string& group,
-                std::vector<Compared>& compared) {
+                Json& outcome) {
   constexpr ComparedKey keys[] = {{"value", ""}, {"deviation", "deviation"}};
   const Json one = part_of(first, group), other = part_of(second, group);
   Json all = one;
   all.update(other);
-  for (const auto& entry : all.items()) {
-    const std::string& name = entry.key();
-    const Json unit = member(one.contains(name) ? one : other, name, "unit");
+  for (const auto& [name, entry] : all.items()) {
+    const Json& shown = one.contains(name) ? one[name] : entry;
     for (const auto& [key, title] : keys) {
       const Json a = member(one, name, key), b = member(other, name, key);
       if (!a.is_number() && !b.is_number()) continue;
-      compared.push_back(
-          {group, name, unit.is_string() ? unit.get<std::string>() : "", a, b, title});
+      outcome.push_back(compared(group, name, title, text_at(shown, "/unit"), a, b));
     }
   }
 }
 
 /// What one percent more of each number changes of the optimum.
-void add_prices(const OlderRun& first, const OlderRun& second, std::vector<Compared>& compared) {
+void add_prices(const OlderRun& first, const OlderRun& second, Json& outcome) {
   const Json one = part_of(first, "prices"), other = part_of(second, "prices");
   if (one.empty() || other.empty()) return;
   const Json objective = part_of(first, "objective"), of_other = part_of(second, "objective");
   if (objective.value("name", Json()) != of_other.value("name", Json())) return;
   const std::string unit = objective.value("unit", "");
-  compared.push_back({"objective", objective.value("name", ""), unit,
-                      objective.value("value", Json()), of_other.value("value", Json()), ""});
-  for (const auto& entry : one.items()) {
-    const Json a = member(one, entry.key(), "per_percent");
-    const Json b = member(other, entry.key(), "per_percent");
+  outcome.push_back(compared("objective", objective.value("name", ""), "", unit,
+                             objective.value("value", Json()), of_other.value("value", Json())));
+  for (const auto& [name, price] : one.items()) {
+    const Json a = member(one, name, "per_percent"), b = member(other, name, "per_percent");
     if (!a.is_number() || !b.is_number() || (a == 0.0 && b == 0.0)) continue;
-    compared.push_back({"prices", entry.key(), unit, a, b, "at +1 %"});
+    outcome.push_back(compared("prices", name, "at +1 %", unit, a, b));
   }
 }
 
@@ -213,7 +193,7 @@ Json point_at(const Json& points, const Json& limit) {
 }
 
 /// Points of fronts of the same limit, those with the same bound, by their number in the first.
-void add_points(const OlderRun& first, const OlderRun& second, std::vector<Compared>& compared) {
+void add_points(const OlderRun& first, const OlderRun& second, Json& outcome) {
   const auto points_of = [](const OlderRun& run) {
     const Json points = run.result.is_object() ? run.result.value("points", Json()) : Json();
     return points.is_array() ? points : Json::array();
@@ -221,30 +201,28 @@ void add_points(const OlderRun& first, const OlderRun& second, std::vector<Compa
   const Json one = points_of(first), other = points_of(second), units = part_of(first, "units");
   if (one.empty() || other.empty() || units != part_of(second, "units")) return;
   if (first.result.value("constraint", Json()) != second.result.value("constraint", Json())) return;
-  compared.push_back({"points", "number", "", one.size(), other.size(), ""});
+  outcome.push_back(compared("points", "number", "", "", one.size(), other.size()));
   for (std::size_t i = 0; i < one.size(); ++i) {
     const Json found = point_at(other, one[i].value("limit", Json()));
     if (!found.is_object()) continue;
     const Json here = one[i].value("objectives", Json::object());
     const Json there = found.value("objectives", Json::object());
-    for (const auto& entry : here.items()) {
-      const Json unit = units.value(entry.key(), Json());
-      compared.push_back({"points", entry.key(), unit.is_string() ? unit.get<std::string>() : "",
-                          entry.value(), there.value(entry.key(), Json()),
-                          fmt::format("{}", i + 1)});
+    for (const auto& [name, value] : here.items()) {
+      outcome.push_back(compared("points", name, std::to_string(i + 1), units.value(name, ""),
+                                 value, there.value(name, Json())));
     }
   }
 }
 
-std::vector<Compared> outcome_values(const OlderRun& first, const OlderRun& second) {
-  std::vector<Compared> compared;
+Json outcome_values(const OlderRun& first, const OlderRun& second) {
+  Json outcome = Json::array();
   for (const char* group : {"variables", "constraints", "responses"}) {
-    add_values(first, second, group, compared);
+    add_values(first, second, group, outcome);
   }
-  add_prices(first, second, compared);
-  add_points(first, second, compared);
+  add_prices(first, second, outcome);
+  add_points(first, second, outcome);
   const auto add = [&](const char* name, const Json& a, const Json& b) {
-    if (a.is_number() || b.is_number()) compared.push_back({"effort", name, "", a, b, ""});
+    if (a.is_number() || b.is_number()) outcome.push_back(compared("effort", name, "", "", a, b));
   };
   const auto of = [](const OlderRun& run, const char* key) {
     return run.result.is_object() ? run.result.value(key, Json()) : Json();
@@ -256,12 +234,12 @@ std::vector<Compared> outcome_values(const OlderRun& first, const OlderRun& seco
     return run.seconds() ? Json(*run.seconds()) : Json();
   };
   add("seconds", seconds(first), seconds(second));
-  return compared;
+  return outcome;
 }
 
 /// Numbers that say whether something went well, and not how much of it there is.
-bool is_residual(const Compared& value) {
-  return value.name == "kkt_residual" || value.name == "max_violation";
+bool is_residual(const std::string& name) {
+  return name == "kkt_residual" || name == "max_violation";
 }
 
 /// What of a limit of zero round-off leaves is zero.
@@ -271,19 +249,20 @@ double shown_value(const Json& value, const ShownUnit& unit) {
   return std::abs(shown) < round_off ? 0.0 : shown;
 }
 
-std::string number_text(const Compared& compared, const Json& value, const ShownUnit& unit) {
+std::string number_text(const std::string& name, const Json& value, const ShownUnit& unit) {
   if (!value.is_number()) return "–";
-  if (is_residual(compared)) return magnitude(value.get<double>());
-  if (compared.name == "seconds") return duration(value.get<double>());
+  if (is_residual(name)) return magnitude(value.get<double>());
+  if (name == "seconds") return duration(value.get<double>());
   if (value.is_number_integer()) return value.dump();
   return significant(shown_value(value, unit), 6);
 }
 
 /// "+2.1 %"; nothing of numbers whose ratio says nothing.
-std::string change_text(const Compared& value, const ShownUnit& unit) {
+std::string change_text(const Json& value, const ShownUnit& unit) {
   constexpr double hardly = 1e-4;  // two searches for the same optimum differ by that
-  if (!value.has_both() || is_residual(value)) return "";
-  const double before = shown_value(value.first, unit), after = shown_value(value.second, unit);
+  const Json &first = value["first"], &second = value["second"];
+  if (!first.is_number() || !second.is_number() || is_residual(value["name"])) return "";
+  const double before = shown_value(first, unit), after = shown_value(second, unit);
   if (before == after) return "same";
   if (before == 0.0) return "";
   const double share = (after - before) / std::abs(before);
@@ -291,24 +270,21 @@ std::string change_text(const Compared& value, const ShownUnit& unit) {
   return signed_significant(100.0 * share, 3) + " %";
 }
 
-std::string outcomes_text(const OlderRun& first, const OlderRun& second,
-                          const std::vector<Compared>& values) {
-  Table table({{"outcome", Table::Align::left},
-               {"name", Table::Align::left},
-               {"first"},
-               {"second"},
-               {"unit", Table::Align::left},
-               {"change"}},
+std::string outcomes_text(const OlderRun& first, const OlderRun& second, const Json& values) {
+  Table table({left_aligned("outcome"), left_aligned("name"), "first", "second",
+               left_aligned("unit"), "change"},
               2);
   table.add_row({"status", "–", first.status(), second.status(), "–", ""});
-  const Units units(first, second);
-  for (const Compared& value : values) {
-    const bool is_effort = value.group == "effort";
-    const ShownUnit unit = is_effort ? ShownUnit{} : units.of(value);
-    table.add_row({value.group, value.shown_name(), number_text(value, value.first, unit),
-                   number_text(value, value.second, unit),
-                   unit.name.empty() || unit.name == "1" ? "–" : unit.name,
-                   change_text(value, unit)});
+  Units units;
+  add_units(first, units);
+  add_units(second, units);
+  for (const Json& value : values) {
+    const std::string name = value["name"], of = text_at(value, "/of");
+    const ShownUnit unit = unit_in(units, value);
+    table.add_row(
+        {text_at(value, "/group"), of.empty() ? name : name + ", " + of,
+         number_text(name, value["first"], unit), number_text(name, value["second"], unit),
+         unit.name.empty() || unit.name == "1" ? "–" : unit.name, change_text(value, unit)});
   }
   return table.text();
 }
@@ -367,23 +343,10 @@ Outcome run_compare(const Arguments& arguments) {
   }
   const OlderRun first = read_older_run(arguments.files[0]);
   const OlderRun second = read_older_run(arguments.files[1]);
-  const std::vector<Difference> inputs = input_differences(first, second);
-  const std::vector<Compared> values = outcome_values(first, second);
+  const Json inputs = input_differences(first, second), values = outcome_values(first, second);
   Outcome outcome;
-  Json& document = outcome.document;
-  document = {{"input", Json::array()},
-              {"status", {first.status(), second.status()}},
-              {"outcome", Json::array()}};
-  for (const Difference& one : inputs) {
-    document["input"].push_back(
-        {{"place", one.place}, {"first", one.first}, {"second", one.second}});
-  }
-  for (const Compared& one : values) {
-    Json entry = {{"group", one.group}, {"name", one.name}};
-    if (!one.title.empty()) entry["of"] = one.title;
-    entry.update({{"unit", one.unit}, {"first", one.first}, {"second", one.second}});
-    document["outcome"].push_back(std::move(entry));
-  }
+  outcome.document = {
+      {"input", inputs}, {"status", {first.status(), second.status()}}, {"outcome", values}};
   outcome.text =
       fmt::format("first: {}, second: {}\n\n{}\n{}", first.folder.string(), second.folder.string(),
                   inputs.empty() ? same_inputs_text(first, second) : inputs_text(inputs),

@@ -1,6 +1,7 @@
 #include "cli/commands/examined_optimum.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -12,21 +13,23 @@
 
 #include "cli/files/run_picture.hpp"
 #include "cli/files/trajectory_csv.hpp"
+#include "cli/reports/analysis_report.hpp"
 #include "cli/reports/case_report.hpp"
-#include "cli/reports/drives_report.hpp"
 #include "cli/reports/effects_report.hpp"
-#include "cli/reports/influence_report.hpp"
-#include "cli/reports/monitors_report.hpp"
 #include "cli/reports/optimum_report.hpp"
+#include "cli/text/wrapped_text.hpp"
 #include "core/base/error.hpp"
+#include "core/base/number_text.hpp"
 #include "core/base/stop.hpp"
 #include "core/response/value_over_cases.hpp"
 #include "core/scene/load_cases.hpp"
+#include "core/scene/shown_unit.hpp"
 #include "core/trust/case_doubts.hpp"
 #include "core/trust/doubts.hpp"
 #include "core/trust/nested_runs.hpp"
 #include "core/trust/ranking.hpp"
 #include "optimization/prices.hpp"
+#include "picture/companions.hpp"
 
 namespace pleuel {
 
@@ -136,6 +139,43 @@ std::optional<DesignInfluence> joined_influence(const Optimum& optimum,
                                : gradient_in_case(i);
   }
   return all;
+}
+
+const char* word_of(ResponseType type) {
+  if (type == ResponseType::drive_torque) return "torque";
+  return type == ResponseType::drive_force ? "force" : "power";
+}
+
+/// " (−57.1 %)"; nothing where there was nothing before.
+std::string change_text(double before, double after) {
+  if (before == 0.0) return "";
+  const double percents = 100.0 * (after / before - 1.0);
+  if (std::abs(percents) < 0.05) return " (the same)";
+  return fmt::format(" ({}{:.1f} %)", percents < 0.0 ? "−" : "+", std::abs(percents));
+}
+
+/// "Drive bearing: torque 464.28 → 199.13 N m (−57.1 %), power 92856 → 39826 W (−57.1 %)", a line
+/// for each drive: the largest magnitudes over time of two designs. Empty without drives.
+std::string drives_text(const ProblemFile& problem, const Analysis& start,
+                        const Analysis& optimum) {
+  const Companions before = find_drive_efforts(problem, start),
+                   after = find_drive_efforts(problem, optimum);
+  std::string text, line;
+  for (std::size_t i = 0; i < after.all.size(); ++i) {
+    const ResponseSettings& settings = after.all[i].settings;
+    const ShownUnit unit = unit_of(settings);
+    const double from = before.all[i].value, to = after.all[i].value;
+    const bool is_power = settings.type == ResponseType::drive_power;
+    line += fmt::format("{} {} → {} {}{}", word_of(settings.type), significant(unit.shown(from)),
+                        significant(unit.shown(to)), unit.name, change_text(from, to));
+    if (!is_power) {
+      line += ", ";
+      continue;
+    }
+    text += wrapped(fmt::format("Drive {}: {}\n", settings.joint, line), "  ");
+    line.clear();
+  }
+  return text;
 }
 
 /// What each case says of the design; several are told apart by their names.

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "cli/files/run_record.hpp"
-#include "cli/reports/optimum.hpp"
+#include "cli/reports/optimum_document.hpp"
 #include "cli/text/json.hpp"
 
 namespace pleuel {

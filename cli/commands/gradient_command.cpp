@@ -7,7 +7,6 @@
 #include "cli/commands/accurate_input.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/commands/progress_line.hpp"
-#include "cli/files/gradients_csv.hpp"
 #include "cli/files/run_picture.hpp"
 #include "cli/files/run_record.hpp"
 #include "cli/files/trajectory_csv.hpp"
@@ -105,10 +104,7 @@ Json gradients_document(const ProblemFile& problem, const std::vector<MethodResu
                         Eigen::Index response) {
   Json document = Json::object();
   for (const MethodResult& result : results) {
-    Json& row = document[to_string(result.method)] = Json::object();
-    for (std::size_t j = 0; j < problem.variables.size(); ++j) {
-      row[problem.variables[j].name] = result.gradients(response, j);
-    }
+    document[to_string(result.method)] = by_name(problem.variables, result.gradients.row(response));
   }
   return document;
 }
@@ -126,18 +122,12 @@ struct MethodFindings {
 };
 
 Json comparison_document(const ProblemFile& problem, const std::vector<ComparedMethod>& compared) {
-  Json document = Json::array();
-  for (const ComparedMethod& one : compared) {
-    Json errors = Json::object();
-    for (std::size_t i = 0; i < problem.responses.size(); ++i) {
-      errors[problem.responses[i].name] = one.errors(i);
-    }
-    document.push_back({{"method", to_string(one.method)},
-                        {"step", one.step > 0.0 ? Json(one.step) : Json(nullptr)},
-                        {"seconds", one.seconds},
-                        {"errors", std::move(errors)}});
-  }
-  return document;
+  return list_of(compared, [&](const ComparedMethod& one) {
+    return Json{{"method", to_string(one.method)},
+                {"step", one.step > 0.0 ? Json(one.step) : Json(nullptr)},
+                {"seconds", one.seconds},
+                {"errors", by_name(problem.responses, one.errors)}};
+  });
 }
 
 /// Of each method with its best step.
@@ -149,11 +139,7 @@ std::string comparison_text(const ProblemFile& problem,
     const ComparedMethod*& known = best[one.method];
     if (!known || one.errors.maxCoeff() < known->errors.maxCoeff()) known = &one;
   }
-  Table table({{"method", Table::Align::left},
-               {"best step"},
-               {"time"},
-               {"largest error"},
-               {"of", Table::Align::left}});
+  Table table({left_aligned("method"), "best step", "time", "largest error", left_aligned("of")});
   for (const auto& [method, one] : best) {
     Eigen::Index worst = 0;
     const double error = one->errors.maxCoeff(&worst);
@@ -195,11 +181,10 @@ Json gradient_document(const ProblemFile& problem, const MethodFindings& finding
 }
 
 std::vector<Table::Column> method_columns(const std::vector<MethodResult>& results) {
-  std::vector<Table::Column> columns = {{"response", Table::Align::left},
-                                        {"variable", Table::Align::left}};
+  std::vector<Table::Column> columns = {left_aligned("response"), left_aligned("variable")};
   for (const MethodResult& result : results) columns.push_back({to_string(result.method)});
-  columns.push_back({"unit", Table::Align::left});
-  if (results.size() > 1) columns.push_back({"largest difference"});
+  columns.push_back(left_aligned("unit"));
+  if (results.size() > 1) columns.push_back("largest difference");
   return columns;
 }
 
@@ -264,7 +249,7 @@ std::string seconds_text(const std::vector<MethodResult>& results, double simula
 void write_run(RunRecord& record, const Arguments& arguments, const ProblemInput& input,
                Analysis& analysis, Outcome& outcome) {
   record.begin_phase("histories");
-  record.write("result.json", outcome.document);
+  record.write_result(outcome.document);
   write_trajectory(record.result("trajectory.csv"), analysis);
   if (arguments.wants_histories) {
     write_history_gradients(record.result("gradients.csv"), input.problem, analysis);

@@ -58,25 +58,19 @@ std::string constants_file_name(const std::string& body) {
 }
 
 Json file_document(const InvariantsFile& file, const fs::path& path) {
-  Json places = Json::array(), variables = Json::array();
-  for (const BodyPlace& place : file.constants.places) places.push_back(place.name);
-  for (const ConstantsDerivative& of : file.design) variables.push_back(of.variable);
   return {{"name", file.body},
           {"file", path.string()},
           {"coordinates", file.coordinates.size()},
-          {"places", std::move(places)},
+          {"places", list_of(file.constants.places, &BodyPlace::name)},
           {"stress_points", file.constants.stress ? file.constants.stress->points.size() : 0},
           {"stiffening", file.constants.stretching.has_value()},
-          {"variables", std::move(variables)}};
+          {"variables", list_of(file.design, &ConstantsDerivative::variable)}};
 }
 
 Outcome report(const std::vector<InvariantsFile>& files, const std::vector<fs::path>& paths) {
   Outcome outcome{ExitCode::done, {{"bodies", Json::array()}, {"warnings", Json::array()}}, ""};
-  Table table({{"body", Table::Align::left},
-               {"coordinates"},
-               {"places"},
-               {"variables"},
-               {"written to", Table::Align::left}});
+  Table table(
+      {left_aligned("body"), "coordinates", "places", "variables", left_aligned("written to")});
   for (std::size_t i = 0; i < files.size(); ++i) {
     outcome.document["bodies"].push_back(file_document(files[i], paths[i]));
     table.add_row({files[i].body, std::to_string(files[i].coordinates.size()),

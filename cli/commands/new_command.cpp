@@ -1,4 +1,3 @@
-#include <algorithm>
 
 #include <fmt/format.h>
 
@@ -18,7 +17,7 @@ namespace fs = std::filesystem;
 Outcome list_starters(const Arguments& arguments) {
   Outcome outcome;
   outcome.document = {{"kinds", Json::object()}};
-  Table table({{"kind", Table::Align::left}, {"", Table::Align::left}});
+  Table table({left_aligned("kind"), left_aligned("")});
   for (const Starter& starter : starters()) {
     outcome.document["kinds"][starter.kind] = starter.description;
     table.add_row({starter.kind, starter.description});
@@ -66,6 +65,17 @@ Outcome run_new(const Arguments& arguments) {
           line("check", "describes and examines it") +
           line("optimize", "finds the lightest design");
   return {ExitCode::done, {{"file", file.string()}, {"schema", schema.string()}}, text};
+}
+
+Outcome run_schema(const Arguments& arguments) {
+  if (arguments.file.empty()) {
+    return {ExitCode::done, Json::parse(problem_schema()), problem_schema()};
+  }
+  write_given_file(arguments.file, problem_schema(), arguments);
+  const std::string text =
+      fmt::format("Written: {}\nA problem file beside it names it by  \"$schema\": \"{}\"\n",
+                  arguments.file.string(), arguments.file.filename().string());
+  return {ExitCode::done, {{"file", arguments.file.string()}}, text};
 }
 
 }  // namespace pleuel

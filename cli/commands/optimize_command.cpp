@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -7,15 +6,12 @@
 
 #include "cli/commands/commands.hpp"
 #include "cli/commands/examined_optimum.hpp"
-#include "cli/files/command_text.hpp"
 #include "cli/files/failed_design.hpp"
 #include "cli/files/history_csv.hpp"
 #include "cli/files/run_record.hpp"
 #include "cli/files/run_store.hpp"
 #include "cli/input/solve_settings.hpp"
-#include "cli/reports/case_report.hpp"
 #include "cli/reports/effects_report.hpp"
-#include "cli/reports/influence_report.hpp"
 #include "cli/reports/iteration_lines.hpp"
 #include "cli/reports/optimum_document.hpp"
 #include "cli/reports/optimum_report.hpp"
@@ -25,8 +21,6 @@
 #include "cli/reports/warnings.hpp"
 #include "cli/text/console.hpp"
 #include "cli/text/wrapped_text.hpp"
-#include "core/base/error.hpp"
-#include "core/base/stop.hpp"
 #include "core/scene/body_rules.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/trust/far_limits.hpp"
@@ -36,7 +30,6 @@
 #include "optimization/design/optimum_error.hpp"
 #include "optimization/design/staged_solve.hpp"
 #include "optimization/design/whole_search.hpp"
-#include "optimization/prices.hpp"
 
 namespace pleuel {
 
@@ -158,10 +151,11 @@ Outcome run_optimize(const Arguments& arguments) {
     return document;
   };
   if (arguments.wants_all_warnings) optimum.consequences = 0;
-  show(arguments.progress(), optimum_report(optimum, arguments.is_verbose) +
+  const Json document = result_document();
+  show(arguments.progress(), optimum_report(optimum, document, arguments.is_verbose) +
                                  (answer.sizes ? sizes_text(solved, *answer.sizes, result) : "") +
                                  starts_text(solved, all) + stages_text(solution.stages));
-  record.write("result.json", result_document());
+  record.write_result(document);
   Examined examined;
   solution.problem->forget_analyses();
   if (optimum.has_design()) {

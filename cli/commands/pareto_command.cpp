@@ -10,18 +10,17 @@
 #include "cli/files/run_record.hpp"
 #include "cli/files/run_store.hpp"
 #include "cli/input/solve_settings.hpp"
+#include "cli/reports/document_table.hpp"
 #include "cli/reports/error_report.hpp"
 #include "cli/reports/gaps_report.hpp"
 #include "cli/reports/sizes_report.hpp"
 #include "cli/reports/warnings.hpp"
 #include "cli/text/console.hpp"
-#include "cli/text/table.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/number_text.hpp"
 #include "core/scene/case_goals.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/shown_unit.hpp"
-#include "optimization/prices.hpp"
 #include "studies/missing_settings.hpp"
 #include "studies/pareto.hpp"
 #include "studies/pareto_knee.hpp"
@@ -49,53 +48,20 @@ std::string limited_name(const ProblemFile& problem) {
 }
 
 /// pareto.csv: a line for each point, first as it is found, in the end by its limit [SI].
-class ParetoCsv {
- public:
-  ParetoCsv(const ResultFile& file, const ProblemFile& problem)
-      : csv_(file, header(problem)),
-        variables_(problem.variables.size()),
-        sign_(problem.objective->sign()) {}
-
-  void add(const ParetoPoint& point) {
-    csv_.add(to_string(point.result.status)).add(point.limit);
-    const std::vector<double> goals = {sign_ * point.result.evaluation.objective,
-                                       point.limited_value, sign_ * point.multiplier};
-    for (std::size_t i = 0; i < goals.size(); ++i) {
-      const bool is_known = i < 2 ? point.has_design() : point.has_multiplier();
-      is_known ? csv_.add(goals[i]) : csv_.add(std::string());
-    }
-    for (std::size_t i = 0; i < variables_; ++i) {
-      csv_.add(point.result.x(i));
-    }
-    csv_.add(point.result.kkt_residual).add(point.result.evaluations).add(point.result.seconds);
-    csv_.end_row();
+std::vector<CsvColumn> pareto_columns(const ProblemFile& problem) {
+  const Json::json_pointer point, objectives("/objectives"), variables("/variables");
+  std::vector<CsvColumn> columns = {{"status", point / "status"},
+                                    {"limit", point / "limit"},
+                                    {"objective", objectives / problem.objective->response},
+                                    {"limited", objectives / limited_name(problem)},
+                                    {"multiplier", point / "multiplier"}};
+  for (const DesignVariable& variable : problem.variables) {
+    columns.push_back({"variable:" + variable.name, variables / variable.name});
   }
-
- private:
-  static std::vector<std::string> header(const ProblemFile& problem) {
-    std::vector<std::string> titles = {"status", "limit", "objective", "limited", "multiplier"};
-    for (const DesignVariable& variable : problem.variables) {
-      titles.push_back("variable:" + variable.name);
-    }
-    for (const char* title : {"kkt_residual", "evaluations", "seconds"}) titles.push_back(title);
-    return titles;
+  for (const char* title : {"kkt_residual", "evaluations", "seconds"}) {
+    columns.push_back({title, point / title});
   }
-
-  CsvFile csv_;
-  std::size_t variables_;
-  double sign_;  ///< Objective::sign()
-};
-
-void write_in_order(RunRecord& record, const ProblemFile& problem,
-                    const std::vector<ParetoPoint>& points) {
-  ParetoCsv csv(record.result("pareto.csv"), problem);
-  for (const ParetoPoint& point : points) csv.add(point);
-}
-
-/// The index of the knee, if the front has one.
-std::optional<std::size_t> knee_of(const ProblemFile& problem,
-                                   const std::vector<ParetoPoint>& points) {
-  return find_knee(points, good_side(problem));
+  return columns;
 }
 
 Json point_document(const ProblemFile& problem, const ParetoPoint& point) {
@@ -115,13 +81,9 @@ Json point_document(const ProblemFile& problem, const ParetoPoint& point) {
     if (point.objective_limit) document["objective_limit"] = sign * *point.objective_limit;
     if (point.has_multiplier()) document["multiplier"] = sign * point.multiplier;
   }
-  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
-    const DesignVariable& variable = problem.variables[i];
-    document["variables"][variable.name] = point.result.x(i);
-    if (const auto size = size_text(variable, point.result.x(i))) {
-      document["sizes"][variable.name] = *size;
-    }
-  }
+  document["variables"] = by_name(problem.variables, point.result.x);
+  const Json sizes = sizes_of(problem, point.result.x);
+  if (!sizes.empty()) document["sizes"] = sizes;
   if (point.sizes) {
     document["choices"] = {{"combinations", point.sizes->combinations},
                            {"tried", point.sizes->tried},
@@ -211,7 +173,7 @@ Json make_document(const ProblemFile& problem, const ParetoFront& front) {
     document["message"] = gaps_message(problem, front, limited_name(problem));
     document["gaps"] = gaps_document(problem, front);
   }
-  const std::optional<std::size_t> knee = knee_of(problem, points);
+  const std::optional<std::size_t> knee = find_knee(points, good_side(problem));
   for (std::size_t i = 0; i < points.size(); ++i) {
     document["points"].push_back(point_document(problem, points[i]));
     document["points"].back()["knee"] = knee == i;
@@ -225,56 +187,40 @@ std::string limit_title(const ProblemFile& problem) {
   return limited_name(problem) + (varied_constraint(problem).upper ? " at most" : " at least");
 }
 
-std::vector<Table::Column> design_columns(const ProblemFile& problem) {
-  const ConstraintSettings& constraint = varied_constraint(problem);
-  const std::string& objective = problem.objective->response;
-  const std::vector<ShownUnit> units = variable_units(problem);
-  const ShownUnit limited = unit_of(problem, constraint);
-  const ShownUnit goal = unit_of(find_response(problem, objective));
-  std::vector<Table::Column> columns = {
-      {fmt::format("{} [{}]", limit_title(problem), limited.name)},
-      {fmt::format("{} [{}]", limited_name(problem), limited.name)},
-      {fmt::format("{} [{}]", objective, goal.name)},
-      {fmt::format("± [{}]", goal.name)},
-      {fmt::format("multiplier [{}/{}]", goal.name, limited.name)}};
-  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
-    const DesignVariable& variable = problem.variables[i];
-    columns.push_back({variable.has_choices()
-                           ? variable.name
-                           : fmt::format("{} [{}]", variable.name, units[i].name)});
-  }
-  columns.push_back({"status", Table::Align::left});
-  return columns;
+/// "verified, knee"
+std::string point_status(const std::string&, const Json& point) {
+  const auto is_set = [&](const char* key) { return point.at(key).get<bool>(); };
+  const bool is_proven = point.value("/choices/exhaustive"_json_pointer, true);
+  return text_at(point, "/status") + (is_set("dominated") ? ", dominated" : "") +
+         (is_set("knee") ? ", knee" : "") +
+         (!is_proven && !point.at("objectives").empty() ? ", best found" : "");
 }
 
-std::string points_text(const ProblemFile& problem, const std::vector<ParetoPoint>& points) {
+std::string points_text(const ProblemFile& problem, const Json& points) {
   const ShownUnit limited = unit_of(problem, varied_constraint(problem));
-  const ShownUnit goal = unit_of(find_response(problem, problem.objective->response));
-  const std::vector<ShownUnit> units = variable_units(problem);
-  const double sign = problem.objective->sign();
-  const std::optional<std::size_t> knee = knee_of(problem, points);
-  Table table(design_columns(problem));
-  for (const ParetoPoint& point : points) {
-    std::vector<std::string> cells = {significant(limited.shown(point.limit)), "–", "–", "–", "–"};
-    if (point.has_design()) {
-      cells[1] = significant(limited.shown(point.limited_value));
-      cells[2] = significant(goal.shown(sign * point.result.evaluation.objective));
-      if (const auto& error = point.result.error; error && error->is_resolved()) {
-        cells[3] = significant(goal.shown(error->bound()), 2);
-      }
-      if (point.has_multiplier())
-        cells[4] = significant(goal.shown(sign * point.multiplier) * limited.factor, 3);
+  const std::string name = limited_name(problem), &objective = problem.objective->response;
+  const ShownUnit goal = unit_of(find_response(problem, objective));
+  const ShownUnit rate{"", goal.name + "/" + limited.name, goal.factor / limited.factor};
+  std::vector<DocumentColumn> columns = {
+      column_in(limited, limit_title(problem), "/limit"),
+      column_in(limited, name, place_in("/objectives", name)),
+      column_in(goal, objective, place_in("/objectives", objective)),
+      column_in(goal, "±", "/error/total", 2), column_in(rate, "multiplier", "/multiplier", 3)};
+  const NamedUnits units = units_of_variables(problem);
+  for (const DesignVariable& variable : problem.variables) {
+    DocumentColumn column =
+        column_in(units.at(variable.name), variable.name, place_in("/variables", variable.name));
+    if (variable.has_choices()) {
+      column.title = variable.name;
+      column.text = [=, number = column.text](const std::string&, const Json& point) {
+        const std::string size = text_at(point, place_in("/sizes", variable.name));
+        return size.empty() ? number("", point) : size;
+      };
     }
-    for (std::size_t i = 0; i < problem.variables.size(); ++i) {
-      const auto size = size_text(problem.variables[i], point.result.x(i));
-      cells.push_back(size.value_or(significant(units[i].shown(point.result.x(i)))));
-    }
-    const bool is_knee = knee && &point == &points[*knee];
-    cells.push_back(to_string(point.result.status) + (point.is_dominated ? ", dominated" : "") +
-                    (is_knee ? ", knee" : "") + (is_not_proven_best(point) ? ", best found" : ""));
-    table.add_row(std::move(cells));
+    columns.push_back(std::move(column));
   }
-  return table.text();
+  columns.push_back({"status", point_status, Table::Align::left});
+  return table_of(points, columns).text();
 }
 
 /// A line on all choices of sizes, or on the gaps that were asked for.
@@ -315,26 +261,28 @@ std::string count_text(const ProblemFile& problem, const ParetoFront& front) {
                      unproven > 0 ? fmt::format(", at {} not all sizes tried", unproven) : "");
 }
 
+/// "limit 120 MPa"
+std::string limit_text(const ProblemFile& problem, const ParetoPoint& point) {
+  const ShownUnit unit = unit_of(problem, varied_constraint(problem));
+  return fmt::format("limit {} {}", significant(unit.shown(point.limit)), unit.name);
+}
+
 /// Why the others are not verified; one sentence each.
 std::string doubts_text(const ProblemFile& problem, const std::vector<ParetoPoint>& points) {
-  const ShownUnit unit = unit_of(problem, varied_constraint(problem));
   std::string text;
   for (const ParetoPoint& point : points) {
     if (point.result.status == Status::verified) continue;
-    text += wrapped(fmt::format("  limit {} {}: {}: {}", significant(unit.shown(point.limit)),
-                                unit.name, to_string(point.result.status), point.result.message),
-                    "    ") +
-            "\n";
+    text += wrapped(fmt::format("  {}: {}: {}\n", limit_text(problem, point),
+                                to_string(point.result.status), point.result.message),
+                    "    ");
   }
   return text.empty() ? "" : "\nNOT VERIFIED:\n" + text;
 }
 
 std::string warnings_of_points(const ProblemFile& problem, const std::vector<ParetoPoint>& points) {
-  const ShownUnit unit = unit_of(problem, varied_constraint(problem));
   SharedWarnings warnings;
   for (const ParetoPoint& point : points) {
-    warnings.add(point.result.warnings,
-                 fmt::format("limit {} {}", significant(unit.shown(point.limit)), unit.name));
+    warnings.add(point.result.warnings, limit_text(problem, point));
   }
   const std::string text = warnings_text(warnings.sentences());
   return text.empty() ? "" : "\n" + text;
@@ -350,11 +298,9 @@ Json front_picture(const ProblemFile& problem, const std::vector<ParetoPoint>& p
 }
 
 void show_progress(std::FILE* out, const ProblemFile& problem, const ParetoPoint& point) {
-  const ShownUnit unit = unit_of(problem, varied_constraint(problem));
-  show(out,
-       fmt::format("  limit {} {}: {} after {} evaluations, {}\n",
-                   significant(unit.shown(point.limit)), unit.name, to_string(point.result.status),
-                   point.result.evaluations, duration(point.result.seconds)));
+  show(out, fmt::format("  {}: {} after {} evaluations, {}\n", limit_text(problem, point),
+                        to_string(point.result.status), point.result.evaluations,
+                        duration(point.result.seconds)));
 }
 
 }  // namespace
@@ -369,25 +315,27 @@ Outcome run_pareto(const Arguments& arguments) {
   RunStore store(record, arguments, input, used);
   show_warnings_before(problem);
   record.begin_phase("pareto");
-  std::optional<ParetoCsv> csv;  // with the first result
+  std::optional<DocumentCsv> csv;  // with the first result
   const auto observer = [&](const ParetoPoint& point) {
-    if (!csv) csv.emplace(record.result("pareto.csv"), problem);
-    csv->add(point);
+    if (!csv) csv.emplace(record.result("pareto.csv"), pareto_columns(problem));
+    csv->add(point_document(problem, point));
     show_progress(stderr, problem, point);
   };
   const ParetoFront front = pareto_front(problem, options, {arguments.tasks(), &store}, observer);
   const std::vector<ParetoPoint>& points = front.points;
-  write_in_order(record, problem, points);
+  const Json document = make_document(problem, front);
+  DocumentCsv in_order(record.result("pareto.csv"), pareto_columns(problem));
+  for (const Json& point : document["points"]) in_order.add(point);
   const bool is_verified =
       front.is_whole && !points.empty() && verified_points(points) == points.size();
   Outcome outcome{
-      is_verified ? ExitCode::done : ExitCode::not_verified, make_document(problem, front),
+      is_verified ? ExitCode::done : ExitCode::not_verified, document,
       fmt::format(
           "{}{}: {}; {}\n\n{}{}{}{}\n"
           "{}{}Written to {}: pareto.csv, result.json, run_card.json, run.sqlite\n",
           interruption_text(problem, front), problem.name, front_text(problem),
-          count_text(problem, front), points_text(problem, points), spacing_text(problem, front),
-          single_point_text(problem, front),
+          count_text(problem, front), points_text(problem, document["points"]),
+          spacing_text(problem, front), single_point_text(problem, front),
           doubts_text(problem, points) + warnings_of_points(problem, points),
           front.is_whole ? "" : resume_text(arguments, record.folder(), Status::interrupted),
           store.text(), record.folder().string())};

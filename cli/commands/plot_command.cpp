@@ -2,7 +2,6 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <fstream>
 #include <functional>
 #include <optional>
 
@@ -100,9 +99,8 @@ std::vector<RunHistories> read_histories(const fs::path& folder) {
 
 /// The problem of the run card, for units and limits; nothing where it cannot be read.
 std::optional<ProblemFile> problem_of_card(const fs::path& folder) {
-  std::ifstream stream(folder / card_name);
-  const Json card = Json::parse(stream, nullptr, /*allow_exceptions=*/false);
-  if (!card.is_object() || !card.contains("problem")) return std::nullopt;
+  const Json card = document_in(folder / card_name);
+  if (!card.contains("problem")) return std::nullopt;
   try {
     ProblemFile problem = read_problem_text(card["problem"].dump(),
                                             card.at("input").at("file").get<std::string>(), {})

@@ -11,7 +11,6 @@
 #include "cli/input/solve_settings.hpp"
 #include "cli/reports/iteration_lines.hpp"
 #include "cli/reports/warnings.hpp"
-#include "cli/text/console.hpp"
 #include "cli/text/table.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/number_text.hpp"
@@ -103,16 +102,12 @@ Json make_document(const ProblemFile& problem, const AnalyzedDesign& design,
                      {"value", list.objective},
                      {"unit", unit_of(find_response(problem, name)).si}}},
                    {"kkt_residual", list.residual},
-                   {"prices", Json::object()},
+                   {"prices", named_entries(list.prices, price_document)},
                    {"variables", Json::object()},
                    {"unknown", list.unknown},
                    {"warnings", design.warnings}};
-  for (const NumberPrice& price : list.prices) {
-    document["prices"][price.name] = price_document(price);
-  }
-  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
-    document["variables"][problem.variables[i].name]["value"] = design.x(i);
-  }
+  const Json values = by_name(problem.variables, design.x);
+  for (const auto& [variable, x] : values.items()) document["variables"][variable]["value"] = x;
   return document;
 }
 
@@ -140,13 +135,9 @@ std::string shown_name(const NumberPrice& price) {
 
 std::string prices_text(const ProblemFile& problem, const PriceList& list) {
   const ShownUnit objective = unit_of(find_response(problem, problem.objective->response));
-  Table table({{"number", Table::Align::left},
-               {"value"},
-               {"unit", Table::Align::left},
-               {fmt::format("{}/unit", objective.name)},
-               {fmt::format("{} at +1 %", objective.name)},
-               {"at +1 %"},
-               {"", Table::Align::left}});
+  Table table({left_aligned("number"), "value", left_aligned("unit"),
+               fmt::format("{}/unit", objective.name), fmt::format("{} at +1 %", objective.name),
+               "at +1 %", left_aligned("")});
   std::size_t lines = 0;
   for (const NumberPrice& price : list.prices) {
     if (price.per_unit == 0.0) continue;
@@ -241,7 +232,7 @@ Outcome run_prices(const Arguments& arguments) {
                   make_document(input.problem, design, list), report(input.problem, design, list)};
   outcome.text += fmt::format("Written to {}: prices.csv, result.json, run_card.json\n",
                               record.folder().string());
-  record.write("result.json", outcome.document);
+  record.write_result(outcome.document);
   write_csv(record.result("prices.csv"), list);
   record.show_picture([&] {
     return run_picture(input.problem, {{arguments.design ? "design" : "start", input.design}});

@@ -30,10 +30,8 @@ Json body_document(const ReducedBody& body, const ReductionModel& model, const f
   document["volume"] = body.volume;
   document["extent"] = {body.extent(0), body.extent(1), body.extent(2)};
   document["coordinates"] = body.file.coordinates;
-  document["frequencies_with_held_interfaces"] = Json::array();
-  for (const double one : body.frequencies) {
-    document["frequencies_with_held_interfaces"].push_back(one);
-  }
+  document["frequencies_with_held_interfaces"] =
+      std::vector<double>(body.frequencies.begin(), body.frequencies.end());
   document["next_frequency"] = body.next_frequency;
   document["asymmetry"] = body.asymmetry;
   document["stress_points"] = constants.stress ? constants.stress->points.size() : 0;
@@ -55,7 +53,7 @@ std::string understood_text(const ReducedBody& body, const ReductionModel& model
 }
 
 std::string modes_text(const ReducedBody& body) {
-  Table table({{"mode with held interfaces", Table::Align::left}, {"frequency [Hz]"}});
+  Table table({left_aligned("mode with held interfaces"), "frequency [Hz]"});
   for (Eigen::Index i = 0; i < body.frequencies.size(); ++i) {
     table.add_row({std::to_string(i + 1), fmt::format("{:.1f}", hertz(body.frequencies(i)))});
   }

@@ -1,16 +1,14 @@
 #include <algorithm>
-#include <fstream>
 #include <map>
-#include <optional>
 
 #include <fmt/format.h>
 
 #include "cli/commands/commands.hpp"
 #include "cli/commands/older_picture.hpp"
+#include "cli/files/older_run.hpp"
 #include "cli/files/output_file.hpp"
 #include "cli/files/report_page.hpp"
 #include "cli/files/run_folder.hpp"
-#include "cli/text/console.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/error.hpp"
 
@@ -26,9 +24,8 @@ Json read_document(const fs::path& path) {
     throw InputError(
         fmt::format("{}: there is no such file: not the folder of a finished run", path.string()));
   }
-  std::ifstream stream(path);
-  Json document = Json::parse(stream, nullptr, /*allow_exceptions=*/false);
-  if (!document.is_object()) throw InputError(path.string() + ": is not a JSON document");
+  Json document = document_in(path);
+  if (document.is_null()) throw InputError(path.string() + ": is not a JSON document");
   return document;
 }
 

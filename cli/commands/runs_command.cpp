@@ -32,14 +32,8 @@ std::vector<OlderRun> runs_in(const fs::path& folder) {
 }
 
 std::string table_text(const std::vector<OlderRun>& runs) {
-  Table table({{"run", Table::Align::left},
-               {"command", Table::Align::left},
-               {"status", Table::Align::left},
-               {"objective"},
-               {"", Table::Align::left},
-               {"time"},
-               {"date"},
-               {"problem", Table::Align::left}});
+  Table table({left_aligned("run"), left_aligned("command"), left_aligned("status"), "objective",
+               left_aligned(""), "time", "date", left_aligned("problem")});
   for (const OlderRun& run : runs) {
     const auto objective = run.objective(), seconds = run.seconds();
     table.add_row({run.folder.filename().string(), run.command(), run.status(),
@@ -49,7 +43,7 @@ std::string table_text(const std::vector<OlderRun>& runs) {
   return table.text();
 }
 
-Json run_document(const OlderRun& run) {
+Json listed_run(const OlderRun& run) {
   Json document = {{"folder", run.folder.string()},
                    {"command", run.command()},
                    {"problem", run.problem()},
@@ -84,8 +78,7 @@ Outcome run_runs(const Arguments& arguments) {
       return one.written() < other.written();
     });
   }
-  outcome.document = {{"runs", Json::array()}};
-  for (const OlderRun& run : runs) outcome.document["runs"].push_back(run_document(run));
+  outcome.document = {{"runs", list_of(runs, listed_run)}};
   outcome.text = runs.empty() ? fmt::format("{}: no runs\n", folder.string()) : table_text(runs);
   return outcome;
 }

@@ -1,4 +1,7 @@
+#include <algorithm>
 #include <cmath>
+#include <memory>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -10,14 +13,16 @@
 #include "cli/files/run_record.hpp"
 #include "cli/input/problem_input.hpp"
 #include "cli/reports/effects_report.hpp"
-#include "cli/reports/first_steps.hpp"
 #include "cli/reports/scene_report.hpp"
 #include "cli/reports/scene_words.hpp"
 #include "cli/reports/warnings.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/error.hpp"
+#include "core/base/number_text.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/mobility/lock.hpp"
 #include "core/model/drive_rows.hpp"
+#include "core/response/analysis.hpp"
 #include "core/response/misalignment.hpp"
 #include "core/scene/body_rules.hpp"
 #include "core/start/degrees_of_freedom.hpp"
@@ -70,6 +75,64 @@ void add_assembly(const ProblemFile& problem, Model& model, Shown& shown,
     warnings.push_back(fmt::format("the mechanism cannot be assembled: {}", error.what()));
   }
   shown.document["steps"] = std::ceil(problem.simulation.end_time / problem.simulation.step);
+}
+
+/// The first steps of a simulation: for what is said before it.
+struct FirstSteps {
+  std::unique_ptr<Analysis> analysis;  ///< null: they fail
+  std::string failure;                 ///< why
+  double seconds = 0.0;                ///< that the whole simulation will take on this machine
+};
+
+constexpr double enough_seconds = 0.1;
+constexpr double largest_share = 1.0 / 3.0;  ///< of the simulation
+constexpr double first_count = 16.0;         ///< of steps
+
+/// Its first part. Intervals of responses may lie behind it.
+ProblemFile beginning(ProblemFile problem, double end_time) {
+  problem.simulation.end_time = end_time;
+  problem.simulation.period = 0.0;
+  problem.simulation.moves_by_bending = true;  // a lock is told without them
+  for (ResponseSettings& response : problem.responses) {
+    response.from.reset();
+    response.to.reset();
+  }
+  return problem;
+}
+
+/// Two runs, of some steps and of twice as many, tell the time of a step from that of the
+/// beginning. They take a tenth of a second, or a third of a shorter simulation.
+FirstSteps take_first_steps(const ProblemFile& problem, const Eigen::VectorXd& x) {
+  const double end = problem.simulation.end_time;
+  FirstSteps first;
+  double window = std::min(first_count * problem.simulation.step, end), seconds = 0.0;
+  double before = 0.0, seconds_before = 0.0;
+  try {
+    while (true) {
+      const Stopwatch stopwatch;
+      first.analysis = analyze(beginning(problem, window), x);
+      seconds = stopwatch.seconds();
+      if (before > 0.0 && (seconds >= enough_seconds || window >= largest_share * end)) break;
+      if (window >= end) break;
+      before = window;
+      seconds_before = seconds;
+      window = std::min(2.0 * window, end);
+    }
+  } catch (const SimulationError& error) {
+    first.analysis.reset();
+    first.failure = error.what();
+    return first;
+  }
+  const double rate = before > 0.0 ? std::max(0.0, (seconds - seconds_before) / (window - before))
+                                   : seconds / window;
+  first.seconds = seconds + rate * (end - window);
+  return first;
+}
+
+/// "about 0.3 s": not known better than to a factor of two, since later steps may take more
+/// iterations than the first ones.
+std::string about_text(double seconds) {
+  return "about " + duration(seconds < 1.0 ? seconds : std::round(seconds));
 }
 
 /// What only the first steps tell: how long the simulation takes, and which bodies nothing holds.
@@ -150,7 +213,7 @@ Outcome show_in_folder(const Arguments& arguments, const ProblemInput& input) {
   RunRecord record(arguments, input, Json::object());
   record.begin_phase("show");
   Shown shown = describe(input.problem, input.design);
-  record.write("result.json", shown.document);
+  record.write_result(shown.document);
   record.show_picture([&] { return picture_of(arguments, input, shown.motion); });
   Outcome outcome{ExitCode::done, shown.document, shown.text};
   record.finish(outcome);

@@ -1,4 +1,3 @@
-#include <algorithm>
 
 #include <fmt/format.h>
 
@@ -10,9 +9,7 @@
 #include "cli/input/problem_input.hpp"
 #include "cli/reports/analysis_report.hpp"
 #include "cli/reports/effects_report.hpp"
-#include "cli/reports/influence_report.hpp"
 #include "cli/reports/limits_report.hpp"
-#include "cli/reports/monitors_report.hpp"
 #include "cli/reports/scene_report.hpp"
 #include "cli/reports/setting_report.hpp"
 #include "cli/reports/warnings.hpp"
@@ -23,7 +20,6 @@
 #include "core/base/stop.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/integration/periodic_start.hpp"
-#include "core/scene/reading/override.hpp"
 #include "core/trust/doubts.hpp"
 #include "core/trust/proportions.hpp"
 #include "core/trust/ranking.hpp"
@@ -125,14 +121,14 @@ double largest_step(const Trajectory& trajectory) {
 
 /// @param design  where it comes from, if it is not the start
 std::string simulation_text(const ProblemFile& problem, const std::string& design,
-                            const Eigen::VectorXd& x, const Simulated& run) {
+                            const Json& limits, const Simulated& run) {
   const Analysis& analysis = run.analysis;
   const Trajectory& trajectory = analysis.trajectory;
-  std::string text = fmt::format(
-      "{}{}: {}\n\n{}\n{}", problem.name, design, size_text(analysis),
-      responses_text(problem, analysis, run.errors) + limits_text(problem, x, analysis, run.errors),
-      monitors_text(run.monitors, analysis.model.mechanism.system->multipliers()) +
-          assembly_text(analysis) + warnings_text(run.warnings, run.consequences));
+  std::string text =
+      fmt::format("{}{}: {}\n\n{}\n{}", problem.name, design, size_text(analysis),
+                  responses_text(problem, analysis, run.errors) + limits_text(problem, limits),
+                  monitors_text(run.monitors, analysis.model.mechanism.system->multipliers()) +
+                      assembly_text(analysis) + warnings_text(run.warnings, run.consequences));
   if (!run.influences.empty()) {
     text += influences_text({problem, values_of(analysis), run.influences}, true) + "\n";
   }
@@ -185,19 +181,18 @@ Outcome run_simulate(const Arguments& arguments) {
   }
   record.begin_phase("write");
   const std::string design = arguments.design ? " at " + arguments.design->string() : "";
-  const bool is_refuted =
-      tries_a_design(arguments) && !keeps_limits(input.problem, input.design, *analysis);
+  const Json limits = limits_document(input.problem, input.design, *analysis, run.errors);
+  const bool is_refuted = tries_a_design(arguments) && !keeps_limits(limits);
   Outcome outcome{run.is_checked && !is_refuted ? ExitCode::done : ExitCode::not_verified,
                   simulation_document(input.problem, run),
-                  simulation_text(input.problem, design, input.design, run)};
+                  simulation_text(input.problem, design, limits, run)};
   outcome.text += fmt::format("Written to {}: trajectory.csv, result.json, run_card.json\n",
                               record.folder().string());
   mark_effects({input.problem, values_of(*analysis), run.influences}, outcome.document["effects"]);
   if (input.choice) outcome.document["setting"] = setting_document(input, *input.choice);
   outcome.document["variables"] = variables_document(input.problem, input.design);
-  outcome.document["constraints"] =
-      limits_document(input.problem, input.design, *analysis, run.errors);
-  record.write("result.json", outcome.document);
+  outcome.document["constraints"] = limits;
+  record.write_result(outcome.document);
   write_trajectory(record.result("trajectory.csv"), *analysis, run.bands);
   record.show_picture([&] {
     const std::string name = arguments.design ? "design" : "start";

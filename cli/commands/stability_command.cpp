@@ -6,9 +6,9 @@
 #include "cli/commands/progress_line.hpp"
 #include "cli/files/csv_file.hpp"
 #include "cli/files/run_record.hpp"
+#include "cli/reports/document_table.hpp"
 #include "cli/reports/warnings.hpp"
 #include "cli/text/console.hpp"
-#include "cli/text/table.hpp"
 #include "core/base/number_text.hpp"
 #include "core/trust/doubts.hpp"
 #include "studies/stability.hpp"
@@ -17,11 +17,16 @@ namespace pleuel {
 
 namespace {
 
-std::string case_name(const StabilityRun& run) {
-  return run.file.stem().string();
+std::string case_name(const Json& run) {
+  return std::filesystem::path(text_at(run, "/file")).stem().string();
 }
 
-Json run_document(const StabilityRun& run) {
+/// "pump, index-1": of an entry of "runs".
+std::string run_name(const Json& run) {
+  return case_name(run) + ", " + text_at(run, "/formulation");
+}
+
+Json stability_entry(const StabilityRun& run) {
   Json document = {
       {"file", run.file.string()}, {"problem", run.problem}, {"formulation", run.formulation}};
   if (!run.is_ok()) {
@@ -41,87 +46,65 @@ Json run_document(const StabilityRun& run) {
 }
 
 Json make_document(const std::vector<StabilityRun>& runs, bool is_whole) {
-  Json document = {
-      {"status", study_status(is_whole)}, {"formulations", Json::array()}, {"runs", Json::array()}};
+  Json document = {{"status", study_status(is_whole)}, {"formulations", Json::array()}};
   for (const auto* compared : {&compared_formulations(), &compared_schemes()}) {
     for (const ComparedFormulation& formulation : *compared) {
       document["formulations"].push_back(formulation.name);
     }
   }
-  for (const StabilityRun& run : runs) document["runs"].push_back(run_document(run));
+  document["runs"] = list_of(runs, stability_entry);
   return document;
 }
 
 /// stability.csv: a line for each run as it is done [SI].
-class StabilityCsv {
- public:
-  explicit StabilityCsv(const ResultFile& file)
-      : csv_(file, {"file", "formulation", "steps", "newton_iterations", "factorizations",
-                    "position_drift", "velocity_drift", "energy_error", "condition", "seconds",
-                    "failure"}) {}
-
-  void add(const StabilityRun& run) {
-    csv_.add(run.file.string()).add(run.formulation);
-    if (run.is_ok()) {
-      csv_.add(run.steps).add(run.newton_iterations).add(run.factorizations);
-      csv_.add(run.position_drift)
-          .add(run.velocity_drift)
-          .add(run.energy_error)
-          .add(run.condition)
-          .add(run.seconds);
-    } else {
-      for (int i = 0; i < 8; ++i) csv_.add(std::string());
-    }
-    csv_.add(run.failure);
-    csv_.end_row();
+std::vector<CsvColumn> stability_columns() {
+  std::vector<CsvColumn> columns;
+  for (const char* place : {"/file", "/formulation", "/work/steps", "/work/newton_iterations",
+                            "/work/factorizations", "/position_drift", "/velocity_drift",
+                            "/energy_error", "/condition", "/seconds", "/failure"}) {
+    const Json::json_pointer pointer(place);
+    columns.push_back({pointer.back(), pointer});
   }
-
- private:
-  CsvFile csv_;
-};
-
-std::vector<std::string> row(const StabilityRun& run) {
-  std::vector<std::string> cells = {case_name(run), run.formulation};
-  if (!run.is_ok()) {
-    cells.push_back("failed");
-    return cells;
-  }
-  cells.insert(cells.end(), {"ok", magnitude(run.position_drift), magnitude(run.velocity_drift),
-                             magnitude(run.energy_error), std::to_string(run.steps),
-                             fmt::format("{:.2f}", run.iterations_per_step()),
-                             magnitude(run.condition), duration(run.seconds)});
-  return cells;
+  return columns;
 }
 
-std::string runs_text(const std::vector<StabilityRun>& runs) {
-  Table table({{"case", Table::Align::left},
-               {"formulation", Table::Align::left},
-               {"result", Table::Align::left},
-               {"position drift"},
-               {"velocity drift"},
-               {"energy error"},
-               {"steps"},
-               {"iterations a step"},
-               {"condition"},
-               {"time"}},
-              2);
-  for (const StabilityRun& run : runs) table.add_row(row(run));
-  return table.text();
+std::string runs_text(const Json& runs) {
+  const auto result = [](const std::string&, const Json& run) {
+    return run.contains("failure") ? "failed" : "ok";
+  };
+  const auto iterations = [](const std::string&, const Json& run) -> std::string {
+    const auto steps = number_at(run, "/work/steps");
+    return steps ? fmt::format("{:.2f}", *number_at(run, "/work/newton_iterations") / *steps) : "–";
+  };
+  return table_of(runs,
+                  {{"case", [](const std::string&, const Json& run) { return case_name(run); },
+                    Table::Align::left},
+                   text_column("formulation", "/formulation"),
+                   {"result", result, Table::Align::left},
+                   number_column("position drift", "/position_drift", magnitude),
+                   number_column("velocity drift", "/velocity_drift", magnitude),
+                   number_column("energy error", "/energy_error", magnitude),
+                   number_column("steps", "/work/steps", whole_number),
+                   {"iterations a step", iterations},
+                   number_column("condition", "/condition", magnitude),
+                   number_column("time", "/seconds", duration)},
+                  2)
+      .text();
 }
 
-std::string failures_text(const std::vector<StabilityRun>& runs) {
+std::string failures_text(const Json& runs) {
   std::string text;
-  for (const StabilityRun& run : runs) {
-    if (run.is_ok()) continue;
-    text += fmt::format("{}, {}: {}\n", case_name(run), run.formulation, run.failure);
+  for (const Json& run : runs) {
+    if (!run.contains("failure")) continue;
+    text += fmt::format("{}: {}\n", run_name(run), text_at(run, "/failure"));
   }
   return text.empty() ? text : "\n" + text;
 }
 
-std::string doubts_text(const std::vector<StabilityRun>& runs) {
+std::string doubts_text(const Json& runs) {
   SharedWarnings warnings;
-  for (const StabilityRun& run : runs) {
-    warnings.add(run.warnings, case_name(run) + ", " + run.formulation);
+  for (const Json& run : runs) {
+    warnings.add(run.value("warnings", std::vector<std::string>()), run_name(run));
   }
   const std::string text = warnings_text(warnings.sentences());
   return text.empty() ? "" : "\n" + text;
@@ -138,7 +121,7 @@ std::vector<StabilityRun> run_all(const Arguments& arguments, std::size_t all,
       [&](const StabilityRun& run) {
         keep(run);
         ++done;
-        progress.print(fmt::format("  {}, {}: {}", case_name(run), run.formulation,
+        progress.print(fmt::format("  {}: {}", run_name(stability_entry(run)),
                                    run.is_ok() ? duration(run.seconds) : "failed"));
         progress.show_share(fmt::format("{} of {} runs", done, all), double(done) / double(all));
       },
@@ -151,7 +134,7 @@ Outcome run_stability(const Arguments& arguments) {
   const std::vector<ProblemInput> inputs = read_inputs(arguments);
   RunRecord record(arguments, inputs, Json::object());
   record.begin_phase("stability");
-  std::optional<StabilityCsv> csv;  // with the first result
+  std::optional<DocumentCsv> csv;  // with the first result
   SharedWarnings before;
   for (const ProblemInput& input : inputs) {
     before.add(texts_of(find_doubts_before(input.problem)), input.problem.name);
@@ -160,13 +143,14 @@ Outcome run_stability(const Arguments& arguments) {
   const std::size_t all =
       inputs.size() * (compared_formulations().size() + compared_schemes().size());
   const std::vector<StabilityRun> runs = run_all(arguments, all, [&](const StabilityRun& run) {
-    if (!csv) csv.emplace(record.result("stability.csv"));
-    csv->add(run);
+    if (!csv) csv.emplace(record.result("stability.csv"), stability_columns());
+    csv->add(stability_entry(run));
   });
   const bool is_whole = runs.size() == all;
   Outcome outcome{is_whole ? ExitCode::done : ExitCode::not_verified, make_document(runs, is_whole),
-                  (is_whole ? "" : interrupted_text(runs.size(), all, "runs")) + runs_text(runs) +
-                      failures_text(runs) + doubts_text(runs)};
+                  is_whole ? "" : interrupted_text(runs.size(), all, "runs")};
+  const Json& entries = outcome.document["runs"];
+  outcome.text += runs_text(entries) + failures_text(entries) + doubts_text(entries);
   outcome.text += fmt::format("\nWritten to {}: stability.csv, result.json, run_card.json\n",
                               record.folder().string());
   record.finish(outcome);

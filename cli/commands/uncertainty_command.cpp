@@ -1,5 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -10,9 +13,9 @@
 #include "cli/files/run_picture.hpp"
 #include "cli/files/run_record.hpp"
 #include "cli/files/run_store.hpp"
+#include "cli/reports/document_table.hpp"
 #include "cli/reports/error_report.hpp"
 #include "cli/reports/warnings.hpp"
-#include "cli/text/table.hpp"
 #include "core/base/number_text.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "core/trust/doubts.hpp"
@@ -38,18 +41,16 @@ Json response_document(const ProblemFile& problem, const UncertaintyStudy& study
                        std::size_t index) {
   const UncertainResponse& response = study.responses[index];
   const std::string unit = unit_of(problem.responses[index]).si;
+  std::vector<DesignVariable> parameters;
+  for (const UncertainParameter& parameter : problem.uncertainty->parameters) {
+    parameters.push_back(problem.variables[parameter.variable]);
+  }
   Json document = {{"value", response.value},
                    {"unit", unit},
                    {"deviation", response.deviation},
                    {"bounds", {response.value - response.bound, response.value + response.bound}},
-                   {"shares", Json::object()},
-                   {"gradients", Json::object()}};
-  const auto& parameters = problem.uncertainty->parameters;
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    const std::string& name = name_of(problem, parameters[i]);
-    document["shares"][name] = response.shares(i);
-    document["gradients"][name] = response.gradient(i);
-  }
+                   {"shares", by_name(parameters, response.shares)},
+                   {"gradients", by_name(parameters, response.gradient)}};
   if (!study.errors.empty()) document["error"] = error_document(error_of(study.errors, index));
   if (response.sampled) document["sampled"] = sampled_document(*response.sampled);
   return document;
@@ -70,11 +71,14 @@ Json limit_document(const ProblemFile& problem, const UncertaintyStudy& study,
 }
 
 Json make_document(const ProblemFile& problem, const UncertaintyStudy& study) {
+  const auto limit_entry = [&](const LimitScatter& limit) {
+    return limit_document(problem, study, limit);
+  };
   Json document = {
       {"status", study_status(!study.is_interrupted)},
       {"parameters", Json::object()},
       {"responses", Json::object()},
-      {"limits", Json::array()},
+      {"limits", list_of(study.limits, limit_entry)},
       {"samples", study.samples},
       {"failures", study.failures},
       {"warnings", texts_of(study.doubts)},
@@ -88,105 +92,79 @@ Json make_document(const ProblemFile& problem, const UncertaintyStudy& study) {
   for (std::size_t i = 0; i < study.responses.size(); ++i) {
     document["responses"][problem.responses[i].name] = response_document(problem, study, i);
   }
-  for (const LimitScatter& limit : study.limits) {
-    document["limits"].push_back(limit_document(problem, study, limit));
-  }
   return document;
 }
 
 /// uncertainty.csv: every history with its deviation [SI].
 void write_histories(const ResultFile& file, const ProblemFile& problem,
                      const UncertaintyStudy& study) {
-  std::vector<std::string> header = {"time"};
+  std::vector<std::pair<std::string, Eigen::VectorXd>> columns;
   for (const UncertainHistory& history : study.histories) {
     const std::string& name = problem.responses[history.response].name;
-    header.push_back(name);
-    header.push_back(name + ":deviation");
-    if (history.sampled_deviations.size() > 0) header.push_back(name + ":sampled_deviation");
+    columns.emplace_back(name, history.values);
+    columns.emplace_back(name + ":deviation", history.deviations);
+    if (history.sampled_deviations.size() == 0) continue;
+    columns.emplace_back(name + ":sampled_deviation", history.sampled_deviations);
   }
-  CsvFile csv(file, header);
-  for (Eigen::Index i = 0; i < study.time.size(); ++i) {
-    csv.add(study.time(i));
-    for (const UncertainHistory& history : study.histories) {
-      csv.add(history.values(i)).add(history.deviations(i));
-      if (history.sampled_deviations.size() > 0) csv.add(history.sampled_deviations(i));
-    }
-    csv.end_row();
-  }
+  write_histories(file, study.time, columns);
 }
 
-std::string parameters_text(const ProblemFile& problem) {
-  const std::vector<ShownUnit> units = variable_units(problem);
-  Table table({{"parameter", Table::Align::left},
-               {"value"},
-               {"deviation"},
-               {"half width"},
-               {"unit", Table::Align::left},
-               {"sampled as", Table::Align::left}});
-  for (const UncertainParameter& parameter : problem.uncertainty->parameters) {
-    const std::size_t index = parameter.variable;
-    const ShownUnit& unit = units[index];
-    table.add_row({name_of(problem, parameter),
-                   significant(unit.shown(problem.variables[index].start)),
-                   significant(unit.shown(parameter.standard_deviation()), 3),
-                   significant(unit.shown(parameter.half_width()), 3), unit.name,
-                   parameter.deviation > 0.0 ? "normal" : "uniform"});
-  }
-  return table.text();
+std::string parameters_text(const ProblemFile& problem, const Json& parameters) {
+  const NamedUnits units = units_of_variables(problem);
+  const auto distribution = [&](const std::string& name, const Json&) {
+    const auto& all = problem.uncertainty->parameters;
+    const auto is_it = [&](const UncertainParameter& one) { return name_of(problem, one) == name; };
+    return std::ranges::find_if(all, is_it)->deviation > 0.0 ? "normal" : "uniform";
+  };
+  return table_of(parameters,
+                  {name_column("parameter"),
+                   shown_column("value", "/value", units),
+                   shown_column("deviation", "/deviation", units, significant_digits(3)),
+                   shown_column("half width", "/interval", units, significant_digits(3)),
+                   unit_column(units),
+                   {"sampled as", distribution, Table::Align::left}})
+      .text();
 }
 
 /// "rod_height 78 %, crank_height 20 %"
-std::string largest_shares(const ProblemFile& problem, const UncertainResponse& response) {
-  const auto& parameters = problem.uncertainty->parameters;
-  std::vector<std::size_t> order(parameters.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  const auto share = [&](std::size_t i) { return response.shares(i); };
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return share(a) > share(b); });
-  std::string text;
-  for (std::size_t k = 0; k < std::min<std::size_t>(2, order.size()); ++k) {
-    if (share(order[k]) < 0.005) break;
-    text += fmt::format("{}{} {:.0f} %", text.empty() ? "" : ", ",
-                        name_of(problem, parameters[order[k]]), 100.0 * share(order[k]));
+std::string largest_shares(const std::string&, const Json& response) {
+  constexpr std::size_t most_names = 2;
+  constexpr double least = 0.005;
+  std::multimap<double, std::string, std::greater<>> shares;
+  for (const auto& [name, share] : response.at("shares").items()) shares.emplace(share, name);
+  std::vector<std::string> parts;
+  for (const auto& [share, name] : shares) {
+    if (share < least || parts.size() == most_names) break;
+    parts.push_back(fmt::format("{} {:.0f} %", name, 100.0 * share));
   }
-  return text;
+  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-std::string responses_text(const ProblemFile& problem, const UncertaintyStudy& study) {
-  std::vector<Table::Column> columns = {{"response", Table::Align::left},
-                                        {"value"},
-                                        {"deviation"},
-                                        {"bounds ±"},
-                                        {"unit", Table::Align::left},
-                                        {"error of value", Table::Align::left},
-                                        {"from", Table::Align::left}};
-  const bool is_sampled = study.samples > 1;
-  if (is_sampled) {
+std::string responses_text(const ProblemFile& problem, const Json& document) {
+  const NamedUnits units = units_of_responses(problem);
+  const NumberText three = significant_digits(3);
+  const auto half_width = [&](const std::string& name, const Json& response) {
+    const double bound = response["bounds"][1].get<double>() - response["value"].get<double>();
+    return three(units.at(name).shown(bound));
+  };
+  const auto error = [&](const std::string& name, const Json& response) {
+    return error_text(response.value("error", Json()), units.at(name));
+  };
+  std::vector<DocumentColumn> columns = {name_column("response"),
+                                         shown_column("value", "/value", units),
+                                         shown_column("deviation", "/deviation", units, three),
+                                         {"bounds ±", half_width},
+                                         unit_column(units),
+                                         {"error of value", error, Table::Align::left},
+                                         {"from", largest_shares, Table::Align::left}};
+  if (document.at("samples") > 1) {
     columns.insert(columns.end(),
-                   {{"sampled mean"}, {"sampled deviation"}, {"lowest"}, {"highest"}});
+                   {shown_column("sampled mean", "/sampled/mean", units),
+                    shown_column("sampled deviation", "/sampled/deviation", units, three),
+                    shown_column("lowest", "/sampled/lowest", units),
+                    shown_column("highest", "/sampled/highest", units)});
   }
-  Table table(columns);
-  for (std::size_t i = 0; i < study.responses.size(); ++i) {
-    const UncertainResponse& response = study.responses[i];
-    const ShownUnit unit = unit_of(problem.responses[i]);
-    const auto shown = [&](double value, int digits) {
-      return significant(unit.shown(value), digits);
-    };
-    std::vector<std::string> cells = {problem.responses[i].name,
-                                      shown(response.value, 5),
-                                      shown(response.deviation, 3),
-                                      shown(response.bound, 3),
-                                      unit.name,
-                                      error_text(error_of(study.errors, i), unit),
-                                      largest_shares(problem, response)};
-    if (response.sampled) {
-      cells.insert(cells.end(),
-                   {shown(response.sampled->mean, 5), shown(response.sampled->deviation, 3),
-                    shown(response.sampled->lowest, 5), shown(response.sampled->highest, 5)});
-    }
-    table.add_row(std::move(cells));
-  }
-  return table.text();
+  return table_of(document.at("responses"), columns).text();
 }
 
 /// "the limits hold in all 200 samples; nearest: crank_strength, 4.2 deviations away"
@@ -217,36 +195,36 @@ std::string answer_text(const ProblemFile& problem, const UncertaintyStudy& stud
 }
 
 /// Does it still hold? A row a limit.
-std::string limits_text(const ProblemFile& problem, const UncertaintyStudy& study) {
-  std::vector<Table::Column> columns = {
-      {"constraint", Table::Align::left}, {"value"},    {"limit"},
-      {"unit", Table::Align::left},       {"distance"}, {"at worst"}};
-  if (study.samples > 0) columns.push_back({"broken in"});
-  Table table(columns);
-  for (const LimitScatter& limit : study.limits) {
-    const ShownUnit unit = unit_of(problem.responses[limit.response]);
-    std::vector<std::string> cells = {
-        problem.constraints[limit.constraint].name,
-        significant(unit.shown(study.responses[limit.response].value)),
-        (limit.is_upper ? "≤ " : "≥ ") + significant(unit.shown(limit.limit)),
-        unit.name,
-        std::isfinite(limit.distance) ? significant(limit.distance, 3) + " σ" : "–",
-        significant(unit.shown(limit.worst))};
-    if (study.samples > 0) cells.push_back(percent(double(limit.broken) / study.samples));
-    table.add_row(std::move(cells));
+std::string scatter_text(const ProblemFile& problem, const Json& document) {
+  const NamedUnits units = units_of_limits(problem);
+  const int samples = document.at("samples").get<int>();
+  std::vector<DocumentColumn> columns = {
+      name_column("constraint"),
+      shown_column("value", "/value", units),
+      limit_column(units),
+      unit_column(units),
+      number_column("distance", "/distance",
+                    [](double distance) { return significant(distance, 3) + " σ"; }),
+      shown_column("at worst", "/worst", units)};
+  if (samples > 0) {
+    columns.push_back(number_column("broken in", "/broken",
+                                    [=](double broken) { return percent(broken / samples); }));
   }
+  const Table table = table_of(document.at("limits"), columns);
   return table.is_empty() ? "" : table.text() + "\n";
 }
 
-std::string study_text(const ProblemFile& problem, const UncertaintyStudy& study) {
+std::string study_text(const ProblemFile& problem, const UncertaintyStudy& study,
+                       const Json& document) {
   const std::size_t samples = study.samples + study.failures;
   const std::size_t all = problem.uncertainty->samples;
   std::string text = study.is_interrupted ? interrupted_text(samples, all, "samples") : "";
   text += fmt::format(
       "{}: what uncertain parameters make of the responses, to first order\n\n{}{}{}\n{}\n"
       "Time: gradients {}",
-      problem.name, answer_text(problem, study), limits_text(problem, study),
-      parameters_text(problem), responses_text(problem, study), duration(study.gradient_seconds));
+      problem.name, answer_text(problem, study), scatter_text(problem, document),
+      parameters_text(problem, document["parameters"]), responses_text(problem, document),
+      duration(study.gradient_seconds));
   if (samples > 0) {
     text += fmt::format("; {} samples {}", samples, duration(study.sampling_seconds));
   }
@@ -286,8 +264,8 @@ Outcome run_uncertainty(const Arguments& arguments) {
   record.begin_phase("uncertainty");
   const UncertaintyStudy study = run_study(problem, arguments, store);
   Outcome outcome{study.is_interrupted ? ExitCode::not_verified : ExitCode::done,
-                  make_document(problem, study), study_text(problem, study)};
-  outcome.text += "\n";
+                  make_document(problem, study), ""};
+  outcome.text = study_text(problem, study, outcome.document) + "\n";
   if (study.is_interrupted) {
     outcome.text += resume_text(arguments, record.folder(), Status::interrupted);
   }
@@ -296,7 +274,7 @@ Outcome run_uncertainty(const Arguments& arguments) {
       fmt::format("Written to {}: uncertainty.csv, result.json, run_card.json, run.sqlite\n",
                   record.folder().string());
   store.finish(outcome);
-  record.write("result.json", outcome.document);
+  record.write_result(outcome.document);
   write_histories(record.result("uncertainty.csv"), problem, study);
   record.show_picture([&] {
     return run_picture(input.problem, {{arguments.design ? "design" : "start", input.design}});

@@ -10,7 +10,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cli/files/run_folder.hpp"
 #include "core/base/error.hpp"
 
 namespace pleuel {
@@ -18,14 +17,6 @@ namespace pleuel {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Null if there is none that can be read.
-Json document_in(const fs::path& file) {
-  if (!fs::is_regular_file(file)) return nullptr;
-  std::ifstream stream(file);
-  Json document = Json::parse(stream, nullptr, /*allow_exceptions=*/false);
-  return document.is_object() ? document : Json();
-}
 
 /// Whether a run is at work in the folder: it holds its lock.
 bool is_at_work(const fs::path& folder) {
@@ -37,6 +28,13 @@ bool is_at_work(const fs::path& folder) {
 }
 
 }  // namespace
+
+Json document_in(const fs::path& file) {
+  if (!fs::is_regular_file(file)) return nullptr;
+  std::ifstream stream(file);
+  Json document = Json::parse(stream, nullptr, /*allow_exceptions=*/false);
+  return document.is_object() ? document : Json();
+}
 
 std::string OlderRun::problem() const {
   if (card.contains("inputs") && card["inputs"].is_array() && card["inputs"].size() != 1) {

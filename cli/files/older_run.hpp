@@ -8,6 +8,11 @@
 
 namespace pleuel {
 
+inline constexpr const char* card_name = "run_card.json";
+
+/// The JSON object in a file; null if there is none that can be read.
+Json document_in(const std::filesystem::path& file);
+
 /// What the folder of a run says of it.
 struct OlderRun {
   std::filesystem::path folder;

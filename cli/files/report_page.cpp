@@ -2,14 +2,12 @@
 
 #include <array>
 #include <cstdlib>
-#include <fstream>
 #include <iterator>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
 #include "cli/input/fingerprint.hpp"
-#include "cli/input/own_file.hpp"
 #include "cli/text/wrapped_text.hpp"
 
 namespace pleuel {

@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "cli/input/case_document.hpp"
+#include "cli/input/problem_input.hpp"
 #include "core/response/analysis.hpp"
 #include "core/response/effect_measurement.hpp"
 #include "core/scene/problem_reader.hpp"

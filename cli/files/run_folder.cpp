@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <fstream>
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
 #include <unistd.h>
 
-#include "cli/reports/case_report.hpp"
-#include "cli/text/json.hpp"
+#include "cli/files/older_run.hpp"
 #include "core/base/error.hpp"
+#include "core/base/plain_file_name.hpp"
 
 namespace pleuel {
 
@@ -53,11 +52,8 @@ fs::path usual_folder(const Arguments& arguments) {
 
 /// The command that the card of an older run names; empty if there is none that can be read.
 std::string command_of(const fs::path& folder) {
-  if (!fs::is_regular_file(folder / card_name)) return "";
-  std::ifstream stream(folder / card_name);
-  const Json card = Json::parse(stream, nullptr, /*allow_exceptions=*/false);
-  const bool is_named = card.is_object() && card.contains("command") && card["command"].is_string();
-  return is_named ? card["command"].get<std::string>() : "";
+  const auto run = find_older_run(folder);
+  return run ? run->command() : "";
 }
 
 /// Whether there is nothing but drafts of the card of runs that were killed while they wrote it.

@@ -7,8 +7,6 @@
 
 namespace pleuel {
 
-inline constexpr const char* card_name = "run_card.json";
-
 /// The first of FOLDER, FOLDER-2, FOLDER-3 … that is not there.
 std::filesystem::path free_folder(const std::filesystem::path& folder);
 

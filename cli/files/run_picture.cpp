@@ -7,12 +7,11 @@
 #include "cli/files/history_meaning.hpp"
 #include "cli/files/scene_picture.hpp"
 #include "cli/reports/analysis_report.hpp"
-#include "cli/text/packed_numbers.hpp"
+#include "cli/text/json.hpp"
 #include "core/response/peak_place.hpp"
 #include "core/response/shown_history.hpp"
 #include "core/scene/response_kind.hpp"
 #include "core/scene/response_names.hpp"
-#include "core/scene/response_quantity.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "picture/companions.hpp"
 #include "picture/frames_of_motion.hpp"
@@ -65,15 +64,13 @@ Json meaning_document(const ResponseSettings& response) {
 }
 
 Json limits_picture(const ProblemFile& problem) {
-  Json document = Json::object();
-  for (const ConstraintSettings& constraint : problem.constraints) {
+  return named_entries(problem.constraints, [&](const ConstraintSettings& constraint) {
     Json entry = {{"unit", unit_document(unit_of(problem, constraint))}};
     if (!constraint.response.empty()) entry["response"] = constraint.response;
     if (constraint.lower) entry["lower"] = *constraint.lower;
     if (constraint.upper) entry["upper"] = *constraint.upper;
-    document[constraint.name] = std::move(entry);
-  }
-  return document;
+    return entry;
+  });
 }
 
 /// Times and values of the points of a curve that are drawn, and the half-width of its band if it
@@ -140,16 +137,14 @@ Json response_document(const ProblemFile& problem, const ShownDesign& design, st
 
 Json companions_document(const ProblemFile& problem, const Analysis& analysis, const Room& room) {
   const Companions companions = find_companions(problem, analysis);
-  Json document = Json::array();
-  for (const Companion& one : companions.all) {
+  return list_of(companions.all, [&](const Companion& one) {
     Json entry = meaning_document(one.settings);
     entry["name"] = one.settings.name;
     entry["value"] = one.value;
     entry["peak_time"] = companions.time(one.peak);
     entry["history"] = curve_document(companions.time, one.history, {one.peak}, room.points);
-    document.push_back(std::move(entry));
-  }
-  return document;
+    return entry;
+  });
 }
 
 /// So many frames that all designs together stay small.
@@ -170,16 +165,16 @@ Motion frames_of(const Scene& scene, const Analysis& analysis, std::size_t desig
 }
 
 Json motion_document(const Motion& motion) {
-  Json document = {{"time", packed_numbers(motion.time.transpose())}, {"bodies", Json::array()}};
-  for (const BodyTrack& body : motion.bodies) {
+  const auto body_entry = [](const BodyTrack& body) {
     Json entry = {{"stations", body.stations},
                   {"parts", body.parts},
                   {"positions", packed_numbers(body.positions)},
                   {"rotations", packed_numbers(body.rotations)}};
     if (body.stress.size() > 0) entry["stress"] = packed_numbers(body.stress);
-    document["bodies"].push_back(std::move(entry));
-  }
-  return document;
+    return entry;
+  };
+  return {{"time", packed_numbers(motion.time.transpose())},
+          {"bodies", list_of(motion.bodies, body_entry)}};
 }
 
 Json design_document(const ProblemFile& problem, const ShownDesign& design, std::size_t designs,
@@ -211,9 +206,8 @@ Json run_picture(const ProblemFile& problem, const std::vector<ShownDesign>& des
                    {"description", problem.description},
                    {"scene", scene_picture(problem)},
                    {"variables", Json::object()},
-                   {"responses", Json::object()},
-                   {"limits", limits_picture(problem)},
-                   {"designs", Json::array()}};
+                   {"responses", named_entries(problem.responses, meaning_document)},
+                   {"limits", limits_picture(problem)}};
   const std::vector<ShownUnit> units = variable_units(problem);
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
     const DesignVariable& variable = problem.variables[i];
@@ -221,9 +215,6 @@ Json run_picture(const ProblemFile& problem, const std::vector<ShownDesign>& des
                                             {"lower", variable.lower},
                                             {"upper", variable.upper},
                                             {"unit", unit_document(units[i])}};
-  }
-  for (const ResponseSettings& response : problem.responses) {
-    document["responses"][response.name] = meaning_document(response);
   }
   if (problem.objective) {
     document["objective"] = problem.objective->response;
@@ -234,9 +225,9 @@ Json run_picture(const ProblemFile& problem, const std::vector<ShownDesign>& des
     if (design.analysis != nullptr) document["size"] = size_of(design.analysis->model);
   }
   const Room room = room_of_one(pictures);
-  for (const ShownDesign& design : designs) {
-    document["designs"].push_back(design_document(problem, design, designs.size(), room));
-  }
+  document["designs"] = list_of(designs, [&](const ShownDesign& design) {
+    return design_document(problem, design, designs.size(), room);
+  });
   return document;
 }
 
@@ -254,9 +245,8 @@ Json rigid_picture(const ProblemFile& problem,
 
 Json picture_of_cases(const ProblemFile& joined, std::vector<Json> cases, std::size_t shown) {
   Json picture = std::move(cases[shown]);
-  for (const ResponseSettings& response : joined.responses) {
-    picture["units"]["responses"][response.name] = unit_document(unit_of(response));
-  }
+  picture["units"]["responses"] = named_entries(
+      joined.responses, [](const ResponseSettings& one) { return unit_document(unit_of(one)); });
   for (const ConstraintSettings& constraint : joined.constraints) {
     picture["units"]["limits"][constraint.name] = unit_document(unit_of(joined, constraint));
   }

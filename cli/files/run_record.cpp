@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/files/older_run.hpp"
 #include "cli/files/report_page.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "cli/versions.hpp"
@@ -85,9 +86,14 @@ void RunRecord::write(const std::string& name, const Json& document) {
   write_file(result(name), to_text(document));
 }
 
+void RunRecord::write_result(const Json& document) {
+  write("result.json", versioned(document));
+}
+
 void RunRecord::finish(Outcome& outcome) {
   end_phase();
-  write("result.json", outcome.document);
+  outcome.document = versioned(outcome.document);
+  write_result(outcome.document);
   write_report(outcome);
   wrap_list_of_files(outcome.text);
   phases_["total"] = total_.seconds();

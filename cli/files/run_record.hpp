@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <functional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "cli/files/output_file.hpp"
@@ -43,6 +42,9 @@ class RunRecord {
 
   /// Writes a document into the folder, in place of an earlier one of this name.
   void write(const std::string& name, const Json& document);
+
+  /// Writes result.json, which tells its version.
+  void write_result(const Json& document);
 
   /// What the report shows of the mechanism: see run_picture(). Makes it only if there will be a
   /// report.

@@ -50,23 +50,16 @@ std::string first_difference(const Json& there, const Json& here) {
 RunStore::RunStore(RunRecord& record, const Arguments& arguments, const ProblemInput& input,
                    Json options)
     : record_(record) {
-  Json variables = Json::array(), constraints = Json::array(), design = Json::object();
-  for (std::size_t i = 0; i < input.problem.variables.size(); ++i) {
-    const std::string& name = input.problem.variables[i].name;
-    variables.push_back(name);
-    design[name] = input.design(i);
-  }
-  for (const auto& constraint : input.problem.constraints) constraints.push_back(constraint.name);
   description_ = {{"command", arguments.command},
                   {"arguments", arguments.words},
                   {"problem", input.effective},
                   {"files", fingerprints_of_files(input.effective, input.file)},
-                  {"design", design},
+                  {"design", by_name(input.problem.variables, input.design)},
                   {"options", std::move(options)},
                   {"versions", record.versions()},
                   {"program", program_fingerprint()},
-                  {"variables", variables},
-                  {"constraints", constraints}};
+                  {"variables", list_of(input.problem.variables, &DesignVariable::name)},
+                  {"constraints", list_of(input.problem.constraints, &ConstraintSettings::name)}};
   if (arguments.resumes) open_older();
 }
 

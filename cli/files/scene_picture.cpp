@@ -7,9 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "cli/reports/law_points.hpp"
 #include "cli/reports/scene_words.hpp"
-#include "cli/text/packed_numbers.hpp"
+#include "cli/text/json.hpp"
 #include "core/base/number_text.hpp"
 #include "core/model/motion_plane.hpp"
 #include "core/response/analysis.hpp"
@@ -33,9 +32,7 @@ Json vector_document(const std::array<double, 3>& v) {
 }
 
 Json points_document(const std::vector<Eigen::Vector2d>& points) {
-  Json document = Json::array();
-  for (const Eigen::Vector2d& point : points) document.push_back({point.x(), point.y()});
-  return document;
+  return list_of(points, [](const Eigen::Vector2d& point) { return Json{point.x(), point.y()}; });
 }
 
 /// ", width 20 mm, height 30 mm"
@@ -207,29 +204,23 @@ class GeometryWriter {
       : problem_(problem), scene_(problem.scene), design_(design) {}
 
   Json bodies() const {
-    Json document = Json::array();
-    for (const Body& body : scene_.bodies) document.push_back(body_geometry(body));
-    return document;
+    return list_of(scene_.bodies, [&](const Body& body) { return body_geometry(body); });
   }
 
   Json joints() const {
-    Json document = Json::array();
-    for (const Joint& joint : scene_.joints) {
+    return list_of(scene_.joints, [&](const Joint& joint) {
       const Point& second = second_point(joint);
       Json entry = {{"places", {place(joint.bodies[0], joint.at), place(joint.bodies[1], second)}}};
       if (joint.drive) {
         entry["drive"] =
             law_document(joint.drive->motion, problem_.simulation.end_time, design_, LawOf::motion);
       }
-      document.push_back(std::move(entry));
-    }
-    return document;
+      return entry;
+    });
   }
 
   Json loads() const {
-    Json document = Json::array();
-    for (const Load& load : scene_.loads) document.push_back(std::visit(*this, load.element));
-    return document;
+    return list_of(scene_.loads, [&](const Load& load) { return std::visit(*this, load.element); });
   }
 
   Json operator()(const PointForce& load) const { return at_place(load); }
@@ -315,19 +306,14 @@ Json scene_picture(const ProblemFile& problem) {
                    {"end_time", problem.simulation.end_time}};
   const PlaneAnalysis plane = find_motion_plane(problem.scene, start);
   if (plane.plane) document["plane_normal"] = vector_document(plane.plane->normal);
-  document["bodies"] = Json::array();
-  for (const Body& body : problem.scene.bodies) {
-    document["bodies"].push_back(body_document(problem, body, start));
-  }
-  document["joints"] = Json::array();
-  for (const Joint& joint : problem.scene.joints)
-    document["joints"].push_back(joint_document(joint));
-  document["loads"] = Json::array();
-  for (const Load& load : problem.scene.loads) {
+  document["bodies"] = list_of(
+      problem.scene.bodies, [&](const Body& body) { return body_document(problem, body, start); });
+  document["joints"] = list_of(problem.scene.joints, joint_document);
+  document["loads"] = list_of(problem.scene.loads, [](const Load& load) {
     Json entry = std::visit(LoadDescription{}, load.element);
     entry["name"] = load.name;
-    document["loads"].push_back(std::move(entry));
-  }
+    return entry;
+  });
   return document;
 }
 

@@ -8,28 +8,36 @@
 #include "cli/text/csv_table.hpp"
 #include "core/base/error.hpp"
 #include "core/response/shown_history.hpp"
+#include "sensitivity/history_gradients.hpp"
 
 namespace pleuel {
 
 void write_trajectory(const ResultFile& file, const Analysis& analysis,
                       const std::vector<Eigen::VectorXd>& bands) {
-  std::vector<std::string> header = {"time"};
-  std::vector<Eigen::VectorXd> columns = {analysis.trajectory.time};
+  std::vector<std::pair<std::string, Eigen::VectorXd>> columns;
   for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
     if (!analysis.responses[i].history()) continue;
-    header.push_back(analysis.responses[i].name);
-    columns.emplace_back(shown_history(analysis.responses[i], analysis.histories[i]));
+    columns.emplace_back(analysis.responses[i].name,
+                         shown_history(analysis.responses[i], analysis.histories[i]));
   }
   for (std::size_t i = 0; i < bands.size(); ++i) {
     if (bands[i].size() != analysis.trajectory.time.size()) continue;
-    header.push_back(analysis.responses[i].name + ":error");
-    columns.push_back(bands[i]);
+    columns.emplace_back(analysis.responses[i].name + ":error", bands[i]);
   }
-  CsvFile csv(file, header);
-  for (Eigen::Index instant = 0; instant < columns.front().size(); ++instant) {
-    for (const Eigen::VectorXd& column : columns) csv.add(column(instant));
-    csv.end_row();
+  write_histories(file, analysis.trajectory.time, columns);
+}
+
+void write_history_gradients(const ResultFile& file, const ProblemFile& problem,
+                             Analysis& analysis) {
+  std::vector<std::pair<std::string, Eigen::VectorXd>> columns;
+  for (const HistoryGradients& history : history_gradients(analysis)) {
+    const std::string& name = analysis.responses[history.response].name;
+    columns.emplace_back(name, history.values);
+    for (std::size_t j = 0; j < problem.variables.size(); ++j) {
+      columns.emplace_back(name + ":" + problem.variables[j].name, history.gradients.col(j));
+    }
   }
+  write_histories(file, analysis.trajectory.time, columns);
 }
 
 TrajectoryBands read_bands(const std::filesystem::path& file, const Analysis& analysis) {

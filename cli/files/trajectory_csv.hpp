@@ -15,6 +15,12 @@ namespace pleuel {
 void write_trajectory(const ResultFile& file, const Analysis& analysis,
                       const std::vector<Eigen::VectorXd>& bands = {});
 
+/// One line an instant: time, then each response's history and its derivatives with respect to all
+/// variables, at the place where the response is taken [SI].
+/// @throws SimulationError
+void write_history_gradients(const ResultFile& file, const ProblemFile& problem,
+                             Analysis& analysis);
+
 /// What such a file of the same simulation says of the bands.
 struct TrajectoryBands {
   std::vector<Eigen::VectorXd> bands;  ///< one a response; empty: the file has none

@@ -1,6 +1,5 @@
 #include "cli/files/vtk_series.hpp"
 
-#include <limits>
 #include <variant>
 #include <vector>
 

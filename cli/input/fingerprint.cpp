@@ -3,7 +3,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "cli/input/own_file.hpp"
+#include <dlfcn.h>
+
 #include "core/scene/reading/document_reader.hpp"
 
 namespace pleuel {
@@ -41,6 +42,15 @@ void add_files_of_scene(const Json& problem, const std::filesystem::path& folder
 std::string whole_text(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+std::filesystem::path own_file() {
+  Dl_info info{};
+  const auto here = reinterpret_cast<const void*>(&own_file);
+  if (::dladdr(here, &info) == 0 || info.dli_fname == nullptr) return "/proc/self/exe";
+  std::error_code error;
+  const std::filesystem::path file = std::filesystem::canonical(info.dli_fname, error);
+  return error ? "/proc/self/exe" : file;
 }
 
 std::string program_fingerprint() {

@@ -11,6 +11,9 @@ namespace pleuel {
 /// The bytes of a file; empty if it cannot be read.
 std::string whole_text(const std::filesystem::path& path);
 
+/// The file that this code was loaded from: the shared library, wherever the program that uses it is.
+std::filesystem::path own_file();
+
 /// Of the program itself: another build has another one.
 std::string program_fingerprint();
 

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "cli/input/case_document.hpp"
 #include "cli/input/design_file.hpp"
 #include "cli/input/fingerprint.hpp"
 #include "cli/text/console.hpp"
@@ -15,6 +14,7 @@
 #include "core/response/effect_measurement.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/problem_reader.hpp"
+#include "core/scene/reading/document_reader.hpp"
 #include "core/scene/reading/override.hpp"
 
 namespace pleuel {
@@ -117,6 +117,13 @@ ProblemInput read_file(const std::filesystem::path& file, const Arguments& argum
 }
 
 }  // namespace
+
+Json document_in_case(const Json& document, const std::string& load_case, const std::string& file) {
+  for (const CaseChanges& changes : cases_of(document, file)) {
+    if (changes.name == load_case) return lone_document(document, changes, file);
+  }
+  throw InputError(fmt::format("{}: /cases has no case \"{}\"", file, load_case));
+}
 
 Eigen::VectorXd design_of(const Arguments& arguments, const ProblemFile& problem) {
   Eigen::VectorXd design =

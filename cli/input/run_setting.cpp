@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -36,9 +35,6 @@ bool was_chosen(const Json& result) {
   return !stages.empty() && stages.back().contains("target");
 }
 
-/// Chosen numbers by their places in the file of a case, or in the whole file.
-using Setting = std::vector<std::pair<Json::json_pointer, Json>>;
-
 /// Whether the problem has what a chosen number is of.
 bool has_place(const Json& problem, const Json::json_pointer& place) {
   const std::string text = place.to_string();
@@ -46,17 +42,6 @@ bool has_place(const Json& problem, const Json::json_pointer& place) {
   if (!problem.contains(place.parent_pointer())) return false;
   const Json& owner = problem.at(place.parent_pointer());
   return place.back() != "elements" || !owner.is_object() || !owner.contains("segments");
-}
-
-/// @returns nothing if something of it is not in the problem
-std::optional<Setting> setting_of(const Json& chosen, const Json& problem) {
-  Setting setting;
-  for (const auto& [text, value] : chosen.at("overrides").items()) {
-    const Json::json_pointer place(text);
-    if (!has_place(problem, place)) return std::nullopt;
-    setting.emplace_back(place, value);
-  }
-  return setting;
 }
 
 /// The place in a whole file at which a load case changes another place.
@@ -76,68 +61,58 @@ struct Assignment {
   std::string text, shown;
 };
 
-Assignment assignment(const std::string& load_case, const Json::json_pointer& place,
-                      const Json& value) {
-  const std::string plain = fmt::format("{}={}", place.to_string(), value.dump());
-  if (load_case.empty()) return {plain, plain};
-  return {fmt::format("{}={}", place_in_case(load_case, place), value.dump()),
-          fmt::format("{} in case {}", plain, load_case)};
+using Assignments = std::vector<Assignment>;
+
+/// What was chosen for a problem, or for one of its load cases, but for what the command line gives.
+/// @returns nothing if the problem has no place for something of it
+std::optional<Assignments> assignments_of(const Json& chosen, const Json& problem,
+                                          const std::string& load_case,
+                                          const std::vector<std::string>& given) {
+  Assignments all;
+  for (const auto& [text, value] : chosen.at("overrides").items()) {
+    const Json::json_pointer place(text);
+    // The lengths of segments may go by their elements, and masses with them.
+    const bool is_of_segment = text.find("/segments/") != std::string::npos;
+    if (!has_place(problem, place) || (is_of_segment && !load_case.empty())) return std::nullopt;
+    const std::string whole = load_case.empty() ? text : place_in_case(load_case, place);
+    if (is_given(text, given) || is_given(whole, given)) continue;
+    all.push_back({fmt::format("{}={}", whole, value.dump()),
+                   fmt::format("{}={}{}", text, value.dump(),
+                               load_case.empty() ? "" : " in case " + load_case)});
+  }
+  return all;
 }
 
-class RunSetting {
- public:
-  /// @param result   of the optimization
-  /// @param problem  the file with the assignments of the command line
-  RunSetting(const Arguments& arguments, const Json& result, const Json& problem)
-      : arguments_(arguments), result_(result), problem_(problem) {}
+/// What a run has chosen for one load case: an optimization for all of them, or for this one alone.
+Json chosen_in_case(const Json& setting, const std::string& load_case, const Arguments& arguments) {
+  if (setting.contains("cases")) return setting.at("cases").value(load_case, Json());
+  return arguments.load_case ? setting : Json();
+}
 
-  /// Assignments; nothing if the problem is not that of the run.
-  std::optional<std::vector<Assignment>> find() {
-    const Json& setting = result_.at("setting");
-    if (!problem_.contains("cases") || problem_.at("cases").empty()) {
-      return setting.contains("overrides") && add(setting, "") ? std::optional(assignments_)
-                                                               : std::nullopt;
-    }
-    for (const auto& [name, changes] : problem_.at("cases").items()) {
-      if (arguments_.load_case && name != *arguments_.load_case) continue;
-      if (!changes.is_object() || !add_of_case(setting, name)) return std::nullopt;
-    }
-    return assignments_;
+/// @param setting  of the result of an optimization
+/// @param problem  the file with the assignments of the command line
+/// @returns nothing if the problem is not that of the run
+std::optional<Assignments> assignments_of_run(const Json& setting, const Json& problem,
+                                              const Arguments& arguments) {
+  if (!problem.contains("cases") || problem.at("cases").empty()) {
+    if (!setting.contains("overrides")) return std::nullopt;
+    return assignments_of(setting, problem, "", arguments.overrides);
   }
-
- private:
-  /// Of an optimization for all cases, or for this one alone.
-  bool add_of_case(const Json& setting, const std::string& name) {
-    if (setting.contains("cases")) {
-      return setting.at("cases").contains(name) && add(setting.at("cases").at(name), name);
-    }
-    return arguments_.load_case && setting.contains("overrides") && add(setting, name);
+  Assignments all;
+  for (const auto& [name, changes] : problem.at("cases").items()) {
+    if (arguments.load_case && name != *arguments.load_case) continue;
+    const Json chosen = chosen_in_case(setting, name, arguments);
+    if (!changes.is_object() || !chosen.contains("overrides")) return std::nullopt;
+    const auto of_case = assignments_of(chosen, problem, name, arguments.overrides);
+    if (!of_case) return std::nullopt;
+    all.insert(all.end(), of_case->begin(), of_case->end());
   }
-
-  bool add(const Json& chosen, const std::string& load_case) {
-    const std::optional<Setting> setting = setting_of(chosen, problem_);
-    if (!setting) return false;
-    for (const auto& [place, value] : *setting) {
-      // The lengths of segments may go by their elements, and masses with them.
-      const bool is_of_segment = place.to_string().find("/segments/") != std::string::npos;
-      if (is_of_segment && !load_case.empty()) return false;
-      const std::string in_case = load_case.empty() ? "" : place_in_case(load_case, place);
-      const bool is_given_otherwise = is_given(place.to_string(), arguments_.overrides) ||
-                                      (!in_case.empty() && is_given(in_case, arguments_.overrides));
-      if (is_given_otherwise) continue;
-      assignments_.push_back(assignment(load_case, place, value));
-    }
-    return true;
-  }
-
-  const Arguments& arguments_;
-  const Json &result_, &problem_;
-  std::vector<Assignment> assignments_;
-};
+  return all;
+}
 
 struct FoundSetting {
   bool fits = true;  ///< otherwise the run is of another mechanism
-  std::vector<Assignment> assignments;
+  Assignments assignments;
 };
 
 /// Nothing where no accuracy was asked of the run, or where one is asked for now.
@@ -151,7 +126,7 @@ FoundSetting setting_of_run(const Arguments& arguments) {
     apply_override(problem, assignment, arguments.file.string());
   }
   if (problem.contains(Json::json_pointer("/accuracy/target"))) return {};
-  const auto found = RunSetting(arguments, result, problem).find();
+  const auto found = assignments_of_run(result.at("setting"), problem, arguments);
   if (!found) return {false, {}};
   return {true, *found};
 }

@@ -1,7 +1,6 @@
 #include "cli/reports/accuracy_charts.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>

@@ -2,8 +2,6 @@
 
 #include <variant>
 
-#include <fmt/format.h>
-
 #include "cli/reports/outcome.hpp"
 #include "cli/reports/setting_report.hpp"
 #include "cli/reports/time_text.hpp"
@@ -15,11 +13,7 @@ namespace pleuel {
 namespace {
 
 Json of_responses(const ProblemFile& problem, const Eigen::VectorXd& numbers) {
-  Json document = Json::object();
-  for (Eigen::Index i = 0; i < numbers.size(); ++i) {
-    document[problem.responses[i].name] = numbers(i);
-  }
-  return document;
+  return by_name(problem.responses, numbers);
 }
 
 Json number_or_null(const std::optional<double>& number) {
@@ -37,17 +31,6 @@ void add_measures(const ProblemFile& problem, const AccuracyRun& run, Json& docu
   document["work"] = {{"steps", run.steps},
                       {"newton_iterations", run.newton_iterations},
                       {"factorizations", run.factorizations}};
-}
-
-Json run_document(const ProblemFile& problem, const AccuracyRun& run) {
-  Json document = {{"settings", settings_document(run.settings)}};
-  if (run.has_failed()) {
-    document["failure"] = run.failure;
-    return document;
-  }
-  document["warnings"] = texts_of(run.doubts);
-  add_measures(problem, run, document);
-  return document;
 }
 
 /// Of the setting, and of what is changed of it.
@@ -125,14 +108,12 @@ Json reference_document(const ProblemFile& problem, const AccuracyStudy& study) 
 
 void add_recommendations(const ProblemInput& input, const AccuracyStudy& study, Json& document) {
   document["recommended"] = document["recommended_for_gradients"] = nullptr;
-  document["recommendations"] = Json::array();
-  for (const Recommendation& one : study.recommendations) {
-    document["recommendations"].push_back(
-        {{"error", one.target},
-         {"values", choice_document(input, study, one.values, nullptr)},
-         {"gradients",
-          choice_document(input, study, one.gradients, &AccuracyRun::gradient_seconds)}});
-  }
+  document["recommendations"] = list_of(study.recommendations, [&](const Recommendation& one) {
+    const auto with_gradients = &AccuracyRun::gradient_seconds;
+    return Json{{"error", one.target},
+                {"values", choice_document(input, study, one.values, nullptr)},
+                {"gradients", choice_document(input, study, one.gradients, with_gradients)}};
+  });
   if (study.recommendations.empty()) return;
   document["recommended"] = document["recommendations"][0]["values"];
   document["recommended_for_gradients"] = document["recommendations"][0]["gradients"];
@@ -144,12 +125,10 @@ void add_variations(const ProblemInput& input, const AccuracyStudy& study, Json&
   if (!study.base) return;
   const AccuracyRun& base = study.runs[*study.base];
   document["base"] = settings_document(base.settings);
-  for (const VariedRun& one : study.knobs) {
-    document["knobs"].push_back(knob_document(input, base, one));
-  }
-  for (const VariedRun& one : study.effects) {
-    document["effects"].push_back(effect_document(input, base, one));
-  }
+  document["knobs"] =
+      list_of(study.knobs, [&](const VariedRun& one) { return knob_document(input, base, one); });
+  document["effects"] = list_of(
+      study.effects, [&](const VariedRun& one) { return effect_document(input, base, one); });
 }
 
 Json optimum_document(const ProblemInput& input, const OptimumStudy& optima,
@@ -166,20 +145,15 @@ Json optimum_document(const ProblemInput& input, const OptimumStudy& optima,
   document["objective"] = run.objective;
   document["error"] = run.change;
   document["relative_error"] = optima.relative_error(run);
-  document["variables"] = Json::object();
-  for (std::size_t i = 0; i < input.problem.variables.size(); ++i) {
-    document["variables"][input.problem.variables[i].name] = run.x(i);
-  }
+  document["variables"] = by_name(input.problem.variables, run.x);
   return document;
 }
 
 }  // namespace
 
 void add_optima(const ProblemInput& input, const OptimumStudy& optima, Json& document) {
-  document["optimum"] = Json::array();
-  for (const OptimumRun& run : optima.runs) {
-    document["optimum"].push_back(optimum_document(input, optima, run));
-  }
+  document["optimum"] = list_of(
+      optima.runs, [&](const OptimumRun& run) { return optimum_document(input, optima, run); });
   document["optimum_reference"] = optimum_document(input, optima, optima.reference);
   document["optimum_reference"]["error"] = number_or_null(optima.reference_error);
   document["optimum_reference"]["relative_error"] =
@@ -207,22 +181,29 @@ Json settings_document(const Discretization& settings) {
   return document;
 }
 
+Json run_document(const ProblemFile& problem, const AccuracyRun& run) {
+  Json document = {{"settings", settings_document(run.settings)}};
+  if (run.has_failed()) {
+    document["failure"] = run.failure;
+    return document;
+  }
+  document["warnings"] = texts_of(run.doubts);
+  add_measures(problem, run, document);
+  return document;
+}
+
 Json overrides_document(const ProblemInput& input, const Discretization& settings) {
   return overrides_document(input.effective, discretized(input.problem, settings));
 }
 
 Json accuracy_document(const ProblemInput& input, const AccuracyStudy& study) {
   const ProblemFile& problem = input.problem;
+  const auto name_of = [&](std::size_t response) { return problem.responses[response].name; };
+  const auto entry_of = [&](const AccuracyRun& run) { return run_document(problem, run); };
   Json document = {{"status", study_status(!study.is_interrupted)},
                    {"error", problem.accuracy.target},
-                   {"counted", Json::array()},
-                   {"runs", Json::array()}};
-  for (const std::size_t i : study.counted) {
-    document["counted"].push_back(problem.responses[i].name);
-  }
-  for (const AccuracyRun& run : study.runs) {
-    document["runs"].push_back(run_document(problem, run));
-  }
+                   {"counted", list_of(study.counted, name_of)},
+                   {"runs", list_of(study.runs, entry_of)}};
   add_recommendations(input, study, document);
   add_variations(input, study, document);
   document["orders"] = {

@@ -16,6 +16,9 @@ Json accuracy_document(const ProblemInput& input, const AccuracyStudy& study);
 /// What whole optimizations add to it.
 void add_optima(const ProblemInput& input, const OptimumStudy& optima, Json& document);
 
+/// An entry of its "runs".
+Json run_document(const ProblemFile& problem, const AccuracyRun& run);
+
 /// {POINTER: value} of what --set has to change for a setting.
 Json overrides_document(const ProblemInput& input, const Discretization& settings);
 

@@ -60,16 +60,10 @@ bool is_recommended(const AccuracyStudy& study, std::size_t run) {
 }
 
 std::string runs_text(const ProblemFile& problem, const AccuracyStudy& study) {
-  Table table({{"step [ms]"},
-               {"elements"},
-               {"largest error", Table::Align::left},
-               {"of a gradient", Table::Align::left},
-               {"simulation [ms]"},
-               {"gradient [ms]"},
-               {"steps"},
-               {"factorizations"},
-               {"", Table::Align::left}},
-              2);
+  Table table(
+      {"step [ms]", "elements", left_aligned("largest error"), left_aligned("of a gradient"),
+       "simulation [ms]", "gradient [ms]", "steps", "factorizations", left_aligned("")},
+      2);
   for (std::size_t i = 0; i < study.runs.size(); ++i) {
     const AccuracyRun& run = study.runs[i];
     std::vector<std::string> cells = {fmt::format("{:.4g}", 1e3 * run.settings.step),
@@ -208,11 +202,8 @@ std::string knobs_text(const AccuracyStudy& study) {
 
 std::string variations_text(const ProblemFile& problem, const AccuracyStudy& study) {
   if (study.knobs.empty()) return "";
-  Table table({{"one by one", Table::Align::left},
-               {"time"},
-               {"run [ms]"},
-               {"largest error", Table::Align::left},
-               {"of a gradient", Table::Align::left}});
+  Table table({left_aligned("one by one"), "time", "run [ms]", left_aligned("largest error"),
+               left_aligned("of a gradient")});
   for (const VariedRun& one : study.knobs) {
     std::vector<std::string> cells = {variation_text(one.variation)};
     if (one.run.has_failed()) {
@@ -297,14 +288,14 @@ std::string optima_text(const ProblemFile& problem, const OptimumStudy* optima) 
   }
   const ResponseSettings& objective = find_response(problem, problem.objective->response);
   const ShownUnit unit = unit_of(objective);
-  Table table({{"step [ms]"},
-               {"elements"},
+  Table table({"step [ms]",
+               "elements",
                {"optimum [" + unit.name + "]"},
-               {"off by"},
-               {"relative"},
-               {"seconds"},
-               {"evaluations"},
-               {"status", Table::Align::left}},
+               "off by",
+               "relative",
+               "seconds",
+               "evaluations",
+               left_aligned("status")},
               2);
   for (const OptimumRun& run : optima->runs) {
     std::vector<std::string> cells = {fmt::format("{:.4g}", 1e3 * run.settings.step),

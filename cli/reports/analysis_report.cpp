@@ -68,23 +68,41 @@ double without_round_off(const Analysis& analysis, std::size_t response) {
 
 std::string responses_text(const ProblemFile& problem, const Analysis& analysis,
                            const ErrorBars& errors) {
-  std::vector<Table::Column> columns = {
-      {"response", Table::Align::left}, {"value"}, {"unit", Table::Align::left}};
-  if (!errors.empty()) columns.push_back({"error", Table::Align::left});
-  if (has_peaks(analysis)) columns.push_back({"peak at", Table::Align::left});
+  std::vector<Table::Column> columns = {left_aligned("response"), "value", left_aligned("unit")};
+  if (!errors.empty()) columns.push_back(left_aligned("error"));
+  if (has_peaks(analysis)) columns.push_back(left_aligned("peak at"));
   Table table(columns);
   for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
     const ShownUnit unit = unit_of(problem.responses[i]);
     const double value = without_round_off(analysis, i);
     std::vector<std::string> row = {analysis.responses[i].name, significant(unit.shown(value)),
                                     unit.name};
-    if (!errors.empty()) row.push_back(error_text(error_of(errors, i), unit));
+    if (!errors.empty()) row.push_back(error_text(error_document(error_of(errors, i)), unit));
     if (has_peaks(analysis)) {
       row.push_back(value == 0.0 ? "" : peak_text(find_peak(problem, analysis, i)));
     }
     table.add_row(std::move(row));
   }
   return table.is_empty() ? "  The file asks for no responses.\n" : table.text();
+}
+
+Json monitors_document(const Monitors& monitors) {
+  return {{"position_drift", monitors.position_drift},
+          {"velocity_drift", monitors.velocity_drift},
+          {"energy_error", monitors.energy_error},
+          {"elastic_energy_error", monitors.elastic_energy_error},
+          {"elastic_rotation", monitors.elastic_rotation}};
+}
+
+std::string monitors_text(const Monitors& monitors, int multipliers) {
+  std::string text;
+  if (multipliers > 0) {
+    text =
+        fmt::format("Joints and drives are kept to {} m or rad, their rates to {} m/s or rad/s.\n",
+                    magnitude(monitors.position_drift), magnitude(monitors.velocity_drift));
+  }
+  return text + fmt::format("Energy is balanced to {} of the largest energy in the motion.\n",
+                            magnitude(monitors.energy_error));
 }
 
 std::string size_text(const Analysis& analysis) {

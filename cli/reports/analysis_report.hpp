@@ -5,6 +5,7 @@
 #include "cli/reports/error_report.hpp"
 #include "cli/text/json.hpp"
 #include "core/response/analysis.hpp"
+#include "core/response/monitors.hpp"
 
 /// What simulate, gradient and check have in common to say of one simulated design.
 namespace pleuel {
@@ -24,6 +25,12 @@ double without_round_off(const Analysis& analysis, std::size_t response);
 /// Table of values in engineering units.
 std::string responses_text(const ProblemFile& problem, const Analysis& analysis,
                            const ErrorBars& errors = {});
+
+/// {"position_drift", "velocity_drift", "energy_error", "elastic_rotation"} [SI]
+Json monitors_document(const Monitors& monitors);
+
+/// Sentences about constraints (if there are multipliers) and energy.
+std::string monitors_text(const Monitors& monitors, int multipliers);
 
 /// "4514 steps of 2.5e-05 s, 41 coordinates, 24 multipliers"
 std::string size_text(const Analysis& analysis);

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "core/base/number_text.hpp"
+#include "core/base/plain_file_name.hpp"
 #include "core/scene/case_goals.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/shown_unit.hpp"
@@ -147,8 +148,7 @@ std::size_t deciding_case(const ProblemFile& problem, const Result& result) {
 }
 
 Json cases_document(const ProblemFile& problem, const Result& result) {
-  Json document = {{"names", Json::array()}};
-  for (const ProblemFile& one : problem.cases) document["names"].push_back(one.load_case);
+  Json document = {{"names", list_of(problem.cases, &ProblemFile::load_case)}};
   document["shown"] = problem.cases[deciding_case(problem, result)].load_case;
   for (std::size_t c = 0; c < problem.cases.size(); ++c) {
     const std::string& name = problem.cases[c].load_case;

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "cli/text/json.hpp"
-#include "core/base/plain_file_name.hpp"
 #include "core/scene/problem_file.hpp"
 #include "optimization/result.hpp"
 

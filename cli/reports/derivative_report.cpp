@@ -20,12 +20,9 @@ int digits_of(double relative_error) {
 }
 
 Json curve_document(const std::vector<CentralDifference>& curve) {
-  Json document = Json::array();
-  for (const CentralDifference& difference : curve) {
-    document.push_back(
-        {{"step", difference.step}, {"difference", difference.value}, {"error", difference.error}});
-  }
-  return document;
+  return list_of(curve, [](const CentralDifference& one) {
+    return Json{{"step", one.step}, {"difference", one.value}, {"error", one.error}};
+  });
 }
 
 Json variable_document(const JudgedDerivative& judged) {
@@ -86,12 +83,8 @@ std::string loose_newton_text(const ProblemFile& problem,
 
 std::string disagreements_text(const ProblemFile& problem,
                                const std::vector<DerivativeCheck>& checks) {
-  Table table({{"response", Table::Align::left},
-               {"variable", Table::Align::left},
-               {"derivative"},
-               {"error"},
-               {"at step"},
-               {"because", Table::Align::left}});
+  Table table({left_aligned("response"), left_aligned("variable"), "derivative", "error", "at step",
+               left_aligned("because")});
   for (std::size_t i = 0; i < checks.size(); ++i) {
     for (std::size_t j = 0; j < checks[i].variables.size(); ++j) {
       const JudgedDerivative& judged = checks[i].variables[j];
@@ -140,14 +133,8 @@ Json derivative_document(const ProblemFile& problem, const DerivativeCheck& chec
 
 std::string derivatives_text(const ProblemFile& problem, const Analysis& analysis,
                              const std::vector<DerivativeCheck>& checks) {
-  Table table({{"response", Table::Align::left},
-               {"value"},
-               {"unit", Table::Align::left},
-               {"derivative", Table::Align::left},
-               {"worst variable", Table::Align::left},
-               {"adjoint"},
-               {"noise"},
-               {"digits", Table::Align::left}});
+  Table table({left_aligned("response"), "value", left_aligned("unit"), left_aligned("derivative"),
+               left_aligned("worst variable"), "adjoint", "noise", left_aligned("digits")});
   for (std::size_t i = 0; i < checks.size(); ++i) {
     const DerivativeCheck& check = checks[i];
     const ShownUnit unit = unit_of(problem.responses[i]);

@@ -39,11 +39,7 @@ std::optional<DesignInfluence> design_influence(const ProblemFile& problem, Anal
 
 Json influence_document(const ProblemFile& problem, const DesignInfluence& influence,
                         std::size_t response) {
-  Json document = Json::object();
-  for (std::size_t j = 0; j < problem.variables.size(); ++j) {
-    document[problem.variables[j].name] = influence.gradients(response, j);
-  }
-  return document;
+  return by_name(problem.variables, influence.gradients.row(response));
 }
 
 }  // namespace pleuel

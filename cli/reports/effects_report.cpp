@@ -6,10 +6,13 @@
 
 #include <fmt/format.h>
 
-#include "cli/reports/influence_report.hpp"
 #include "cli/reports/time_text.hpp"
 #include "cli/text/table.hpp"
 #include "cli/text/wrapped_text.hpp"
+#include "core/base/find_named.hpp"
+#include "core/base/int_size.hpp"
+#include "core/base/number_text.hpp"
+#include "core/scene/shown_unit.hpp"
 
 namespace pleuel {
 
@@ -34,11 +37,7 @@ void add_influence(const ProblemFile& problem, const EffectInfluence& influence,
     entry["failure"] = influence.failure;
     return;
   }
-  entry["influence"] = Json::object();
-  for (std::size_t i = 0; i < problem.responses.size(); ++i) {
-    const double change = influence.changes(i);
-    entry["influence"][problem.responses[i].name] = change;
-  }
+  entry["influence"] = by_name(problem.responses, influence.changes);
   entry["unknowns"] = influence.unknowns;
   entry["iterations"] = influence.iterations;
   if (influence.time) entry["time"] = time_change_document(*influence.time);
@@ -74,6 +73,152 @@ std::string bodies_text(const std::vector<std::string>& bodies) {
   return fmt::format("{}", fmt::join(bodies, ", "));
 }
 
+/// An effect, and the body that it is of, if it is of one.
+struct BodyEffect {
+  std::string effect, body;
+};
+
+/// "elasticity (crank, rod), spatial_motion"
+std::string names_text(const std::vector<BodyEffect>& effects) {
+  std::vector<std::pair<std::string, std::vector<std::string>>> all;  // name: bodies
+  for (const auto& [effect, body] : effects) {
+    auto same = std::find_if(all.begin(), all.end(),
+                             [&](const auto& entry) { return entry.first == effect; });
+    if (same == all.end()) same = all.insert(all.end(), {effect, {}});
+    if (!body.empty()) same->second.push_back(body);
+  }
+  std::string text;
+  for (const auto& [effect, bodies] : all) {
+    text += (text.empty() ? "" : ", ") + effect;
+    if (!bodies.empty()) text += fmt::format(" ({})", fmt::join(bodies, ", "));
+  }
+  return text;
+}
+
+/// Relative changes below this are round-off.
+constexpr double round_off = 1e-8;
+/// What counts where the file gives no tolerance of effects.
+constexpr double usual_tolerance = 1e-3;
+
+/// "+3", "−2", "0"
+std::string count_text(int count) {
+  return count == 0 ? "0" : fmt::format("{}{}", count < 0 ? "−" : "+", std::abs(count));
+}
+
+struct Change {
+  Eigen::Index response = -1;  ///< none: nothing changes
+  double relative = 0.0;
+};
+
+/// The largest relative change of a response.
+Change largest_change(const Eigen::VectorXd& values, const EffectInfluence& influence) {
+  Change largest;
+  for (Eigen::Index i = 0; i < influence.changes.size(); ++i) {
+    const double relative = std::abs(influence.changes(i)) / std::abs(values(i));
+    if (values(i) == 0.0 || !(relative > std::max(largest.relative, round_off))) continue;
+    largest = {i, relative};
+  }
+  return largest;
+}
+
+/// "rod_bow −0.0012 mm (−0.6 %)"
+std::string largest_change_text(const MeasuredEffects& effects, const EffectInfluence& influence) {
+  const Change largest = largest_change(effects.values, influence);
+  if (largest.response < 0) return "nothing";
+  const ResponseSettings& response = effects.problem.responses[largest.response];
+  const ShownUnit unit = unit_of(response);
+  const double change = influence.changes(largest.response);
+  return fmt::format("{} {} {} ({} %)", response.name, signed_significant(unit.shown(change), 2),
+                     unit.name,
+                     signed_significant(std::copysign(100.0 * largest.relative, change), 2));
+}
+
+/// Of a response or of the optimum, relative.
+double most_changed(const MeasuredEffects& effects, const EffectInfluence& influence) {
+  const double change = largest_change(effects.values, influence).relative;
+  if (!effects.price) return change;
+  const auto index = index_of_named(effects.problem.responses, effects.problem.objective->response);
+  const double objective = index ? std::abs(effects.values(*index)) : 0.0;
+  const double worth = std::abs(effects.price(influence.changes));
+  return objective > 0.0 ? std::max(change, worth / objective) : change;
+}
+
+bool does_matter(const MeasuredEffects& effects, const EffectInfluence& influence) {
+  if (!influence.failure.empty()) return false;
+  const double asked = effects.problem.effects.tolerance;
+  return most_changed(effects, influence) > (asked > 0.0 ? asked : usual_tolerance);
+}
+
+bool has_times(const MeasuredEffects& effects) {
+  return std::ranges::any_of(effects.influences,
+                             [](const EffectInfluence& one) { return one.time.has_value(); });
+}
+
+std::vector<std::string> row_of(const MeasuredEffects& effects, const EffectInfluence& one) {
+  const PriceOfChanges& price = effects.price;
+  std::vector<std::string> row = {one.effect, one.body};
+  if (!one.failure.empty()) {
+    row.insert(row.end(), 2 + (has_times(effects) ? 1 : 0) + (price ? 1 : 0), "–");
+    row.push_back(one.failure);
+    return row;
+  }
+  row.insert(row.end(), {count_text(one.unknowns), count_text(one.iterations)});
+  if (one.time) row.push_back(time_change_text(*one.time));
+  if (price) {
+    const std::string& objective = effects.problem.objective->response;
+    const ShownUnit unit = unit_of(find_response(effects.problem, objective));
+    row.push_back(signed_significant(unit.shown(price(one.changes)), 2) + " " + unit.name);
+  }
+  row.push_back(largest_change_text(effects, one));
+  return row;
+}
+
+/// "4 further effects change nothing by more than 0.025 % and cost hardly any time"
+std::string small_text(const MeasuredEffects& effects, const std::vector<bool>& matters) {
+  int count = 0;
+  double most = 0.0;
+  for (std::size_t i = 0; i < matters.size(); ++i) {
+    if (matters[i] || !effects.influences[i].failure.empty()) continue;
+    ++count;
+    most = std::max(most, most_changed(effects, effects.influences[i]));
+  }
+  if (count == 0) return "";
+  const bool is_all = count == int_size(matters);
+  const std::string subject =
+      fmt::format("{}{}effect{} change{}", is_all ? "" : fmt::format("{} ", count),
+                  is_all ? "all " : "further ", count == 1 ? "" : "s", count == 1 ? "s" : "");
+  return subject + (most > 0.0
+                        ? fmt::format(" nothing by more than {} %", significant(100.0 * most, 2))
+                        : " nothing");
+}
+
+std::string indispensable_text(const MeasuredEffects& effects) {
+  std::vector<BodyEffect> all;
+  for (const EffectInfluence& one : effects.influences) {
+    if (!one.failure.empty()) all.push_back({one.effect, one.body});
+  }
+  return all.empty() ? "" : names_text(all) + " cannot be left out";
+}
+
+/// What the table leaves out.
+std::string rest_text(const MeasuredEffects& effects, const std::vector<bool>& matters) {
+  std::vector<std::string> parts = {small_text(effects, matters), indispensable_text(effects)};
+  std::erase(parts, "");
+  if (parts.empty()) return "";
+  std::string text = fmt::format("{}; --effects shows all.\n", fmt::join(parts, "; "));
+  if (text.front() >= 'a' && text.front() <= 'z') text.front() += 'A' - 'a';
+  return wrapped(text, "  ");
+}
+
+/// One an influence; those that a simulation cannot do without do not count.
+std::vector<bool> which_matter(const MeasuredEffects& effects) {
+  std::vector<bool> matters;
+  for (const EffectInfluence& one : effects.influences) {
+    matters.push_back(does_matter(effects, one));
+  }
+  return matters;
+}
+
 }  // namespace
 
 Json effects_document(const ProblemFile& problem, const Model& model,
@@ -98,12 +243,8 @@ Json effects_document(const ProblemFile& problem, const Model& model,
 }
 
 std::string effects_text(const Model& model) {
-  Table table({{"effect", Table::Align::left},
-               {"of", Table::Align::left},
-               {"built", Table::Align::left},
-               {"decision", Table::Align::left},
-               {"saves"},
-               {"because", Table::Align::left}});
+  Table table({left_aligned("effect"), left_aligned("of"), left_aligned("built"),
+               left_aligned("decision"), "saves", left_aligned("because")});
   for (const auto& [effect, bodies] : alike_effects(model)) {
     table.add_row({effect->name, bodies_text(bodies), effect->is_built ? "yes" : "no",
                    kind_of(*effect),
@@ -114,19 +255,39 @@ std::string effects_text(const Model& model) {
 }
 
 std::string left_out_text(const Model& model) {
-  std::vector<std::pair<std::string, std::vector<std::string>>> all;  // name: bodies
+  std::vector<BodyEffect> all;
   for (const EffectRecord& effect : model.effects) {
-    if (effect.is_built) continue;
-    const auto same = std::find_if(all.begin(), all.end(),
-                                   [&](const auto& one) { return one.first == effect.name; });
-    auto& entry =
-        same == all.end() ? all.emplace_back(effect.name, std::vector<std::string>()) : *same;
-    if (!effect.body.empty()) entry.second.push_back(effect.body);
+    if (!effect.is_built) all.push_back({effect.name, effect.body});
   }
-  if (all.empty()) return "";
-  std::vector<std::string> names;
-  for (const auto& [name, bodies] : all) names.push_back(effect_of_bodies(name, bodies));
-  return wrapped(fmt::format("Left out: {}.\n", fmt::join(names, ", ")), "  ");
+  return all.empty() ? "" : wrapped(fmt::format("Left out: {}.\n", names_text(all)), "  ");
+}
+
+void mark_effects(const MeasuredEffects& effects, Json& document) {
+  const std::vector<bool> matters = which_matter(effects);
+  for (Json& entry : document) {
+    for (std::size_t i = 0; i < matters.size(); ++i) {
+      const EffectInfluence& one = effects.influences[i];
+      const bool is_it = entry.value("body", "") == one.body && entry.at("name") == one.effect;
+      if (is_it && one.failure.empty()) entry["matters"] = static_cast<bool>(matters[i]);
+    }
+  }
+}
+
+std::string influences_text(const MeasuredEffects& effects, bool shows_all) {
+  if (effects.influences.empty()) return "";
+  std::vector<Table::Column> columns = {left_aligned("without"), left_aligned("of"), "unknowns",
+                                        "iterations"};
+  if (has_times(effects)) columns.push_back("time");
+  if (effects.price) columns.push_back("optimum");
+  columns.push_back(left_aligned("largest change of a response"));
+  Table table(columns);
+  const std::vector<bool> matters = which_matter(effects);
+  for (std::size_t i = 0; i < matters.size(); ++i) {
+    if (shows_all || matters[i]) table.add_row(row_of(effects, effects.influences[i]));
+  }
+  const std::string listed = table.is_empty() ? "" : table.text();
+  const std::string rest = shows_all ? "" : rest_text(effects, matters);
+  return "\n" + listed + (listed.empty() || rest.empty() ? "" : "\n") + rest;
 }
 
 }  // namespace pleuel

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/reports/document_table.hpp"
 #include "core/base/number_text.hpp"
 
 namespace pleuel {
@@ -16,14 +17,15 @@ Json part_document(const ErrorPart& part) {
 }
 
 /// "; with shear +0.8": what the model leaves out, where that is more than what is uncertain of the rest.
-std::string left_out_text(const ErrorBar& bar, const ShownUnit& unit) {
+std::string left_out_text(const Json& error, const ShownUnit& unit) {
   std::string text;
-  for (const auto& [name, change] : bar.left_out) {
-    if (!(std::abs(change) > bar.bound())) continue;
+  const Json left_out = error.value("left_out", Json::object());
+  for (const auto& [name, effect] : left_out.items()) {
+    const double change = effect.get<double>();
+    if (!(std::abs(change) > number_at(error, "/total").value_or(HUGE_VAL))) continue;
     std::string words = name;
     std::ranges::replace(words, '_', ' ');
-    text += fmt::format("; with {} {}{}", words, change > 0.0 ? "+" : "−",
-                        significant(unit.shown(std::abs(change)), 2));
+    text += fmt::format("; with {} {}", words, signed_significant(unit.shown(change), 2));
   }
   return text;
 }
@@ -45,13 +47,13 @@ Json error_document(const std::optional<ErrorBar>& bar) {
   return document;
 }
 
-std::string error_text(const std::optional<ErrorBar>& bar, const ShownUnit& unit) {
-  if (!bar) return "–";
-  if (!bar->is_modelled) return "not modelled";
-  if (!bar->is_resolved()) return "not resolved";
-  const std::string text =
-      bar->bound() == 0.0 ? "exact" : "± " + significant(unit.shown(bar->bound()), 2);
-  return text + left_out_text(*bar, unit);
+std::string error_text(const Json& error, const ShownUnit& unit) {
+  if (error.is_null()) return "–";
+  if (!error.value("is_modelled", true)) return "not modelled";
+  if (!error.at("total").is_number()) return "not resolved";
+  const double total = error["total"].get<double>();
+  return (total == 0.0 ? "exact" : "± " + significant(unit.shown(total), 2)) +
+         left_out_text(error, unit);
 }
 
 std::string error_sentence(const ErrorBar& bar, double value, const ShownUnit& unit) {
@@ -67,7 +69,7 @@ std::string error_sentence(const ErrorBar& bar, double value, const ShownUnit& u
   text += fmt::format(": step {}, elements {}", shown(bar.step.bound), shown(bar.elements.bound));
   if (bar.newton.bound > 0.0) text += fmt::format(", Newton {}", shown(bar.newton.bound));
   if (bar.effects.bound > 0.0) text += fmt::format(", effects {}", shown(bar.effects.bound));
-  return text + left_out_text(bar, unit);
+  return text + left_out_text(error_document(bar), unit);
 }
 
 }  // namespace pleuel

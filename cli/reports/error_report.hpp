@@ -24,7 +24,8 @@ inline std::optional<ErrorBar> error_of(const ErrorBars& errors, std::size_t res
 Json error_document(const std::optional<ErrorBar>& bar);
 
 /// "± 0.0012", "not resolved", "–".
-std::string error_text(const std::optional<ErrorBar>& bar, const ShownUnit& unit);
+/// @param error  of error_document()
+std::string error_text(const Json& error, const ShownUnit& unit);
 
 /// "known to ± 0.00012 kg (0.04 %): step 0.0001, elements 2e-05", its largest parts.
 std::string error_sentence(const ErrorBar& bar, double value, const ShownUnit& unit);

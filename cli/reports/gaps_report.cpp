@@ -71,18 +71,18 @@ std::string gaps_message(const ProblemFile& problem, const ParetoFront& front,
 
 Json gaps_document(const ProblemFile& problem, const ParetoFront& front) {
   if (!is_of_gap(problem, front)) return nullptr;
-  Json document = {{"asked", problem.pareto->gap}, {"largest", nullptr}, {"left", Json::array()}};
+  Json document = {{"asked", problem.pareto->gap}, {"largest", nullptr}};
   if (front.gaps.largest) document["largest"] = *front.gaps.largest;
   const auto limited = [&](std::size_t i) {
     const ParetoPoint& point = front.points[i];
     return point.has_design() && point.keeps_limits() ? Json(point.limited_value) : Json(nullptr);
   };
-  for (const FrontGap& gap : front.gaps.gaps) {
-    document["left"].push_back({{"points", {gap.tight + 1, gap.loose + 1}},
-                                {"limited", {limited(gap.tight), limited(gap.loose)}},
-                                {"size", gap.size},
-                                {"cause", cause_text(gap.cause)}});
-  }
+  document["left"] = list_of(front.gaps.gaps, [&](const FrontGap& gap) {
+    return Json{{"points", {gap.tight + 1, gap.loose + 1}},
+                {"limited", {limited(gap.tight), limited(gap.loose)}},
+                {"size", gap.size},
+                {"cause", cause_text(gap.cause)}};
+  });
   return document;
 }
 

@@ -7,8 +7,6 @@
 #include <fmt/format.h>
 
 #include "cli/reports/analysis_report.hpp"
-#include "cli/reports/optimum.hpp"
-#include "cli/text/table.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/find_named.hpp"
 #include "core/base/number_text.hpp"
@@ -18,6 +16,24 @@
 namespace pleuel {
 
 namespace {
+
+/// The limit of a constraint that is nearer to its value, and how much of it is used.
+struct UsedLimit {
+  double limit = 0.0;
+  bool is_upper = true;
+  std::optional<double> utilisation;  ///< 1 = at the limit; none where the ratio says nothing
+};
+
+UsedLimit used_limit(const ConstraintSettings& constraint, double value) {
+  UsedLimit used;
+  const bool has_both = constraint.lower && constraint.upper;
+  used.is_upper = has_both ? *constraint.upper - value <= value - *constraint.lower
+                           : constraint.upper.has_value();
+  used.limit = used.is_upper ? *constraint.upper : *constraint.lower;
+  if (used.limit > 0.0 && value >= 0.0 && used.is_upper) used.utilisation = value / used.limit;
+  if (used.limit > 0.0 && value > 0.0 && !used.is_upper) used.utilisation = used.limit / value;
+  return used;
+}
 
 /// Of the terms of a sum, which may cancel.
 constexpr double round_off_of_terms = 1e-12;
@@ -68,39 +84,42 @@ bool is_within_error(const ProblemFile& problem, const ConstraintSettings& const
 }
 
 /// A difference that value and limit do not show, with their five digits, is none.
-std::string margin_text(const UsedLimit& used, double value, const ShownUnit& unit) {
-  const double margin = used.is_upper ? used.limit - value : value - used.limit;
-  if (std::abs(margin) < 1e-5 * std::abs(used.limit)) return "0";
-  return significant(unit.shown(margin), 3);
+double shown_margin(const Json& limit) {
+  const double bound = limit.at("limit").get<double>();
+  const double below = bound - limit.at("value").get<double>();
+  const double margin = limit["side"] == "upper" ? below : -below;
+  return std::abs(margin) < 1e-5 * std::abs(bound) ? 0.0 : margin;
 }
 
-std::string sum_text(const ProblemFile& problem, const Eigen::VectorXd& x,
-                     const Analysis& analysis) {
+std::string sum_text(const Json& limits) {
   std::vector<std::string> broken;
-  for (const ConstraintSettings& constraint : problem.constraints) {
-    if (is_kept(constraint, x, value_of(constraint, problem, x, analysis))) continue;
-    broken.push_back(constraint.name);
+  for (const auto& [name, limit] : limits.items()) {
+    if (!limit["kept"].get<bool>()) broken.push_back(name);
   }
-  const std::size_t all = problem.constraints.size();
+  const std::size_t all = limits.size();
   if (broken.empty() && all == 1) return "The limit is kept.\n";
   if (broken.empty()) return fmt::format("All {} limits are kept.\n", all);
   if (all == 1) return fmt::format("The limit is broken: {}.\n", broken.front());
-  return wrapped(fmt::format("{} of {} limits {} broken: {}.", broken.size(), all,
+  return wrapped(fmt::format("{} of {} limits {} broken: {}.\n", broken.size(), all,
                              broken.size() == 1 ? "is" : "are", fmt::join(broken, ", ")),
-                 "  ") +
-         "\n";
+                 "  ");
 }
 
 }  // namespace
 
-Json limit_document(const ProblemFile& problem, const ConstraintSettings& constraint,
-                    const Eigen::VectorXd& x, double value) {
+Json limit_entry(const ProblemFile& problem, const ConstraintSettings& constraint, double value) {
   const UsedLimit used = used_limit(constraint, value);
   Json entry = {{"value", value},
                 {"limit", used.limit},
                 {"side", used.is_upper ? "upper" : "lower"},
                 {"unit", unit_of(problem, constraint).si}};
   if (used.utilisation) entry["utilisation"] = *used.utilisation;
+  return entry;
+}
+
+Json limit_document(const ProblemFile& problem, const ConstraintSettings& constraint,
+                    const Eigen::VectorXd& x, double value) {
+  Json entry = limit_entry(problem, constraint, value);
   entry["kept"] = is_kept(constraint, x, value);
   return entry;
 }
@@ -111,41 +130,39 @@ Json limits_document(const ProblemFile& problem, const Eigen::VectorXd& x, const
   for (const ConstraintSettings& constraint : problem.constraints) {
     const double value = value_of(constraint, problem, x, analysis);
     Json& entry = document[constraint.name] = limit_document(problem, constraint, x, value);
-    if (is_kept(constraint, x, value)) continue;
+    if (entry["kept"].get<bool>()) continue;
     entry["within_error"] = is_within_error(problem, constraint, value, errors);
   }
   return document;
 }
 
-std::string limits_text(const ProblemFile& problem, const Eigen::VectorXd& x,
-                        const Analysis& analysis, const Errors& errors) {
-  Table table({{"constraint", Table::Align::left},
-               {"value"},
-               {"limit"},
-               {"unit", Table::Align::left},
-               {"used"},
-               {"margin"},
-               {"", Table::Align::left}});
-  for (const ConstraintSettings& constraint : problem.constraints) {
-    const double value = value_of(constraint, problem, x, analysis);
-    const UsedLimit used = used_limit(constraint, value);
-    const ShownUnit unit = unit_of(problem, constraint);
-    table.add_row(
-        {constraint.name, significant(unit.shown(value)),
-         (used.is_upper ? "≤ " : "≥ ") + significant(unit.shown(used.limit)), unit.name,
-         used.utilisation ? percent(*used.utilisation) : "–", margin_text(used, value, unit),
-         is_kept(constraint, x, value)                         ? "kept"
-         : is_within_error(problem, constraint, value, errors) ? "BROKEN, within its error"
-                                                               : "BROKEN"});
-  }
-  return table.is_empty() ? "" : "\n" + table.text() + "\n" + sum_text(problem, x, analysis);
+DocumentColumn kept_column() {
+  const auto verdict = [](const std::string&, const Json& limit) {
+    if (limit.at("kept").get<bool>()) return "kept";
+    return limit.value("within_error", false) ? "BROKEN, within its error" : "BROKEN";
+  };
+  return {"", verdict, Table::Align::left};
 }
 
-bool keeps_limits(const ProblemFile& problem, const Eigen::VectorXd& x, const Analysis& analysis) {
-  return std::all_of(problem.constraints.begin(), problem.constraints.end(),
-                     [&](const ConstraintSettings& constraint) {
-                       return is_kept(constraint, x, value_of(constraint, problem, x, analysis));
-                     });
+std::string limits_text(const ProblemFile& problem, const Json& limits) {
+  if (limits.empty()) return "";
+  const NamedUnits units = units_of_limits(problem);
+  const auto margin = [&](const std::string& name, const Json& limit) {
+    return significant(units.at(name).shown(shown_margin(limit)), 3);
+  };
+  const Table table = table_of(limits, {name_column("constraint"),
+                                        shown_column("value", "/value", units),
+                                        limit_column(units),
+                                        unit_column(units),
+                                        number_column("used", "/utilisation", percent),
+                                        {"margin", margin},
+                                        kept_column()});
+  return "\n" + table.text() + "\n" + sum_text(limits);
+}
+
+bool keeps_limits(const Json& limits) {
+  return std::all_of(limits.begin(), limits.end(),
+                     [](const Json& limit) { return limit.at("kept").get<bool>(); });
 }
 
 }  // namespace pleuel

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/reports/document_table.hpp"
 #include "cli/text/json.hpp"
 #include "core/base/error_bar.hpp"
 #include "core/response/analysis.hpp"
@@ -12,7 +13,11 @@
 /// `deviations` ask for.
 namespace pleuel {
 
-/// {"value", "limit", "side", "unit", "utilisation", "kept"} of one limit [SI]
+/// {"value", "limit", "side", "unit", "utilisation"} of the limit of a constraint that is nearer to its
+/// value [SI]: how much of it is used, 1 = at the limit, where the ratio says something.
+Json limit_entry(const ProblemFile& problem, const ConstraintSettings& constraint, double value);
+
+/// The same with "kept".
 Json limit_document(const ProblemFile& problem, const ConstraintSettings& constraint,
                     const Eigen::VectorXd& x, double value);
 
@@ -22,12 +27,14 @@ Json limit_document(const ProblemFile& problem, const ConstraintSettings& constr
 Json limits_document(const ProblemFile& problem, const Eigen::VectorXd& x, const Analysis& analysis,
                      const std::vector<std::optional<ErrorBar>>& errors);
 
-/// A table of the same, and which limits are broken; empty without limits.
-std::string limits_text(const ProblemFile& problem, const Eigen::VectorXd& x,
-                        const Analysis& analysis,
-                        const std::vector<std::optional<ErrorBar>>& errors);
+/// "kept", "BROKEN" of an entry of such a document.
+DocumentColumn kept_column();
+
+/// A table of limits_document(), and which limits are broken; empty without limits.
+std::string limits_text(const ProblemFile& problem, const Json& limits);
 
 /// As exactly as a verified optimum does.
-bool keeps_limits(const ProblemFile& problem, const Eigen::VectorXd& x, const Analysis& analysis);
+/// @param limits  of limits_document()
+bool keeps_limits(const Json& limits);
 
 }  // namespace pleuel

@@ -1,10 +1,15 @@
 #include "cli/reports/optimum_document.hpp"
 
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "cli/reports/analysis_report.hpp"
 #include "cli/reports/case_report.hpp"
 #include "cli/reports/error_report.hpp"
-#include "cli/reports/monitors_report.hpp"
-#include "cli/reports/plain_verdict.hpp"
+#include "cli/reports/limits_report.hpp"
 #include "cli/reports/scene_report.hpp"
+#include "core/base/number_text.hpp"
 #include "core/scene/case_goals.hpp"
 #include "core/scene/response_quantity.hpp"
 #include "optimization/prices.hpp"
@@ -12,6 +17,26 @@
 namespace pleuel {
 
 namespace {
+
+/// "is lighter", "has a smaller rod_bow"
+std::string better_text(const ProblemFile& problem) {
+  const ResponseSettings& response = find_response(problem, problem.objective->response);
+  const bool is_minimized = problem.objective->sign() > 0.0;
+  if (quantity_of(response).unit == "kg") return is_minimized ? "is lighter" : "is heavier";
+  return fmt::format("has a {} {}", is_minimized ? "smaller" : "larger", response.name);
+}
+
+std::string accuracy_text(const Optimum& optimum) {
+  const std::string& name = optimum.problem.objective->response;
+  const double value = optimum.result.evaluation.objective;
+  if (!optimum.result.error || !optimum.result.error->is_resolved() || value == 0.0) {
+    return "how exact the simulation is was not looked at";
+  }
+  const double bound = optimum.result.error->bound();
+  if (bound == 0.0) return fmt::format("{} is exact", name);
+  return fmt::format("steps and elements change {} by {} % at most", name,
+                     significant(100.0 * bound / std::abs(value), 2));
+}
 
 Json objective_document(const Optimum& optimum) {
   const std::string& name = optimum.problem.objective->response;
@@ -26,17 +51,12 @@ Json objective_document(const Optimum& optimum) {
 
 Json constraint_document(const Optimum& optimum, std::size_t i) {
   const ConstraintSettings& constraint = optimum.problem.constraints[i];
-  const double value = optimum.result.evaluation.constraints(i);
-  const UsedLimit used = used_limit(constraint, value);
-  Json document = {{"value", value},
-                   {"limit", used.limit},
-                   {"side", used.is_upper ? "upper" : "lower"},
-                   {"unit", unit_of(optimum.problem, constraint).si}};
+  Json document =
+      limit_entry(optimum.problem, constraint, optimum.result.evaluation.constraints(i));
   if (has_prices(optimum.result)) {
     document["multiplier"] =
         optimum.problem.objective->sign() * optimum.result.constraint_multipliers(i);
   }
-  if (used.utilisation) document["utilisation"] = *used.utilisation;
   if (constraint.deviations > 0.0) document["deviations"] = constraint.deviations;
   const std::string load_case = case_of(optimum.problem, i);
   if (!load_case.empty()) {
@@ -65,14 +85,10 @@ Json responses_document(const Optimum& optimum) {
   return document;
 }
 
-Json parts_document(const std::vector<SearchPart>& parts) {
-  Json document = Json::array();
-  for (const SearchPart& part : parts) {
-    document.push_back({{"method", part.method},
-                        {"status", to_string(part.status)},
-                        {"evaluations", part.evaluations}});
-  }
-  return document;
+Json search_part_document(const SearchPart& part) {
+  return {{"method", part.method},
+          {"status", to_string(part.status)},
+          {"evaluations", part.evaluations}};
 }
 
 Json least_violation_document(const ProblemFile& problem, const LeastViolation& least) {
@@ -91,6 +107,30 @@ Json least_violation_document(const ProblemFile& problem, const LeastViolation& 
 }
 
 }  // namespace
+
+std::string neighbours_text(const Optimum& optimum) {
+  const std::string better = better_text(optimum.problem);
+  if (optimum.sizes == nullptr || !optimum.sizes->is_choice) {
+    return fmt::format("no design nearby that keeps them {}", better);
+  }
+  const SizeChoiceReport& sizes = *optimum.sizes;
+  if (sizes.is_exhaustive) {
+    return fmt::format(
+        "of all {:.0f} choices of sizes, which were all tried, none that keeps them {}",
+        sizes.combinations, better);
+  }
+  return fmt::format(
+      "of the {} choices of sizes that were tried none that keeps them {}, also with any one size "
+      "exchanged for {}; the others were not tried",
+      sizes.tried, better, sizes.are_lists_tried ? "another" : "the next");
+}
+
+std::string plain_verdict(const Optimum& optimum) {
+  if (optimum.result.status != Status::verified) return "";
+  return fmt::format(
+      "every limit holds; {}; the gradients agree with differences of simulations; {}",
+      neighbours_text(optimum), accuracy_text(optimum));
+}
 
 Json optimum_document(const Optimum& optimum) {
   const Result& result = optimum.result;
@@ -124,7 +164,7 @@ Json optimum_document(const Optimum& optimum) {
   if (optimum.problem.has_cases()) {
     document["cases"] = cases_document(optimum.problem, result);
   }
-  if (result.parts.size() > 1) document["parts"] = parts_document(result.parts);
+  if (result.parts.size() > 1) document["parts"] = list_of(result.parts, search_part_document);
   if (result.least_violation) {
     document["least_violation"] =
         least_violation_document(optimum.problem, *result.least_violation);

@@ -1,9 +1,51 @@
 #pragma once
 
-#include "cli/reports/optimum.hpp"
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/reports/design_influence.hpp"
 #include "cli/text/json.hpp"
+#include "core/response/effect_influence.hpp"
+#include "core/response/monitors.hpp"
+#include "core/scene/shown_unit.hpp"
+#include "optimization/design/size_choice.hpp"
+#include "optimization/solve.hpp"
+#include "sensitivity/gradients.hpp"
 
 namespace pleuel {
+
+/// What the reports of an optimization are made from.
+struct Optimum {
+  const ProblemFile& problem;
+  const Result& result;
+  /// Values of all responses; empty if the start cannot be simulated.
+  Eigen::VectorXd start_responses, responses;
+  Monitors monitors;                  ///< of the last design; likewise
+  std::vector<std::string> warnings;  ///< likewise: what speaks against its numbers
+  int consequences =
+      0;  ///< so many of the last warnings are not told, since they follow from others
+  std::optional<GradientChoice> method;  ///< of the gradients; none if there was none
+  /// Of the last design, by runs of twice the step; empty: not measured.
+  std::vector<EffectInfluence> influences{};
+  std::optional<DesignInfluence> influence{};  ///< of the variables; none: not known
+  const SizeChoiceReport* sizes = nullptr;     ///< where some are chosen from lists
+
+  bool has_design() const { return result.evaluation.has_gradients(); }
+
+  /// Where the search began: that of the file, unless another design was given.
+  double start(std::size_t variable) const {
+    return result.history.empty() ? problem.variables[variable].start
+                                  : first_design(result.history).x(variable);
+  }
+};
+
+/// What was checked of a verified answer, in words that need no theory: "every limit holds; no
+/// design nearby is lighter; …". Empty of other answers, whose message says what is missing.
+std::string plain_verdict(const Optimum& optimum);
+
+/// "no design nearby that keeps them is lighter"; of sizes out of lists, what was tried of them.
+std::string neighbours_text(const Optimum& optimum);
 
 /// The document of `optimize`; see docs/reference/commands.md.
 Json optimum_document(const Optimum& optimum);

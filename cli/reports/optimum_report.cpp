@@ -5,15 +5,17 @@
 
 #include <fmt/format.h>
 
+#include "cli/reports/analysis_report.hpp"
 #include "cli/reports/case_report.hpp"
+#include "cli/reports/document_table.hpp"
 #include "cli/reports/error_report.hpp"
-#include "cli/reports/monitors_report.hpp"
-#include "cli/reports/plain_verdict.hpp"
-#include "cli/reports/reached_bound.hpp"
+#include "cli/reports/optimum_document.hpp"
+#include "cli/reports/scene_report.hpp"
 #include "cli/reports/sizes_report.hpp"
 #include "cli/reports/warnings.hpp"
 #include "cli/text/table.hpp"
 #include "cli/text/wrapped_text.hpp"
+#include "core/base/find_named.hpp"
 #include "core/base/number_text.hpp"
 #include "core/scene/case_goals.hpp"
 #include "optimization/prices.hpp"
@@ -97,13 +99,8 @@ std::string value_text(const DesignVariable& variable, const ShownUnit& unit, do
 
 std::string variables_text(const Optimum& optimum) {
   const std::vector<ShownUnit> units = variable_units(optimum.problem);
-  Table table({{"variable", Table::Align::left},
-               {"start"},
-               {name_of_end(to_string(optimum.result.status))},
-               {"lower"},
-               {"upper"},
-               {"unit", Table::Align::left},
-               {"", Table::Align::left}});
+  Table table({left_aligned("variable"), "start", name_of_end(to_string(optimum.result.status)),
+               "lower", "upper", left_aligned("unit"), left_aligned("")});
   for (std::size_t i = 0; i < optimum.problem.variables.size(); ++i) {
     const DesignVariable& variable = optimum.problem.variables[i];
     const ShownUnit& unit = units[i];
@@ -122,15 +119,11 @@ std::string variables_text(const Optimum& optimum) {
 }
 
 /// −μ · 1 % of the limit, relative to the objective: what one more percent of a limit is worth.
-std::string worth(const Optimum& optimum, double multiplier, double limit) {
-  const double objective = optimum.result.evaluation.objective;
-  const double gain = -multiplier * 0.01 * std::abs(limit);
+std::string worth(const Json& limit, double objective) {
+  const double gain =
+      -limit.at("multiplier").get<double>() * 0.01 * std::abs(limit.at("limit").get<double>());
   if (gain == 0.0 || objective == 0.0) return "–";
   return (gain < 0 ? "−" : "+") + fmt::format("{:.2f} %", 100 * std::abs(gain / objective));
-}
-
-std::string price_text(double multiplier, const ShownUnit& objective, const ShownUnit& limit) {
-  return multiplier == 0.0 ? "0" : significant(objective.shown(multiplier) * limit.factor, 3);
 }
 
 /// What round-off leaves of a limit of zero is zero.
@@ -138,71 +131,51 @@ std::string limited_text(double shown) {
   return significant(std::abs(shown) < 1e-9 ? 0.0 : shown);
 }
 
-std::vector<std::string> constraint_row(const Optimum& optimum, std::size_t i, bool has_price) {
-  const ConstraintSettings& constraint = optimum.problem.constraints[i];
-  const double value = optimum.result.evaluation.constraints(i);
-  std::optional<double> multiplier;
-  if (has_price) {
-    multiplier = optimum.problem.objective->sign() * optimum.result.constraint_multipliers(i);
-  }
-  const UsedLimit used = used_limit(constraint, value);
-  const ShownUnit unit = unit_of(optimum.problem, constraint);
-  const ShownUnit objective_unit =
-      unit_of(find_response(optimum.problem, optimum.problem.objective->response));
-  const std::string margin =
-      constraint.deviations > 0.0
-          ? fmt::format(" {}{:g} σ", constraint.upper ? "+" : "−", constraint.deviations)
-          : "";
-  std::vector<std::string> cells = {
-      limit_name(optimum.problem, i) + margin, limited_text(unit.shown(value)),
-      (used.is_upper ? "≤ " : "≥ ") + significant(unit.shown(used.limit)), unit.name,
-      used.utilisation ? percent(*used.utilisation) : "–"};
-  if (multiplier) {
-    cells.push_back(price_text(*multiplier, objective_unit, unit));
-    cells.push_back(worth(optimum, *multiplier, used.limit));
-  }
-  return cells;
+/// "rod_strength +3 σ": with the margin that is kept from it.
+std::string name_with_margin(const std::string& name, const Json& limit) {
+  const std::string limit_name = limit.value("limit_name", name);
+  if (!limit.contains("deviations")) return limit_name;
+  return fmt::format("{} {}{:g} σ", limit_name, limit["side"] == "upper" ? "+" : "−",
+                     limit["deviations"].get<double>());
 }
 
-/// Of several cases those that decide a limit or that it has a price in.
-bool is_shown(const Optimum& optimum, std::size_t constraint, const std::vector<bool>& decides) {
-  const bool is_of_case = !case_of(optimum.problem, constraint).empty();
-  const bool has_price =
-      has_prices(optimum.result) && optimum.result.constraint_multipliers(constraint) != 0.0;
-  return !is_of_case || decides[constraint] || has_price;
-}
-
-std::string constraints_text(const Optimum& optimum, bool shows_prices) {
-  const bool has_cases = optimum.problem.has_cases();
-  std::vector<Table::Column> columns = {{"constraint", Table::Align::left},
-                                        {"value"},
-                                        {"limit"},
-                                        {"unit", Table::Align::left},
-                                        {"used"}};
+std::string constraints_text(const Optimum& optimum, const Json& all, bool shows_prices) {
+  const ProblemFile& problem = optimum.problem;
+  Json limits =
+      Json::object();  // of several cases those that decide a limit or that it has a price in
+  for (const auto& [name, limit] : all.items()) {
+    const bool has_price = limit.value("multiplier", 0.0) != 0.0;
+    if (limit.value("decides", true) || has_price) limits[name] = limit;
+  }
+  const NamedUnits units = units_of_limits(problem);
+  const ShownUnit objective = unit_of(find_response(problem, problem.objective->response));
+  std::vector<DocumentColumn> columns = {{"constraint", name_with_margin, Table::Align::left},
+                                         shown_column("value", "/value", units, limited_text),
+                                         limit_column(units),
+                                         unit_column(units),
+                                         number_column("used", "/utilisation", percent)};
+  if (problem.has_cases()) {
+    const auto load_case = [&](const std::string& name, const Json&) {
+      return cases_of_limit(problem, index_of_named(problem.constraints, name).value());
+    };
+    columns.insert(columns.begin() + 1, {"case", load_case, Table::Align::left});
+  }
   if (shows_prices) {
-    const ShownUnit objective_unit =
-        unit_of(find_response(optimum.problem, optimum.problem.objective->response));
-    columns.push_back({fmt::format("multiplier [{}/unit]", objective_unit.name)});
-    columns.push_back({"at +1 % limit"});
+    const auto price = [units, objective](const std::string& name, const Json& limit) {
+      const double shown = objective.shown(limit.at("multiplier").get<double>());
+      return significant(shown * units.at(name).factor, 3);
+    };
+    columns.push_back({fmt::format("multiplier [{}/unit]", objective.name), price});
+    columns.push_back({"at +1 % limit", [&](const std::string&, const Json& limit) {
+                         return worth(limit, optimum.result.evaluation.objective);
+                       }});
   }
-  if (has_cases) columns.insert(columns.begin() + 1, {"case", Table::Align::left});
-  Table table(std::move(columns));
-  const std::vector<bool> decides =
-      deciding_constraints(optimum.problem, optimum.result.evaluation.constraints);
-  std::size_t shown = 0;
-  for (std::size_t i = 0; i < optimum.problem.constraints.size(); ++i) {
-    if (!is_shown(optimum, i, decides)) continue;
-    std::vector<std::string> row = constraint_row(optimum, i, shows_prices);
-    if (has_cases) row.insert(row.begin() + 1, cases_of_limit(optimum.problem, i));
-    table.add_row(std::move(row));
-    ++shown;
-  }
+  const Table table = table_of(limits, columns);
   if (table.is_empty()) return "";
-  const std::size_t left = optimum.problem.constraints.size() - shown;
   return "\n" + table.text() +
-         (left > 0 ? wrapped("Each limit in the case that decides it; the others are in "
-                             "result.json.\n")
-                   : "");
+         (limits.size() < all.size()
+              ? wrapped("Each limit in the case that decides it; the others are in result.json.\n")
+              : "");
 }
 
 /// Residuals and what was checked.
@@ -235,14 +208,15 @@ std::string name_of_end(const std::string& status) {
   return status == to_string(Status::verified) ? "optimum" : "end";
 }
 
-std::string optimum_report(const Optimum& optimum, bool is_verbose) {
+std::string optimum_report(const Optimum& optimum, const Json& document, bool is_verbose) {
   const std::string status = "\n" + wrapped(status_text(optimum)) + "\n";
   if (!optimum.has_design()) return status;
   const bool shows_prices = is_verbose && has_prices(optimum.result);
   const bool shows_audit = is_verbose || optimum.result.status != Status::verified;
   return status + objective_text(optimum) +
          wrapped(objective_in_cases(optimum.problem, optimum.result), "  ") + "\n" +
-         variables_text(optimum) + constraints_text(optimum, shows_prices) + "\n" +
+         variables_text(optimum) +
+         constraints_text(optimum, document.at("constraints"), shows_prices) + "\n" +
          warnings_text(optimum.warnings, optimum.consequences) +
          (shows_audit ? audit_text(optimum) : "") + effort_text(optimum);
 }

@@ -2,7 +2,8 @@
 
 #include <string>
 
-#include "cli/reports/optimum.hpp"
+#include "cli/reports/optimum_document.hpp"
+#include "cli/text/json.hpp"
 
 namespace pleuel {
 
@@ -11,7 +12,8 @@ namespace pleuel {
 std::string name_of_end(const std::string& status);
 
 /// The result of `optimize` for people: verdict, objective, dimensions, limits, what speaks against it.
+/// @param document    the same as optimum_document() has it
 /// @param is_verbose  with the audit and the prices of limits
-std::string optimum_report(const Optimum& optimum, bool is_verbose);
+std::string optimum_report(const Optimum& optimum, const Json& document, bool is_verbose);
 
 }  // namespace pleuel

@@ -2,17 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "cli/reports/limits_report.hpp"
-#include "cli/text/table.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/error.hpp"
-#include "core/base/number_text.hpp"
 #include "core/response/value_over_cases.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/shown_unit.hpp"
@@ -139,49 +134,29 @@ Json over_cases_document(const ProblemFile& joined, const Eigen::VectorXd& x, co
 }
 
 std::string over_cases_text(const ProblemFile& joined, const Json& document) {
-  if (!document.contains("responses") && !document.contains("constraints")) return "";
+  const Json responses = document.value("responses", Json::object());
+  const Json limits = document.value("constraints", Json::object());
+  if (responses.empty() && limits.empty()) return "";
   std::string text = "\nMade from several cases\n\n";
-  const Json all = document.value("responses", Json::object());
-  const bool has_deviations = std::any_of(
-      all.begin(), all.end(), [](const Json& entry) { return entry.contains("deviation"); });
-  std::vector<Table::Column> columns = {{"response", Table::Align::left}, {"value"}};
-  if (has_deviations) columns.push_back({"deviation"});
-  columns.push_back({"unit", Table::Align::left});
-  Table responses(std::move(columns));
-  for (const auto& item : all.items()) {
-    const std::string& name = item.key();
-    const Json& entry = item.value();
-    const ShownUnit unit = unit_of(find_response(joined, name));
-    const auto cell = [&](const char* key) {
-      const Json number = entry.value(key, Json());
-      return number.is_number() ? significant(unit.shown(number.get<double>())) : "–";
-    };
-    std::vector<std::string> row = {name, cell("value")};
-    if (has_deviations) row.push_back(cell("deviation"));
-    row.push_back(unit.name);
-    responses.add_row(std::move(row));
+  const NamedUnits units = units_of_responses(joined), of_limits = units_of_limits(joined);
+  std::vector<DocumentColumn> columns = {name_column("response"),
+                                         shown_column("value", "/value", units)};
+  const bool has_deviations = std::any_of(responses.begin(), responses.end(), [](const Json& one) {
+    return one.contains("deviation");
+  });
+  if (has_deviations) columns.push_back(shown_column("deviation", "/deviation", units));
+  columns.push_back(unit_column(units));
+  if (!responses.empty()) text += table_of(responses, columns).text();
+  for (const Json& entry : responses) {
+    if (entry.contains("error")) text += "\n" + wrapped(text_at(entry, "/error")) + "\n";
   }
-  if (!responses.is_empty()) text += responses.text();
-  for (const Json& entry : all) {
-    if (entry.contains("error")) text += "\n" + wrapped(entry["error"].get<std::string>()) + "\n";
+  if (!limits.empty()) {
+    text += "\n" +
+            table_of(limits, {name_column("constraint"), shown_column("value", "/value", of_limits),
+                              limit_column(of_limits), unit_column(of_limits), kept_column()})
+                .text();
   }
-  const Json limited = document.value("constraints", Json::object());
-  Table limits({{"constraint", Table::Align::left},
-                {"value"},
-                {"limit"},
-                {"unit", Table::Align::left},
-                {"", Table::Align::left}});
-  for (const ConstraintSettings& constraint : joined.constraints) {
-    if (!limited.contains(constraint.name)) continue;
-    const Json& entry = limited.at(constraint.name);
-    const ShownUnit unit = unit_of(joined, constraint);
-    limits.add_row({constraint.name, significant(unit.shown(entry.at("value").get<double>())),
-                    (entry.at("side") == "upper" ? "≤ " : "≥ ") +
-                        significant(unit.shown(entry.at("limit").get<double>())),
-                    unit.name, entry.at("kept").get<bool>() ? "kept" : "BROKEN"});
-  }
-  if (!limits.is_empty()) text += "\n" + limits.text();
-  if (breaks_limits(document)) text += "\nA limit that is made from several cases is broken.\n";
+  if (!keeps_limits(limits)) text += "\nA limit that is made from several cases is broken.\n";
   return text;
 }
 
@@ -189,12 +164,6 @@ bool lacks_numbers(const Json& document) {
   const Json all = document.value("responses", Json::object());
   return std::any_of(all.begin(), all.end(),
                      [](const Json& entry) { return entry.contains("error"); });
-}
-
-bool breaks_limits(const Json& document) {
-  const Json limited = document.value("constraints", Json::object());
-  return std::any_of(limited.begin(), limited.end(),
-                     [](const Json& entry) { return !entry.at("kept").get<bool>(); });
 }
 
 }  // namespace pleuel

@@ -24,7 +24,4 @@ std::string over_cases_text(const ProblemFile& joined, const Json& document);
 /// Whether one of them has an error.
 bool lacks_numbers(const Json& document);
 
-/// Whether a limit in that document is broken.
-bool breaks_limits(const Json& document);
-
 }  // namespace pleuel

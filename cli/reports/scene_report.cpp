@@ -1,10 +1,10 @@
 #include "cli/reports/scene_report.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
-#include "cli/reports/reached_bound.hpp"
 #include "cli/reports/sizes_report.hpp"
 #include "cli/text/table.hpp"
 #include "cli/text/wrapped_text.hpp"
@@ -41,6 +41,13 @@ std::vector<BodyRow> body_rows(const Model& model) {
   return rows;
 }
 
+/// The range says little where one bound is far away.
+bool is_at(double bound, const DesignVariable& variable, double value) {
+  const double range = variable.upper - variable.lower;
+  const double size = std::abs(bound) + std::abs(variable.start);
+  return std::abs(value - bound) <= 1e-6 * (size > 0.0 ? std::min(range, size) : range);
+}
+
 /// Of the size of a coordinate; assembly itself ends at 1e-10.
 constexpr double visible_shift = 1e-5;
 
@@ -52,25 +59,38 @@ int drives(const Model& model) {
 
 }  // namespace
 
-Json bodies_document(const Model& model) {
-  Json document = Json::array();
-  for (const BodyRow& body : body_rows(model)) {
-    document.push_back({{"name", body.name},
-                        {"mass", body.mass},
-                        {"frames", body.frames},
-                        {"elements", body.elements},
-                        {"coordinates", body.rigid + body.elastic}});
+ReachedBound reached_bound(const DesignVariable& variable, double value) {
+  if (variable.lower == variable.upper) return ReachedBound::both;
+  if (is_at(variable.lower, variable, value)) return ReachedBound::lower;
+  return is_at(variable.upper, variable, value) ? ReachedBound::upper : ReachedBound::none;
+}
+
+const char* to_string(ReachedBound reached) {
+  switch (reached) {
+    case ReachedBound::lower:
+      return "lower";
+    case ReachedBound::upper:
+      return "upper";
+    case ReachedBound::both:
+      return "both";
+    default:
+      return "";
   }
-  return document;
+}
+
+Json bodies_document(const Model& model) {
+  return list_of(body_rows(model), [](const BodyRow& body) {
+    return Json{{"name", body.name},
+                {"mass", body.mass},
+                {"frames", body.frames},
+                {"elements", body.elements},
+                {"coordinates", body.rigid + body.elastic}};
+  });
 }
 
 std::string bodies_text(const Model& model) {
-  Table table({{"body", Table::Align::left},
-               {"mass [kg]"},
-               {"frames"},
-               {"elements"},
-               {"rigid coordinates"},
-               {"elastic"}});
+  Table table(
+      {left_aligned("body"), "mass [kg]", "frames", "elements", "rigid coordinates", "elastic"});
   for (const BodyRow& body : body_rows(model)) {
     table.add_row({body.name, significant(body.mass), std::to_string(body.frames),
                    body.is_beam ? std::to_string(body.elements) : "–", std::to_string(body.rigid),
@@ -174,11 +194,7 @@ Json variables_document(const ProblemFile& problem, const Eigen::VectorXd& x) {
 
 std::string variables_text(const ProblemFile& problem) {
   const std::vector<ShownUnit> units = variable_units(problem);
-  Table table({{"variable", Table::Align::left},
-               {"start"},
-               {"lower"},
-               {"upper"},
-               {"unit", Table::Align::left}});
+  Table table({left_aligned("variable"), "start", "lower", "upper", left_aligned("unit")});
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
     const DesignVariable& variable = problem.variables[i];
     const ShownUnit& unit = units[i];

@@ -70,8 +70,7 @@ Json setting_document(const ProblemInput& input, const SettingChoice& choice) {
   document["target"] = input.problem.accuracy.target;
   document["met"] = choice.is_met;
   document["overrides"] = overrides_document(input.effective, choice.problem);
-  document["tried"] = Json::array();
-  for (const TriedSetting& tried : choice.tried) document["tried"].push_back(tried_document(tried));
+  document["tried"] = list_of(choice.tried, tried_document);
   return document;
 }
 
@@ -105,16 +104,13 @@ namespace {
 /// Of several load cases one each, in their order.
 Json settings_document(const std::vector<TriedSetting>& settings) {
   if (settings.size() == 1) return tried_document(settings.front());
-  Json document = {{"cases", Json::array()}};
-  for (const TriedSetting& one : settings) document["cases"].push_back(tried_document(one));
-  return document;
+  return {{"cases", list_of(settings, tried_document)}};
 }
 
 }  // namespace
 
 Json stages_document(const std::vector<Stage>& stages) {
-  Json document = Json::array();
-  for (const Stage& stage : stages) {
+  return list_of(stages, [](const Stage& stage) {
     Json one = Json::object();
     if (stage.target > 0.0) {
       one = settings_document(stage.settings);
@@ -125,20 +121,13 @@ Json stages_document(const std::vector<Stage>& stages) {
     }
     one["evaluations"] = stage.evaluations;
     one["seconds"] = stage.seconds;
-    document.push_back(std::move(one));
-  }
-  return document;
+    return one;
+  });
 }
 
 std::string stages_text(const std::vector<Stage>& stages) {
-  Table table({{"target"},
-               {"step"},
-               {"elements"},
-               {"known to"},
-               {"by", Table::Align::left},
-               {"found in"},
-               {"evaluations"},
-               {"seconds"}});
+  Table table({"target", "step", "elements", "known to", left_aligned("by"), "found in",
+               "evaluations", "seconds"});
   for (const Stage& stage : stages) {
     if (stage.target <= 0.0) continue;
     for (const TriedSetting& setting : stage.settings) {

@@ -31,6 +31,15 @@ std::optional<std::string> size_text(const DesignVariable& variable, double valu
   return std::nullopt;
 }
 
+Json sizes_of(const ProblemFile& problem, const Eigen::VectorXd& x) {
+  Json sizes = Json::object();
+  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
+    const DesignVariable& variable = problem.variables[i];
+    if (const auto size = size_text(variable, x(i))) sizes[variable.name] = *size;
+  }
+  return sizes;
+}
+
 bool is_section(const DesignVariable& variable) {
   if (!variable.has_choices() || !variable.unit.empty()) return false;
   for (std::size_t i = 0; i < variable.choices.size(); ++i) {
@@ -44,10 +53,8 @@ std::string sizes_text(const ProblemFile& problem, const SizeChoiceReport& sizes
                        const Result& result) {
   if (!sizes.is_choice) return "";
   const std::vector<ShownUnit> units = variable_units(problem);
-  Table table({{"size", Table::Align::left},
-               {"chosen", Table::Align::left},
-               {"between sizes", Table::Align::left},
-               {"choices"}});
+  Table table(
+      {left_aligned("size"), left_aligned("chosen"), left_aligned("between sizes"), "choices"});
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
     const DesignVariable& variable = problem.variables[i];
     if (!variable.has_choices()) continue;
@@ -61,21 +68,15 @@ std::string sizes_text(const ProblemFile& problem, const SizeChoiceReport& sizes
 Json sizes_document(const ProblemFile& problem, const SizeChoiceReport& sizes,
                     const Result& result) {
   const double sign = problem.objective->sign();
-  Json relaxed = Json::object(), chosen = Json::object();
-  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
-    const DesignVariable& variable = problem.variables[i];
-    if (sizes.relaxed_x.size() > 0) relaxed[variable.name] = sizes.relaxed_x(i);
-    if (const auto text = size_text(variable, result.x(i))) chosen[variable.name] = *text;
-  }
   Json document = {{"combinations", sizes.combinations},
                    {"tried", sizes.tried},
                    {"feasible", sizes.feasible},
                    {"exhaustive", sizes.is_exhaustive},
-                   {"chosen", sizes.is_choice ? chosen : Json::object()},
+                   {"chosen", sizes.is_choice ? sizes_of(problem, result.x) : Json::object()},
                    {"relaxed",
                     {{"status", to_string(sizes.relaxed_status)},
                      {"objective", sign * sizes.relaxed_objective},
-                     {"variables", relaxed}}}};
+                     {"variables", by_name(problem.variables, sizes.relaxed_x)}}}};
   if (sizes.is_choice) document["penalty"] = sizes.penalty(result.evaluation.objective);
   return document;
 }

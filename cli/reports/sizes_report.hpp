@@ -12,6 +12,9 @@ namespace pleuel {
 /// no choices, or another value.
 std::optional<std::string> size_text(const DesignVariable& variable, double value);
 
+/// {NAME: text} of the variables with choices that have one of theirs.
+Json sizes_of(const ProblemFile& problem, const Eigen::VectorXd& x);
+
 /// Whether the value alone means nothing to people: the place of a section in its list.
 bool is_section(const DesignVariable& variable);
 

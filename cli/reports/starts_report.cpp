@@ -16,14 +16,6 @@ std::string indices_text(const std::vector<std::size_t>& starts) {
   return fmt::format("{}", fmt::join(numbers, ", "));
 }
 
-Json design_document(const ProblemFile& problem, const Eigen::VectorXd& x) {
-  Json document = Json::object();
-  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
-    document[problem.variables[i].name] = x(i);
-  }
-  return document;
-}
-
 }  // namespace
 
 std::string starts_text(const ProblemFile& problem, const MultiStart& all) {
@@ -31,11 +23,11 @@ std::string starts_text(const ProblemFile& problem, const MultiStart& all) {
   const ShownUnit unit = unit_of(find_response(problem, problem.objective->response));
   const std::vector<ShownUnit> units = variable_units(problem);
   std::vector<Table::Column> columns = {
-      {fmt::format("{} [{}]", problem.objective->response, unit.name)}, {"found"}};
+      fmt::format("{} [{}]", problem.objective->response, unit.name), "found"};
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
-    columns.push_back({fmt::format("{} [{}]", problem.variables[i].name, units[i].name)});
+    columns.push_back(fmt::format("{} [{}]", problem.variables[i].name, units[i].name));
   }
-  columns.push_back({"from starts", Table::Align::left});
+  columns.push_back(left_aligned("from starts"));
   Table table(std::move(columns), 2);
   for (const LocalOptimum& one : all.optima) {
     std::vector<std::string> cells = {
@@ -52,22 +44,21 @@ std::string starts_text(const ProblemFile& problem, const MultiStart& all) {
 
 Json starts_document(const ProblemFile& problem, const MultiStart& all) {
   const double sign = problem.objective->sign();
-  Json optima = Json::array(), runs = Json::array();
-  for (const LocalOptimum& one : all.optima) {
-    optima.push_back({{"objective", sign * one.objective},
-                      {"found", one.starts.size()},
-                      {"variables", design_document(problem, one.x)}});
-  }
-  for (const StartRun& one : all.runs) {
-    Json run = {{"start", design_document(problem, one.start)},
+  const auto optimum_entry = [&](const LocalOptimum& one) {
+    return Json{{"objective", sign * one.objective},
+                {"found", one.starts.size()},
+                {"variables", by_name(problem.variables, one.x)}};
+  };
+  const auto run_entry = [&](const StartRun& one) {
+    Json run = {{"start", by_name(problem.variables, one.start)},
                 {"status", to_string(one.status)},
                 {"objective", sign * one.objective},
                 {"max_violation", one.max_violation},
                 {"evaluations", one.evaluations}};
     if (one.optimum) run["optimum"] = *one.optimum;
-    runs.push_back(std::move(run));
-  }
-  return {{"optima", optima}, {"runs", runs}};
+    return run;
+  };
+  return {{"optima", list_of(all.optima, optimum_entry)}, {"runs", list_of(all.runs, run_entry)}};
 }
 
 }  // namespace pleuel

@@ -4,7 +4,6 @@
 #include <numeric>
 #include <sstream>
 
-#include "cli/text/characters.hpp"
 #include "cli/text/wrapped_text.hpp"
 
 namespace pleuel {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pleuel {
@@ -10,6 +11,9 @@ class Table {
  public:
   enum class Align { left, right };
   struct Column {
+    Column(std::string title, Align align = Align::right) : title(std::move(title)), align(align) {}
+    Column(const char* title) : title(title) {}
+
     std::string title;
     Align align = Align::right;
   };
@@ -38,6 +42,11 @@ class Table {
   std::size_t keys_;
   std::vector<std::vector<std::string>> rows_;
 };
+
+/// A column of texts.
+inline Table::Column left_aligned(const std::string& title) {
+  return {title, Table::Align::left};
+}
 
 /// Filled with spaces to `width` characters.
 std::string padded(const std::string& text, std::size_t width, Table::Align align);

@@ -6,8 +6,6 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include "cli/text/characters.hpp"
-
 namespace pleuel {
 
 namespace {
@@ -42,6 +40,13 @@ std::string wrapped_line(const std::string& line, const std::string& indent, std
 }
 
 }  // namespace
+
+std::size_t characters(const std::string& text) {
+  // Bytes 10xxxxxx continue a character.
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
+  }));
+}
 
 std::size_t line_width() {
   static const std::size_t width = [] {

@@ -5,6 +5,9 @@
 
 namespace pleuel {
 
+/// Number of characters of a UTF-8 text.
+std::size_t characters(const std::string& text);
+
 /// Characters in a line of what people read: of the terminal that standard output is, or as many as
 /// COLUMNS says, at least 80 and at most 160; 100 where nobody says.
 std::size_t line_width();
