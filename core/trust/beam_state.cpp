@@ -4,6 +4,7 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/beam/beam_shape.hpp"
+#include "core/trust/trusted_run.hpp"
 
 namespace pleuel {
 
@@ -53,10 +54,7 @@ void record_imported(const BodyModel& body, const State& state, int step,
   keep_larger(turned, step, largest.bending, largest.bending_step);
 }
 
-}  // namespace
-
-std::vector<LargestDeformation> largest_deformations(const Model& model,
-                                                     const Trajectory& trajectory) {
+std::vector<LargestDeformation> find_largest(const Model& model, const Trajectory& trajectory) {
   std::vector<LargestDeformation> all(model.bodies.size());
   State state;
   for (int step = 0; step <= trajectory.steps(); ++step) {
@@ -72,6 +70,14 @@ std::vector<LargestDeformation> largest_deformations(const Model& model,
     }
   }
   return all;
+}
+
+}  // namespace
+
+const std::vector<LargestDeformation>& largest_deformations(const TrustedRun& run) {
+  auto& found = run.shared->deformations;
+  if (!found) found = find_largest(run.analysis.model, run.analysis.trajectory);
+  return *found;
 }
 
 }  // namespace pleuel

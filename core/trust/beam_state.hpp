@@ -23,9 +23,10 @@ struct LargestDeformation {
   double strain = 0.0;   ///< |Δu|/ℓ of an element
 };
 
+struct TrustedRun;  // trusted_run.hpp
+
 /// One an elastic body of the model (others stay zero), in its order. Of an imported body the
 /// rotations of its places.
-std::vector<LargestDeformation> largest_deformations(const Model& model,
-                                                     const Trajectory& trajectory);
+const std::vector<LargestDeformation>& largest_deformations(const TrustedRun& run);
 
 }  // namespace pleuel

@@ -25,7 +25,7 @@ constexpr double error_per_square = 0.45;
 /// The same body of the scene, of all of its frames what deforms most.
 std::map<std::string, LargestDeformation> largest_of_bodies(const TrustedRun& run) {
   const Model& model = run.analysis.model;
-  const auto largest = largest_deformations(model, run.analysis.trajectory);
+  const auto& largest = largest_deformations(run);
   std::map<std::string, LargestDeformation> of_bodies;
   for (std::size_t i = 0; i < largest.size(); ++i) {
     const BodyModel& body = model.bodies[i];

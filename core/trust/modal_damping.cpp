@@ -51,7 +51,7 @@ std::vector<Doubt> doubt_modal_damping(const TrustedRun& run) {
     return body.has_stiffening && body.is_beam() && is_damped_by_modes(run.problem, body.name);
   };
   if (std::ranges::none_of(model.bodies, is_concerned)) return {};
-  const auto largest = largest_deformations(model, run.analysis.trajectory);
+  const auto& largest = largest_deformations(run);
   std::vector<Doubt> doubts;
   for (std::size_t i = 0; i < largest.size(); ++i) {
     const BodyModel& body = model.bodies[i];

@@ -37,6 +37,9 @@ constexpr double tiny_length = 1e-12;
 /// Of lengths that rates over one step are made from.
 constexpr double tiny_way = 1e-14;
 
+/// Of a simulation, for magnitudes: what they are compared with is smaller by powers of ten.
+constexpr int enough_instants = 200;
+
 /// What a response is compared with: a share of another response of the same run.
 struct Measure {
   ResponseSettings settings;
@@ -233,13 +236,17 @@ class RoundOff {
     if (settings.empty()) return {};
     const std::vector<Response> responses = make_responses(settings, model_);
     const Trajectory& trajectory = run_.analysis.trajectory;
-    Recorder recorder(responses, trajectory.steps() + 1);
+    const bool has_map = std::ranges::any_of(
+        responses, [](const Response& response) { return response.history()->map != nullptr; });
+    const int stride = has_map ? 1 : std::max(1, trajectory.steps() / enough_instants);
+    const int instants = trajectory.steps() / stride + 1;
+    Recorder recorder(responses, instants);
     State state;
-    for (int step = 0; step <= trajectory.steps(); ++step) {
-      trajectory.states->load(step, state);
-      recorder.see(step, state);
+    for (int i = 0; i < instants; ++i) {
+      trajectory.states->load(i * stride, state);
+      recorder.see(i, state);
     }
-    std::vector<Eigen::MatrixXd> observed = recorder.take(trajectory.steps() + 1);
+    std::vector<Eigen::MatrixXd> observed = recorder.take(instants);
     std::vector<double> largest_of, all;
     for (std::size_t i = 0; i < responses.size(); ++i) {
       largest_of.push_back(

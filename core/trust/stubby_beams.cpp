@@ -128,7 +128,7 @@ double shear_share(const ProblemFile& problem, const Eigen::VectorXd& x, const M
 std::vector<ConcernedBeam> find_stubby_beams(const TrustedRun& run) {
   const Model& model = run.analysis.model;
   const int half_waves = most_half_waves(run.problem);
-  const auto largest = largest_deformations(model, run.analysis.trajectory);
+  const auto& largest = largest_deformations(run);
   std::map<std::string, double> shares;
   State state;
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {

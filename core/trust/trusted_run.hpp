@@ -9,6 +9,7 @@
 #include "core/base/error_bar.hpp"
 #include "core/response/analysis.hpp"
 #include "core/response/monitors.hpp"
+#include "core/trust/beam_state.hpp"
 
 namespace pleuel {
 
@@ -24,7 +25,8 @@ struct SharedFindings {
   /// What variants are compared with (variant_basis.hpp): null is the run that is judged.
   std::optional<ProblemFile> problem{};
   std::unique_ptr<Analysis> analysis{};
-  std::optional<std::vector<bool>> is_round_off{};  ///< round_off.hpp
+  std::optional<std::vector<bool>> is_round_off{};                ///< round_off.hpp
+  std::optional<std::vector<LargestDeformation>> deformations{};  ///< beam_state.hpp
 };
 
 /// A simulated design, and what its doubts are made from.
