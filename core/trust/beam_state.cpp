@@ -4,7 +4,6 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/beam/beam_shape.hpp"
-#include "core/trust/trusted_run.hpp"
 
 namespace pleuel {
 

@@ -9,7 +9,7 @@
 #include "core/base/error_bar.hpp"
 #include "core/response/analysis.hpp"
 #include "core/response/monitors.hpp"
-#include "core/trust/beam_state.hpp"
+#include "core/trust/largest_deformation.hpp"
 
 namespace pleuel {
 
