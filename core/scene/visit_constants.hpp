@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/scene/body_constants.hpp"
+#include <cstddef>
 
 namespace pleuel {
 
