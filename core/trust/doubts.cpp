@@ -1,6 +1,7 @@
 #include "core/trust/doubts.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/scene/load_cases.hpp"
@@ -94,6 +95,20 @@ void leave_steps_unresolved(const TrustedRun& run, const std::vector<Doubt>& dou
                     [&](const Doubt& doubt) { return concerns(doubt, run.problem, i); })) {
       errors[i]->step.is_resolved = false;
     }
+  }
+}
+
+/// A run with short steps behind jumps is nearer to the truth than those that bars are made from: none of peaks is narrower
+/// than what it differs by.
+void widen_to_short_steps(const TrustedRun& run, std::vector<std::optional<ErrorBar>>& errors) {
+  if (!run.shared->with_short_steps) return;
+  const Eigen::VectorXd missed = *run.shared->with_short_steps - values_of(run.analysis);
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    if (!errors[i] || !run.analysis.responses[i].is_peak_over_time()) continue;
+    const double difference = missed(static_cast<Eigen::Index>(i));
+    if (std::abs(difference) <= errors[i]->step.bound) continue;
+    errors[i]->step.change = difference;
+    errors[i]->step.bound = safety::of_seen * std::abs(difference);
   }
 }
 
@@ -194,6 +209,7 @@ Trust judge_run(const TrustedRun& run) {
   trust.bands = std::move(resolution.bands);
   trust.failed_run = std::move(resolution.failure);
   leave_steps_unresolved(run, too_fast, trust.errors);
+  widen_to_short_steps(run, trust.errors);
   leave_unmodelled(run, doubts, trust.errors);
   const LeftOut left_out = compare_variants(run);
   doubts.insert(doubts.end(), left_out.doubts.begin(), left_out.doubts.end());

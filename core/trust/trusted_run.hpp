@@ -25,7 +25,9 @@ struct SharedFindings {
   /// What variants are compared with (variant_basis.hpp): null is the run that is judged.
   std::optional<ProblemFile> problem{};
   std::unique_ptr<Analysis> analysis{};
-  std::optional<std::vector<bool>> is_round_off{};                ///< round_off.hpp
+  std::optional<std::vector<bool>> is_round_off{};  ///< round_off.hpp
+  /// Values of a run with short steps behind jumps, one a response; of one that was needed (unseen_overshoot.hpp).
+  std::optional<Eigen::VectorXd> with_short_steps{};
   std::optional<std::vector<LargestDeformation>> deformations{};  ///< beam_state.hpp
 };
 

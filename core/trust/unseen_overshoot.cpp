@@ -83,6 +83,7 @@ class UnseenOvershoots {
     std::stable_sort(suspects_.begin(), suspects_.end(),
                      [](const Suspect& a, const Suspect& b) { return a.share > b.share; });
     const std::optional<NestedRun> fine = simulate_swings();
+    if (fine) run_.shared->with_short_steps = fine->values;
     const std::vector<bool> is_round_off = find_round_off(run_);
     std::vector<Unseen> found;
     for (const std::size_t i : judged_) {

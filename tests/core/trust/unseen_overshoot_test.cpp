@@ -12,7 +12,9 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/integration/fast_vibration.hpp"
+#include "core/trust/doubts.hpp"
 #include "tests/core/trust/doubts_of.hpp"
+#include "tests/support/problem_runs.hpp"
 #include "tests/support/source_folder.hpp"
 
 namespace pleuel::test::unseen_overshoot_test {
@@ -417,6 +419,24 @@ TEST(UnseenOvershoot, GoesOnInTheNextPeriod) {
   const std::vector<Doubt> found = doubts(problem);
   ASSERT_THAT(found, SizeIs(1));
   EXPECT_NEAR(told_factor(found), true_factor(problem), 0.1 * true_factor(problem));
+}
+
+/// A place that swings little beside where it is has no warning: its bar knows what the steps pass over.
+TEST(UnseenOvershoot, IsInTheBarsOfWhatHasNoWarning) {
+  const ProblemFile problem = pulled_rod(jump);
+  const Eigen::VectorXd x = start_design(problem);
+  const auto analysis = analyze(problem, x);
+  const Monitors monitors = monitor(analysis->model, analysis->trajectory);
+  const Trust trust = judge_run({problem, x, *analysis, monitors});
+  const auto stretch = static_cast<std::size_t>(response_index(problem, "stretch"));
+  ProblemFile fine = problem;
+  fine.simulation.step = 1e-5;
+  const double truth = analyze(fine, x)->reductions[stretch].value;
+  const double missed = std::abs(truth - analysis->reductions[stretch].value);
+  ASSERT_TRUE(trust.errors[stretch]);
+  // The run with short steps has twenty of them a period: it sees all but 1 %.
+  EXPECT_GE(trust.errors[stretch]->step.bound, 0.97 * missed);
+  EXPECT_GT(missed, 0.3 * force / stiffness) << "the swing doubles the stretch of 8 kN";
 }
 
 }  // namespace
