@@ -91,4 +91,18 @@ std::unique_ptr<Optimizer> make_optimizer(const std::string& name, const Backend
                                fmt::join(optimizer_names(), ", ")));
 }
 
+BackendEnd run_backend(EvaluationCache& cache, const EvaluatedDesign& from, const std::string& name,
+                       double tolerance, const ScaledProblem::Budget& budget,
+                       const Eigen::VectorXd& factors) {
+  BackendEnd end{from.x};
+  ScaledProblem scaled(cache, from, budget, factors);
+  if (scaled.variables() == 0) return end;
+  const BackendResult result = make_optimizer(name, {tolerance})->minimize(scaled);
+  scaled.rethrow();
+  end.has_left_numbers = scaled.has_left_numbers();
+  end.reason = end.has_left_numbers ? "it asked for a design that is not a number" : result.reason;
+  if (result.y.allFinite()) end.x = scaled.to_design(result.y);
+  return end;
+}
+
 }  // namespace pleuel

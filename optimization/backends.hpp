@@ -27,4 +27,17 @@ void remove_optimizer(const std::string& name);
 /// @throws InputError for an unknown name; the message lists the names there are.
 std::unique_ptr<Optimizer> make_optimizer(const std::string& name, const BackendOptions& options);
 
+/// Where a backend comes to from a design.
+struct BackendEnd {
+  Eigen::VectorXd x;                                          ///< within the bounds
+  std::string reason = "nothing, since no variable is free";  ///< that it gives
+  bool has_left_numbers = false;  ///< it asked for a design that is not a number
+};
+
+/// Runs a backend on a problem that is scaled by a design (scaled_problem.hpp).
+/// @param factors  of the magnitudes of the variables, positive
+BackendEnd run_backend(EvaluationCache& cache, const EvaluatedDesign& from, const std::string& name,
+                       double tolerance, const ScaledProblem::Budget& budget,
+                       const Eigen::VectorXd& factors);
+
 }  // namespace pleuel

@@ -154,22 +154,10 @@ class Search {
     std::vector<SearchPart> parts = std::move(total_.parts);
     parts.push_back({setup.backend, next.status, next.evaluations - total_.evaluations});
     if (!is_first) ++next.restarts;
-    total_ = !has_design() || is_better(next, total_)
-                 ? std::move(next)
-                 : with_effort_of(std::move(next), std::move(total_));
+    const bool is_answer =
+        !has_design() || is_better(next, total_, options_.verdict.violation, same_to_rounding);
+    total_ = is_answer ? std::move(next) : with_effort_of(std::move(next), std::move(total_));
     total_.parts = std::move(parts);
-  }
-
-  bool is_better(const Result& one, const Result& other) const {
-    if (!one.evaluation.has_gradients()) return false;
-    const auto rank = [&](const Result& result) {
-      const bool is_within = result.max_violation <= options_.verdict.violation;
-      return result.status == Status::verified ? 2 : is_within ? 1 : 0;
-    };
-    if (rank(one) != rank(other)) return rank(one) > rank(other);
-    if (rank(one) == 0) return one.max_violation < other.max_violation;
-    const double difference = one.evaluation.objective - other.evaluation.objective;
-    return difference <= same_to_rounding * std::abs(other.evaluation.objective);
   }
 
   /// Does something with the rows of the limits, its evaluations as a part of the search.

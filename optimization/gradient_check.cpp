@@ -19,39 +19,39 @@ constexpr double short_step = 1e-4;       ///< the second attempt
 constexpr double least_magnitude = 1e-2;  ///< part of s that replaces |x| near zero
 
 /// To which sides a variable can go: +1 or −1 at a bound, 0 where both are free or none is.
-struct Room {
+struct StepRanges {
   Eigen::VectorXd sizes;  ///< of a step of relative length 1; 0 for a variable without room
   Eigen::VectorXd sides;
 };
 
-Room room_around(const Problem& problem, const Eigen::VectorXd& x) {
+StepRanges ranges_around(const Problem& problem, const Eigen::VectorXd& x) {
   const Eigen::VectorXd s = local_scales(problem, x);
-  Room room{Eigen::VectorXd::Zero(x.size()), Eigen::VectorXd::Zero(x.size())};
+  StepRanges ranges{Eigen::VectorXd::Zero(x.size()), Eigen::VectorXd::Zero(x.size())};
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     const double size = std::clamp(std::abs(x[i]), least_magnitude * s[i], s[i]);
     const Variable& variable = problem.variables()[i];
     const bool can_rise = x[i] + 2.0 * step * size <= variable.upper;
     const bool can_fall = x[i] - 2.0 * step * size >= variable.lower;
     if (!can_rise && !can_fall) continue;
-    room.sizes[i] = size;
-    if (can_rise != can_fall) room.sides[i] = can_rise ? 1.0 : -1.0;
+    ranges.sizes[i] = size;
+    if (can_rise != can_fall) ranges.sides[i] = can_rise ? 1.0 : -1.0;
   }
-  return room;
+  return ranges;
 }
 
 /// Relative changes of the variables with room to both sides, no two of the same pattern.
-Eigen::VectorXd generic_changes(const Room& room, GenericNumbers& numbers) {
-  Eigen::VectorXd changes = Eigen::VectorXd::Zero(room.sizes.size());
+Eigen::VectorXd generic_changes(const StepRanges& ranges, GenericNumbers& numbers) {
+  Eigen::VectorXd changes = Eigen::VectorXd::Zero(ranges.sizes.size());
   for (Eigen::Index i = 0; i < changes.size(); ++i) {
-    const bool has_both_sides = room.sizes[i] > 0.0 && room.sides[i] == 0.0;
+    const bool has_both_sides = ranges.sizes[i] > 0.0 && ranges.sides[i] == 0.0;
     if (has_both_sides) changes[i] = numbers.signed_size();
   }
   return changes;
 }
 
 /// Likewise of those at a bound.
-Eigen::VectorXd generic_changes_inwards(const Room& room, GenericNumbers& numbers) {
-  return room.sides.unaryExpr([&](double side) {
+Eigen::VectorXd generic_changes_inwards(const StepRanges& ranges, GenericNumbers& numbers) {
+  return ranges.sides.unaryExpr([&](double side) {
     const double size = numbers.size();
     return side * size * numbers.size();
   });
@@ -61,10 +61,10 @@ Eigen::VectorXd generic_changes_inwards(const Room& room, GenericNumbers& number
 /// sides: whatever has a slope along their plane is seen from both sides. With one such variable
 /// d₂ = d₃ = −d₁. Variables at a bound go inwards in all of them, each time otherwise.
 std::vector<Eigen::VectorXd> generic_directions(const Problem& problem, const Eigen::VectorXd& x) {
-  const Room room = room_around(problem, x);
+  const StepRanges ranges = ranges_around(problem, x);
   GenericNumbers numbers;
-  const Eigen::VectorXd first = generic_changes(room, numbers);
-  Eigen::VectorXd across = generic_changes(room, numbers);
+  const Eigen::VectorXd first = generic_changes(ranges, numbers);
+  Eigen::VectorXd across = generic_changes(ranges, numbers);
   if ((first.array() != 0.0).count() > 1) {
     across -= across.dot(first) / first.squaredNorm() * first;
     across *= first.norm() / across.norm();
@@ -74,10 +74,10 @@ std::vector<Eigen::VectorXd> generic_directions(const Problem& problem, const Ei
   const double sine = 0.5 * std::sqrt(3.0);
   std::vector<Eigen::VectorXd> directions;
   for (const auto& [a, b] : {std::pair(1.0, 0.0), std::pair(-0.5, sine), std::pair(-0.5, -sine)}) {
-    Eigen::VectorXd changes = a * first + b * across + generic_changes_inwards(room, numbers);
+    Eigen::VectorXd changes = a * first + b * across + generic_changes_inwards(ranges, numbers);
     const double largest = changes.lpNorm<Eigen::Infinity>();
     if (largest > 0.0) changes /= largest;
-    const Eigen::VectorXd direction = changes.cwiseProduct(room.sizes);
+    const Eigen::VectorXd direction = changes.cwiseProduct(ranges.sizes);
     if (directions.empty() || direction != directions.back()) directions.push_back(direction);
   }
   return directions;

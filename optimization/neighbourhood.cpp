@@ -32,27 +32,25 @@ Eigen::VectorXd lengths(const Problem& problem, const Eigen::VectorXd& x) {
   return variable_scales(problem, x).cwiseMax(local_scales(problem, x));
 }
 
-/// The limits that hold a design, in variables divided by s.
+/// The limits that hold a design.
 struct Holding {
-  std::vector<bool> variables;  ///< at a bound with multiplier, or fixed
-  std::vector<bool> constraints;
+  Eigen::VectorXd open;           ///< s; 0 of variables at a bound with multiplier, or fixed
+  std::vector<bool> constraints;  ///< with multiplier, or equalities
 };
 
 Holding holding_limits(const Problem& problem, const EvaluatedDesign& design, const KktAudit& audit,
                        const Eigen::VectorXd& s) {
   const double threshold = held * audit.gradient_scale;
-  Holding holding;
+  Holding holding{s, {}};
   for (Eigen::Index i = 0; i < s.size(); ++i) {
     const bool has_price = std::abs(audit.bound_multipliers[i]) * s[i] > threshold;
-    const bool is_fixed = problem.variables()[i].is_fixed();
-    holding.variables.push_back(has_price || is_fixed);
+    if (has_price || problem.variables()[i].is_fixed()) holding.open[i] = 0.0;
   }
   for (Eigen::Index j = 0; j < design.evaluation.constraints.size(); ++j) {
     const double slope =
         design.evaluation.constraint_jacobian.row(j).transpose().cwiseProduct(s).norm();
     const bool has_price = std::abs(audit.constraint_multipliers[j]) * slope > threshold;
-    const bool is_equality = problem.constraints()[j].is_equality();
-    holding.constraints.push_back(has_price || is_equality);
+    holding.constraints.push_back(has_price || problem.constraints()[j].is_equality());
   }
   return holding;
 }
@@ -61,24 +59,20 @@ Holding holding_limits(const Problem& problem, const EvaluatedDesign& design, co
 /// length 1 (or 0).
 class Rows {
  public:
-  Rows(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& s, const Holding& holding,
+  Rows(const Eigen::MatrixXd& jacobian, const Eigen::VectorXd& open,
        const std::vector<bool>& chosen)
-      : lengths_(0) {
+      : matrix_(jacobian.rows(), open.size()), lengths_(jacobian.rows()) {
+    Eigen::Index count = 0;
     for (Eigen::Index j = 0; j < jacobian.rows(); ++j) {
-      if (!chosen[j]) continue;
-      Eigen::VectorXd row = jacobian.row(j).transpose().cwiseProduct(s);
-      for (Eigen::Index i = 0; i < s.size(); ++i) {
-        if (holding.variables[i]) row[i] = 0.0;
-      }
+      const Eigen::VectorXd row = jacobian.row(j).transpose().cwiseProduct(open);
       const double length = row.norm();
-      if (length == 0.0) continue;
+      if (!chosen[j] || length == 0.0) continue;
       indices_.push_back(j);
-      const Eigen::Index count = indices_.size();
-      matrix_.conservativeResize(count, s.size());
-      lengths_.conservativeResize(count);
-      matrix_.row(count - 1) = row.transpose() / length;
-      lengths_[count - 1] = length;
+      matrix_.row(count) = row.transpose() / length;
+      lengths_[count++] = length;
     }
+    matrix_.conservativeResize(count, Eigen::NoChange);
+    lengths_.conservativeResize(count);
   }
 
   const Eigen::MatrixXd& matrix() const { return matrix_; }
@@ -96,15 +90,13 @@ class Rows {
 };
 
 /// Orthonormal, variables × dimension.
-Eigen::MatrixXd tangent_basis(const Eigen::MatrixXd& rows, const Holding& holding) {
-  std::vector<Eigen::Index> free;
-  for (std::size_t i = 0; i < holding.variables.size(); ++i) {
-    if (!holding.variables[i]) free.push_back(i);
+Eigen::MatrixXd tangent_basis(const Eigen::MatrixXd& rows, const Eigen::VectorXd& open) {
+  const Eigen::Index count = (open.array() != 0.0).count();
+  Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(open.size(), count);
+  Eigen::Index column = 0;
+  for (Eigen::Index i = 0; i < open.size(); ++i) {
+    if (open[i] != 0.0) basis(i, column++) = 1.0;
   }
-  const Eigen::Index variables = holding.variables.size();
-  const Eigen::Index count = free.size();
-  Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(variables, count);
-  for (Eigen::Index k = 0; k < count; ++k) basis(free[k], k) = 1.0;
   if (rows.rows() == 0 || count == 0) return basis;
   const Eigen::MatrixXd columns = (rows * basis).transpose();
   return basis * PivotedQr(columns, 1e-6).normal_space();
@@ -119,7 +111,7 @@ class Exploration {
         bound_multipliers_(audit.bound_multipliers),
         s_(lengths(cache.problem(), design.x)),
         holding_(holding_limits(cache.problem(), design, audit, s_)),
-        basis_(tangent_basis(rows(holding_.constraints).matrix(), holding_)) {}
+        basis_(tangent_basis(rows(holding_.constraints).matrix(), holding_.open)) {}
 
   Neighbourhood explore(double value_scale, double least_gain) {
     Neighbourhood result;
@@ -146,7 +138,7 @@ class Exploration {
   };
 
   Rows rows(const std::vector<bool>& chosen) const {
-    return Rows(design_.evaluation.constraint_jacobian, s_, holding_, chosen);
+    return Rows(design_.evaluation.constraint_jacobian, holding_.open, chosen);
   }
 
   /// s ∘ ∇L
@@ -196,10 +188,10 @@ class Exploration {
   Eigen::VectorXd moved_off_bounds() const {
     Eigen::VectorXd x = design_.x;
     for (Eigen::Index i = 0; i < x.size(); ++i) {
-      if (holding_.variables[i]) continue;
+      if (holding_.open[i] == 0.0) continue;
       const Variable& variable = cache_.problem().variables()[i];
-      const double room = distance * s_[i];
-      x[i] = std::clamp(x[i], variable.lower + room, variable.upper - room);
+      const double step = distance * s_[i];
+      x[i] = std::clamp(x[i], variable.lower + step, variable.upper - step);
     }
     return x;
   }

@@ -36,13 +36,10 @@ bool is_worth_polishing(const Verdict& verdict, const Tolerances& tolerances) {
 
 Eigen::VectorXd polish(EvaluationCache& cache, const EvaluatedDesign& from, const KktAudit& audit,
                        const PolishBudget& budget) {
-  ScaledProblem scaled(
-      cache, from, {budget.iterations, budget.evaluations, consecutive_failures, line_search, 0},
-      balance(audit));
-  if (scaled.variables() == 0) return from.x;
-  const BackendResult end = make_optimizer(polisher, {tolerance})->minimize(scaled);
-  scaled.rethrow();
-  return end.y.allFinite() ? scaled.to_design(end.y) : from.x;
+  return run_backend(cache, from, polisher, tolerance,
+                     {budget.iterations, budget.evaluations, consecutive_failures, line_search, 0},
+                     balance(audit))
+      .x;
 }
 
 }  // namespace pleuel

@@ -1,8 +1,29 @@
 #include "optimization/result.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace pleuel {
+
+namespace {
+
+int rank(const Result& result, double violation) {
+  if (!result.evaluation.has_gradients()) return 0;
+  if (result.status == Status::verified) return 4;
+  if (result.status == Status::unresolved) return 3;
+  return result.max_violation <= violation ? 2 : 1;
+}
+
+}  // namespace
+
+bool is_better(const Result& one, const Result& other, double violation, double equal) {
+  const int order = rank(one, violation);
+  if (order != rank(other, violation)) return order > rank(other, violation);
+  if (order == 0) return false;
+  if (order == 1) return one.max_violation < other.max_violation;
+  const double more = one.evaluation.objective - other.evaluation.objective;
+  return more < 0.0 || (equal > 0.0 && more <= equal * std::abs(other.evaluation.objective));
+}
 
 void continue_from(const Result& before, Result& result) {
   for (EvaluationRecord& record : result.history) record = following(std::move(record), before);

@@ -60,6 +60,12 @@ struct Result {
   History history;
 };
 
+/// Whether a result is to be preferred: verified before unresolved before unproven, within the limits before
+/// outside, with gradients before none; then the lower objective, or outside the smaller violation.
+/// @param violation  relative, that still counts as within the limits
+/// @param equal      relative difference of objectives that is none: the first one is preferred then; 0: the other
+bool is_better(const Result& one, const Result& other, double violation, double equal = 0.0);
+
 /// Puts what an earlier run of the same optimization did before a result: counts, time, history.
 void continue_from(const Result& before, Result& result);
 

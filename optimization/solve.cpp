@@ -82,7 +82,7 @@ class Run {
   }
 
   Result search() {
-    run_backend(start_, options_.tolerance);
+    search_from(start_, options_.tolerance);
     Result result;
     result.status = is_lost_ ? Status::failed : Status::stalled;
     result.message = backend_reason_;
@@ -148,7 +148,7 @@ class Run {
   /// Where the backend comes to from this design, or the best design seen so far if that is better:
   /// a backend may stop slightly outside the limits, or leave a good point.
   Verdict improve(const EvaluatedDesign& from, double tolerance) {
-    const Eigen::VectorXd end = run_backend(from, tolerance);
+    const Eigen::VectorXd end = search_from(from, tolerance);
     const History steps = search_steps();
     return best_of({end, best_record(steps, strict_violation).x,
                     best_record(steps, options_.verdict.violation).x},
@@ -219,21 +219,17 @@ class Run {
     return is_proof || (keeps_limits && is_better(next, verdict));
   }
 
-  Eigen::VectorXd run_backend(const EvaluatedDesign& from, double tolerance) {
+  Eigen::VectorXd search_from(const EvaluatedDesign& from, double tolerance) {
     cache_.set_purpose(Purpose::search);
     const double size = std::sqrt(options_.first_step) * restart_size_;
-    ScaledProblem scaled(
-        cache_, from,
-        {options_.max_iterations, max_evaluations(), options_.max_consecutive_failures,
-         longest_line_search, options_.patience},
-        Eigen::VectorXd::Constant(from.x.size(), size));
-    if (scaled.variables() == 0) return from.x;
-    const BackendResult end = make_optimizer(options_.backend, {tolerance})->minimize(scaled);
-    scaled.rethrow();
-    backend_reason_ = end.reason;
-    if (scaled.has_left_numbers()) backend_reason_ = "it asked for a design that is not a number";
-    is_lost_ = scaled.has_left_numbers() || has_failed_too_often();
-    return end.y.allFinite() ? scaled.to_design(end.y) : from.x;
+    BackendEnd end =
+        run_backend(cache_, from, options_.backend, tolerance,
+                    {options_.max_iterations, max_evaluations(), options_.max_consecutive_failures,
+                     longest_line_search, options_.patience},
+                    Eigen::VectorXd::Constant(from.x.size(), size));
+    is_lost_ = end.has_left_numbers || has_failed_too_often();
+    backend_reason_ = std::move(end.reason);
+    return std::move(end.x);
   }
 
   /// nullopt if the design, or its gradients, cannot be evaluated.
@@ -374,7 +370,7 @@ class Run {
   int polishes_ = 0;
   bool is_polished_ = false;
   bool is_lost_ = false;
-  std::string backend_reason_ = "nothing, since no variable is free";
+  std::string backend_reason_;
 };
 
 /// What is done with a start that can be evaluated.

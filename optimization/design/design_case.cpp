@@ -39,12 +39,14 @@ std::optional<std::size_t> DesignCase::response_of(const ConstraintRows& rows) c
   return index_of_response(file_, name);
 }
 
-double DesignCase::linear_value(std::size_t constraint) const {
-  double sum = 0.0;
+DesignCase::Row DesignCase::linear_row(std::size_t constraint) const {
+  Row row;
+  row.gradient = Eigen::VectorXd::Zero(x_.size());
   for (const auto& [variable, factor] : file_.constraints[constraint].linear) {
-    sum += factor * x_(variable);
+    row.value += factor * x_(variable);
+    row.gradient(variable) += factor;
   }
-  return sum;
+  return row;
 }
 
 std::vector<ConstraintRows> DesignCase::with_objective(
@@ -65,7 +67,7 @@ std::vector<DesignCase::Row> DesignCase::rows_at(const Analysis& analysis,
   for (const ConstraintRows& of : rows) {
     const auto response = response_of(of);
     if (!response) {
-      all.push_back({linear_value(*of.constraint)});
+      all.push_back(linear_row(*of.constraint));
     } else if (of.division) {
       for (const Reduction& peak : divided_peaks(analysis, file_, *response, *of.division)) {
         add(of, *response, peak);
@@ -85,32 +87,42 @@ GradientMethod DesignCase::method_for(const Analysis& analysis,
   return has_more_rows ? GradientMethod::direct : choice_->method;
 }
 
-/// Of the rows of responses.
 Eigen::MatrixXd DesignCase::gradients_of(Analysis& analysis,
-                                         const std::vector<ConstraintRows>& rows) {
+                                         const std::vector<ConstraintRows>& rows,
+                                         const std::vector<Row>& at_x) {
   std::vector<SampledValue> values;
-  std::vector<double> signs;
-  for (const Row& row : rows_at(analysis, rows)) {
-    if (!row.sampled) continue;
-    values.push_back(*row.sampled);
-    signs.push_back(row.sign);
+  for (const Row& row : at_x) {
+    if (row.sampled) values.push_back(*row.sampled);
   }
-  if (values.empty()) return Eigen::MatrixXd(0, x_.size());
-  if (!choice_) choice_ = choose_gradients(file_.sensitivity.method, analysis, values);
-  used_ = method_for(analysis, values);
-  if (!is_difference(used_)) {
-    const Eigen::Map<const Eigen::VectorXd> sign(signs.data(), std::ssize(signs));
-    return sign.asDiagonal() * sampled_gradients(analysis, values, exact_method(used_));
+  Eigen::MatrixXd sampled;
+  if (!values.empty()) {
+    if (!choice_) choice_ = choose_gradients(file_.sensitivity.method, analysis, values);
+    used_ = method_for(analysis, values);
   }
-  const ValuesOf numbers = [&](const Analysis& at) {
-    std::vector<double> all;
-    for (const Row& row : rows_at(at, rows)) {
-      if (row.sampled) all.push_back(row.value);
+  const bool has_signs = is_difference(used_);
+  if (!values.empty() && has_signs) {
+    const ValuesOf numbers = [&](const Analysis& at) {
+      std::vector<double> all;
+      for (const Row& row : rows_at(at, rows)) {
+        if (row.sampled) all.push_back(row.value);
+      }
+      return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(all.data(), std::ssize(all)));
+    };
+    sampled = gradients_by_differences(file_, x_, analysis, used_, numbers,
+                                       {file_.sensitivity.difference_step, threads_});
+  } else if (!values.empty()) {
+    sampled = sampled_gradients(analysis, values, exact_method(used_));
+  }
+  Eigen::MatrixXd gradients(at_x.size(), x_.size());
+  Eigen::Index row = 0, next = 0;
+  for (const Row& one : at_x) {
+    if (one.sampled) {
+      gradients.row(row++) = (has_signs ? 1.0 : one.sign) * sampled.row(next++);
+    } else {
+      gradients.row(row++) = one.gradient;
     }
-    return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(all.data(), std::ssize(all)));
-  };
-  return gradients_by_differences(file_, x_, analysis, used_, numbers,
-                                  {file_.sensitivity.difference_step, threads_});
+  }
+  return gradients;
 }
 
 EvaluationKey DesignCase::key_of(const Eigen::VectorXd& x, Request request,
@@ -170,22 +182,10 @@ Evaluation DesignCase::simulated_rows(const Eigen::VectorXd& x, Request request,
   for (Eigen::Index i = 0; i < count; ++i) evaluation.constraints(i) = all[first + i].value;
   if (request == Request::values) return evaluation;
 
-  const Eigen::MatrixXd gradients = gradients_of(analysis, asked);
+  const Eigen::MatrixXd gradients = gradients_of(analysis, asked, all);
   evaluation.objective_gradient = Eigen::VectorXd::Zero(x.size());
   if (has_objective()) evaluation.objective_gradient = gradients.row(0);
-  evaluation.constraint_jacobian = Eigen::MatrixXd::Zero(count, x.size());
-  Eigen::Index row = 0, next = first;
-  for (const ConstraintRows& of : rows) {
-    for (int i = 0; i < of.count(); ++i, ++row) {
-      if (response_of(of)) {
-        evaluation.constraint_jacobian.row(row) = gradients.row(next++);
-        continue;
-      }
-      for (const auto& [variable, factor] : file_.constraints[*of.constraint].linear) {
-        evaluation.constraint_jacobian(row, variable) += factor;
-      }
-    }
-  }
+  evaluation.constraint_jacobian = gradients.bottomRows(count);
   return evaluation;
 }
 

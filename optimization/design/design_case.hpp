@@ -80,7 +80,8 @@ class DesignCase {
   struct Row {
     double value = 0.0;
     std::optional<SampledValue> sampled = {};
-    double sign = 1.0;  ///< value = sign · what the samples give
+    double sign = 1.0;              ///< value = sign · what the samples give
+    Eigen::VectorXd gradient = {};  ///< of a sum of variables, which has no samples
   };
 
   /// The rows, before them the objective, if there is one.
@@ -88,13 +89,15 @@ class DesignCase {
   Evaluation simulated_rows(const Eigen::VectorXd& x, Request request,
                             const std::vector<ConstraintRows>& rows);
   EvaluationKey key_of(const Eigen::VectorXd& x, Request request, const std::string& rows) const;
-  double linear_value(std::size_t constraint) const;
+  Row linear_row(std::size_t constraint) const;
   std::vector<Row> rows_at(const Analysis& analysis, const std::vector<ConstraintRows>& rows) const;
   /// That of the choice, which was made for the first rows: the adjoint method, if it was to choose, is
   /// none for more rows than there are variables.
   GradientMethod method_for(const Analysis& analysis,
                             const std::vector<SampledValue>& values) const;
-  Eigen::MatrixXd gradients_of(Analysis& analysis, const std::vector<ConstraintRows>& rows);
+  /// @param at_x  rows_at() the design
+  Eigen::MatrixXd gradients_of(Analysis& analysis, const std::vector<ConstraintRows>& rows,
+                               const std::vector<Row>& at_x);
 
   ProblemFile file_;
   int threads_;

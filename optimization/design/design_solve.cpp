@@ -275,7 +275,7 @@ Result search_design_alone(DesignProblem& design, const SolveOptions& options,
   std::unique_ptr<Problem> robust_peaks;
   const auto limit_rows = [&] {
     peaks = std::make_unique<PeakProblem>(design, windows_of_limits, start_of(design),
-                                          PeakProblem::Of::limits);
+                                          PeakProblem::Scope::limits);
     robust_peaks = with_margins(*peaks, design, peaks->constraint_of_row());
     return LimitRows{robust_peaks ? robust_peaks.get() : peaks.get(), peaks->constraint_of_row()};
   };

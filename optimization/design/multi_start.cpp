@@ -30,20 +30,6 @@ bool is_optimum(const Result& result) {
   return result.status == Status::verified || result.status == Status::unresolved;
 }
 
-int rank(const Result& result) {
-  if (!result.evaluation.has_gradients()) return 0;
-  if (result.status == Status::verified) return 4;
-  if (result.status == Status::unresolved) return 3;
-  return result.max_violation <= Tolerances().violation ? 2 : 1;
-}
-
-bool is_better(const Result& one, const Result& other) {
-  if (rank(one) != rank(other)) return rank(one) > rank(other);
-  if (rank(one) == 0) return false;
-  if (rank(one) == 1) return one.max_violation < other.max_violation;
-  return one.evaluation.objective < other.evaluation.objective;
-}
-
 bool is_same(const LocalOptimum& one, const Result& other, const Eigen::VectorXd& scales) {
   const double difference = std::abs(one.objective - other.evaluation.objective);
   const Eigen::VectorXd moved = (one.x - other.x).cwiseQuotient(scales);
@@ -285,7 +271,7 @@ MultiStart combined(const std::vector<Eigen::VectorXd>& starts,
                     std::vector<StagedSolution> solutions) {
   std::size_t best = 0;
   for (std::size_t i = 1; i < solutions.size(); ++i) {
-    if (is_better(solutions[i].result, solutions[best].result)) best = i;
+    if (is_better(solutions[i].result, solutions[best].result, Tolerances().violation)) best = i;
   }
   MultiStart all;
   for (std::size_t i = 0; i < solutions.size(); ++i) {

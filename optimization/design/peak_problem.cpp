@@ -32,7 +32,8 @@ bool is_extreme(const ResponseSettings& response, Extreme extreme) {
 PeakProblem::PeakProblem(DesignProblem& problem, int windows)
     : PeakProblem(problem, windows, start_of(problem)) {}
 
-PeakProblem::PeakProblem(DesignProblem& problem, int windows, const Eigen::VectorXd& start, Of of)
+PeakProblem::PeakProblem(DesignProblem& problem, int windows, const Eigen::VectorXd& start,
+                         Scope scope)
     : problem_(problem), windows_(windows), variables_(problem.variables()) {
   const ProblemFile& file = problem.file();
   int samples = 1;
@@ -47,7 +48,7 @@ PeakProblem::PeakProblem(DesignProblem& problem, int windows, const Eigen::Vecto
                                                 : sources_in_case(of_case.load_case, i);
     for (const RowSource& source : sources) add_rows(source, i, problem.constraints()[i]);
   }
-  if (of == Of::objective_and_limits) bound_objective();
+  if (scope == Scope::objective_and_limits) bound_objective();
   name_rows();
 }
 

@@ -38,14 +38,14 @@ class PeakProblem : public Problem {
  public:
   /// Which peaks are told apart: those of the limits and the objective, or of the limits only. Then
   /// a design is x, and nothing is evaluated before it is asked for.
-  enum class Of { objective_and_limits, limits };
+  enum class Scope { objective_and_limits, limits };
 
   /// @param windows  of equal length, at least 1
   /// @param start    of the design, moved into the bounds; by default that of the file. Where the
   ///                 objective is a peak it is evaluated, with gradients.
   PeakProblem(DesignProblem& problem, int windows);
   PeakProblem(DesignProblem& problem, int windows, const Eigen::VectorXd& start,
-              Of of = Of::objective_and_limits);
+              Scope scope = Scope::objective_and_limits);
 
   const std::vector<Variable>& variables() const override { return variables_; }
   const std::vector<Constraint>& constraints() const override { return rows_; }
