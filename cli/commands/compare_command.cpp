@@ -59,13 +59,9 @@ Json input_differences(const OlderRun& first, const OlderRun& second) {
   return differences;
 }
 
-/// The end of what is too long is left out, at the beginning of a character.
 std::string value_text(const Json& value, std::size_t widest) {
   if (value.is_null()) return "–";
-  std::string text = value.is_string() ? value.get<std::string>() : value.dump();
-  if (characters(text) <= widest) return text;
-  while (characters(text) > widest - 1) text.pop_back();
-  return text + "…";
+  return shortened(value.is_string() ? value.get<std::string>() : value.dump(), widest);
 }
 
 /// Both problems have the same keys and values.

@@ -20,6 +20,7 @@
 #include "cli/text/history_chart.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/error.hpp"
+#include "core/base/find_named.hpp"
 #include "core/base/number_text.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/scene/reading/suggestion.hpp"
@@ -123,11 +124,6 @@ std::vector<std::string> known_names(const std::vector<RunHistories>& histories)
   return names;
 }
 
-bool has_response(const ProblemFile& problem, const std::string& name) {
-  return std::any_of(problem.responses.begin(), problem.responses.end(),
-                     [&](const ResponseSettings& response) { return response.name == name; });
-}
-
 /// On the history of a response, both signs where its magnitude is limited [SI].
 std::vector<double> limits_on(const ProblemFile& problem, const std::string& name) {
   std::vector<double> limits;
@@ -149,7 +145,7 @@ HistoryChart chart_of(const std::vector<RunHistories>& histories,
   HistoryChart chart;
   chart.title = name;
   ShownUnit unit{"", "1", 1.0};
-  if (problem && has_response(*problem, name)) {
+  if (problem && find_named(problem->responses, name) != nullptr) {
     unit = history_unit(find_response(*problem, name));
     for (const double limit : limits_on(*problem, name)) chart.limits.push_back(unit.shown(limit));
   }

@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -68,16 +69,8 @@ AnalyzedDesign given_design(const ProblemInput& input) {
 }
 
 const char* kind_name(NumberPrice::Kind kind) {
-  switch (kind) {
-    case NumberPrice::Kind::number:
-      return "number";
-    case NumberPrice::Kind::variable:
-      return "variable";
-    case NumberPrice::Kind::bound:
-      return "bound";
-    default:
-      return "limit";
-  }
+  static constexpr std::array<const char*, 4> names = {"number", "variable", "bound", "limit"};
+  return names[static_cast<std::size_t>(kind)];
 }
 
 Json price_document(const NumberPrice& price) {

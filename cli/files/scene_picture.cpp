@@ -55,30 +55,16 @@ class SizeTexts : public Keys {
 };
 
 /// "rectangle, width 20 mm, height 30 mm".
-class SectionText {
- public:
-  explicit SectionText(const Values& design) : design_(design) {}
-
-  std::string operator()(const RectangleSection& s) const { return sizes("rectangle", s); }
-  std::string operator()(const CircleSection& s) const { return sizes("circle", s); }
-  std::string operator()(const TubeSection& s) const { return sizes("tube", s); }
-  std::string operator()(const EllipseSection& s) const { return sizes("ellipse", s); }
-  std::string operator()(const BoxSection& s) const { return sizes("box", s); }
-  std::string operator()(const ISection& s) const { return sizes("I", s); }
-  std::string operator()(const GeneralSection&) const {
+std::string section_text(const Section& section, const Values& design) {
+  static constexpr std::array<const char*, 6> names = {"rectangle", "circle", "tube",
+                                                       "ellipse",   "box",    "I"};
+  if (std::holds_alternative<GeneralSection>(section)) {
     return "general (drawn as the rectangle with its radii of gyration)";
   }
-
- private:
-  template <class OfType>
-  std::string sizes(const std::string& name, OfType section) const {
-    SizeTexts sizes(design_);
-    describe(sizes, section);
-    return name + sizes.text;
-  }
-
-  const Values& design_;
-};
+  SizeTexts sizes(design);
+  std::visit([&](auto of_type) { describe(sizes, of_type); }, section);
+  return names[section.index()] + sizes.text;
+}
 
 Json segments_document(const BeamBody& beam, const Values& design) {
   Json document = Json::array();
@@ -88,7 +74,7 @@ Json segments_document(const BeamBody& beam, const Values& design) {
     const SectionOutline outline = section_outline(beam.segments[i].section, design);
     document.push_back({{"begin", begin},
                         {"end", begin + fractions[i]},
-                        {"text", std::visit(SectionText(design), beam.segments[i].section)},
+                        {"text", section_text(beam.segments[i].section, design)},
                         {"elements", beam.segments[i].elements},
                         {"outer", points_document(outline.outer)},
                         {"inner", points_document(outline.inner)}});
@@ -165,27 +151,26 @@ Json joint_document(const Joint& joint) {
   return document;
 }
 
-struct LoadDescription {
-  Json operator()(const PointForce& load) const {
-    return {{"type", "force"},
-            {"bodies", {load.body}},
-            {"direction", vector_document(load.direction)},
-            {"follows_body", load.follows_body},
-            {"unit", "N"}};
-  }
-  Json operator()(const PointTorque& load) const {
-    return {{"type", "torque"},
-            {"bodies", {load.body}},
-            {"direction", vector_document(load.direction)},
-            {"follows_body", load.follows_body},
-            {"unit", "N m"}};
-  }
+class LoadDescription {
+ public:
+  Json operator()(const PointForce& load) const { return at_point("force", load, "N"); }
+  Json operator()(const PointTorque& load) const { return at_point("torque", load, "N m"); }
   Json operator()(const SpringDamper& load) const {
     return {{"type", "spring"}, {"bodies", load.bodies}};
   }
   Json operator()(const JointForce& load) const {
     const bool turns = load.coordinate == DrivenCoordinate::angle;
     return {{"type", "joint-force"}, {"joint", load.joint}, {"unit", turns ? "N m" : "N"}};
+  }
+
+ private:
+  template <class PointLoad>
+  static Json at_point(const char* type, const PointLoad& load, const char* unit) {
+    return {{"type", type},
+            {"bodies", {load.body}},
+            {"direction", vector_document(load.direction)},
+            {"follows_body", load.follows_body},
+            {"unit", unit}};
   }
 };
 

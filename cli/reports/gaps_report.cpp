@@ -1,5 +1,7 @@
 #include "cli/reports/gaps_report.hpp"
 
+#include <array>
+
 #include <fmt/format.h>
 
 #include "core/base/number_text.hpp"
@@ -11,17 +13,8 @@ namespace pleuel {
 namespace {
 
 const char* cause_text(FrontGap::Cause cause) {
-  switch (cause) {
-    case FrontGap::Cause::open:
-      return "open";
-    case FrontGap::Cause::jump:
-      return "jump";
-    case FrontGap::Cause::failure:
-      return "failure";
-    case FrontGap::Cause::narrow:
-      return "narrow";
-  }
-  return "";
+  static constexpr std::array<const char*, 4> names = {"open", "jump", "failure", "narrow"};
+  return names[static_cast<std::size_t>(cause)];
 }
 
 /// Of a gap that more points do not close.

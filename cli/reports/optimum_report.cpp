@@ -42,23 +42,14 @@ std::string deciding_text(const Optimum& optimum) {
 /// What was found, in words that need no theory; the audit of a verified answer is told apart.
 std::string status_text(const Optimum& optimum) {
   const Result& result = optimum.result;
-  switch (result.status) {
-    case Status::verified:
-      if (optimum.sizes != nullptr && optimum.sizes->is_choice)
-        return "VERIFIED: " + result.message;
-      return fmt::format("VERIFIED: every limit holds{}; {}", deciding_text(optimum),
-                         neighbours_text(optimum));
-    case Status::stalled:
-      return "NOT VERIFIED (stalled): " + result.message;
-    case Status::unresolved:
-      return "NOT VERIFIED (unresolved): " + result.message;
-    case Status::infeasible:
-      return "NOT VERIFIED (infeasible): " + result.message;
-    case Status::interrupted:
-      return "INTERRUPTED: " + result.message;
-    default:
-      return "FAILED: " + result.message;
+  if (result.status == Status::interrupted) return "INTERRUPTED: " + result.message;
+  if (result.status == Status::failed) return "FAILED: " + result.message;
+  if (result.status != Status::verified) {
+    return fmt::format("NOT VERIFIED ({}): {}", to_string(result.status), result.message);
   }
+  if (optimum.sizes != nullptr && optimum.sizes->is_choice) return "VERIFIED: " + result.message;
+  return fmt::format("VERIFIED: every limit holds{}; {}", deciding_text(optimum),
+                     neighbours_text(optimum));
 }
 
 std::string objective_text(const Optimum& optimum) {

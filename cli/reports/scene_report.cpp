@@ -1,10 +1,12 @@
 #include "cli/reports/scene_report.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "cli/reports/document_table.hpp"
 #include "cli/reports/sizes_report.hpp"
 #include "cli/text/table.hpp"
 #include "cli/text/wrapped_text.hpp"
@@ -66,16 +68,8 @@ ReachedBound reached_bound(const DesignVariable& variable, double value) {
 }
 
 const char* to_string(ReachedBound reached) {
-  switch (reached) {
-    case ReachedBound::lower:
-      return "lower";
-    case ReachedBound::upper:
-      return "upper";
-    case ReachedBound::both:
-      return "both";
-    default:
-      return "";
-  }
+  static constexpr std::array<const char*, 4> names = {"", "lower", "upper", "both"};
+  return names[static_cast<std::size_t>(reached)];
 }
 
 Json bodies_document(const Model& model) {
@@ -163,46 +157,35 @@ std::string assembly_text(const Analysis& analysis) {
 }
 
 Json variables_document(const ProblemFile& problem) {
-  const std::vector<ShownUnit> units = variable_units(problem);
-  Json document = Json::object();
-  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
-    const DesignVariable& variable = problem.variables[i];
-    document[variable.name] = {{"start", variable.start},
-                               {"lower", variable.lower},
-                               {"upper", variable.upper},
-                               {"unit", units[i].si}};
-  }
-  return document;
+  const NamedUnits units = units_of_variables(problem);
+  return named_entries(problem.variables, [&](const DesignVariable& variable) {
+    return Json{{"start", variable.start},
+                {"lower", variable.lower},
+                {"upper", variable.upper},
+                {"unit", units.at(variable.name).si}};
+  });
 }
 
 Json variables_document(const ProblemFile& problem, const Eigen::VectorXd& x) {
-  const std::vector<ShownUnit> units = variable_units(problem);
-  Json document = Json::object();
+  Json document = variables_document(problem);
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
     const DesignVariable& variable = problem.variables[i];
-    document[variable.name] = {{"value", x(i)},
-                               {"unit", units[i].si},
-                               {"lower", variable.lower},
-                               {"upper", variable.upper},
-                               {"start", variable.start}};
-    if (const auto choice = size_text(variable, x(i))) document[variable.name]["choice"] = *choice;
+    Json& entry = document[variable.name];
+    entry["value"] = x(i);
+    if (const auto choice = size_text(variable, x(i))) entry["choice"] = *choice;
     const ReachedBound reached = reached_bound(variable, x(i));
-    if (reached != ReachedBound::none) document[variable.name]["at_bound"] = to_string(reached);
+    if (reached != ReachedBound::none) entry["at_bound"] = to_string(reached);
   }
   return document;
 }
 
 std::string variables_text(const ProblemFile& problem) {
-  const std::vector<ShownUnit> units = variable_units(problem);
-  Table table({left_aligned("variable"), "start", "lower", "upper", left_aligned("unit")});
-  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
-    const DesignVariable& variable = problem.variables[i];
-    const ShownUnit& unit = units[i];
-    table.add_row({variable.name, significant(unit.shown(variable.start)),
-                   significant(unit.shown(variable.lower)), significant(unit.shown(variable.upper)),
-                   unit.name});
-  }
-  return table.text();
+  const NamedUnits units = units_of_variables(problem);
+  return table_of(variables_document(problem),
+                  {name_column("variable"), shown_column("start", "/start", units),
+                   shown_column("lower", "/lower", units), shown_column("upper", "/upper", units),
+                   unit_column(units)})
+      .text();
 }
 
 }  // namespace pleuel

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "cli/text/wrapped_text.hpp"
 #include "cli/text/xml_text.hpp"
 
 namespace pleuel {
@@ -48,24 +49,6 @@ constexpr std::array<const char*, 8> marks = {"M-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -1
 
 std::string moved(double x, double y) {
   return fmt::format("translate({:.2f} {:.2f})", x, y);
-}
-
-bool continues_letter(char c) {
-  return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
-}
-
-std::size_t letters(const std::string& text) {
-  return text.size() -
-         static_cast<std::size_t>(std::count_if(text.begin(), text.end(), continues_letter));
-}
-
-std::string shortened(std::string text, std::size_t most) {
-  if (letters(text) <= most) return text;
-  while (letters(text) >= most) {
-    while (continues_letter(text.back())) text.pop_back();
-    text.pop_back();
-  }
-  return text + "…";
 }
 
 /// A logarithmic axis between two pixels.
@@ -304,7 +287,7 @@ class Drawing {
   void draw_label(const ChartPoint& point) {
     if (point.label.empty()) return;
     const double x = pixel_x(point), y = y_.pixel(point.y);
-    const double length = letter * static_cast<double>(letters(point.label)) + 4.0;
+    const double length = letter * static_cast<double>(characters(point.label)) + 4.0;
     const double side = mark_size + 4.0;
     const std::array<Box, 4> places = {
         {{x + side, y - 8.0, x + side + length, y + 6.0},

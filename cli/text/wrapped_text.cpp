@@ -48,6 +48,12 @@ std::size_t characters(const std::string& text) {
   }));
 }
 
+std::string shortened(std::string text, std::size_t most) {
+  if (characters(text) <= most) return text;
+  while (characters(text) >= most) text.pop_back();
+  return text + "…";
+}
+
 std::size_t line_width() {
   static const std::size_t width = [] {
     const std::size_t known = known_width();

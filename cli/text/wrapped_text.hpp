@@ -8,6 +8,9 @@ namespace pleuel {
 /// Number of characters of a UTF-8 text.
 std::size_t characters(const std::string& text);
 
+/// The text, or so many characters of it with "…" as the last one.
+std::string shortened(std::string text, std::size_t most);
+
 /// Characters in a line of what people read: of the terminal that standard output is, or as many as
 /// COLUMNS says, at least 80 and at most 160; 100 where nobody says.
 std::size_t line_width();
