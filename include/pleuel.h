@@ -206,7 +206,7 @@ typedef struct pleuel_progress {
 typedef int (*pleuel_observer)(const pleuel_progress *progress, void *user);
 
 /**
- * Optimizes the design, and proves or doubts the answer, as `pleuel optimize` does.
+ * Optimizes the design, and proves or questions the answer, as `pleuel optimize` does.
  * @param x         where the search begins; NULL: the start of the problem
  * @param options   JSON object: "backend", "tolerance", "max_iterations", "starts", "jobs", "checks";
  *                  NULL: as the problem has them

@@ -52,7 +52,7 @@ struct SolveOptions {
   } earlier{};
 };
 
-/// Optimizes from the start values of the problem with one backend, and proves or doubts the
+/// Optimizes from the start values of the problem with one backend, and proves or questions the
 /// answer: check the start → backend → audit → polish if the design is nearly an optimum → restart
 /// from there if it is unproven, from its better neighbour if it is no minimum → result.
 /// @throws InputError if the backend is unknown or cannot take the constraints, or if the start lies

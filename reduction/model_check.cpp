@@ -51,10 +51,11 @@ void check_connection(const ReductionModel& model) {
   }
 }
 
-void add_mass_doubt(const ReductionModel& model, double mass, std::vector<std::string>& doubts) {
+void add_mass_finding(const ReductionModel& model, double mass,
+                      std::vector<std::string>& findings) {
   const double of_mesh = mass_of(model.mesh);
   if (of_mesh == 0.0 || std::abs(mass / of_mesh - 1.0) < 1e-3) return;
-  doubts.push_back(
+  findings.push_back(
       fmt::format("the mass matrix holds {:.6g} kg, but volume and density of the mesh make {:.6g} "
                   "kg: they are "
                   "not of one model",
@@ -66,21 +67,22 @@ constexpr double least_density = 20.0, largest_density = 25000.0;
 /// √(E/ρ): rubber to diamond [m/s].
 constexpr double least_speed = 20.0, largest_speed = 20000.0;
 
-void add_unit_doubts(const ReductionModel& model, double mass, std::vector<std::string>& doubts) {
+void add_unit_findings(const ReductionModel& model, double mass,
+                       std::vector<std::string>& findings) {
   const Eigen::Vector3d extent = extent_of(model.mesh);
   const double density = mass / volume_of(model.mesh);
   const std::string understood =
       fmt::format("a body of {:.4g} × {:.4g} × {:.4g} m with {:.4g} kg was understood", extent(0),
                   extent(1), extent(2), mass);
   if (density < least_density || density > largest_density) {
-    doubts.push_back(fmt::format("{}, of {:.3g} kg/m³, which no solid has: is \"units\" right?",
-                                 understood, density));
+    findings.push_back(fmt::format("{}, of {:.3g} kg/m³, which no solid has: is \"units\" right?",
+                                   understood, density));
   }
   for (const SolidMaterial& material : model.mesh.materials) {
     if (material.young <= 0.0 || material.density <= 0.0) continue;
     const double speed = std::sqrt(material.young / material.density);
     if (speed >= least_speed && speed <= largest_speed) continue;
-    doubts.push_back(fmt::format(
+    findings.push_back(fmt::format(
         "{}; sound would run through {} at {:.3g} m/s (E = {:.3g} Pa, ρ = {:.3g} kg/m³), which no "
         "solid has: is \"units\" right?",
         understood, material.name, speed, material.young, material.density));
@@ -98,11 +100,12 @@ void check_model(const ReductionModel& model) {
   check_rigid_motions(model);
 }
 
-std::vector<std::string> doubts_about(const ReductionModel& model, const BodyConstants& constants) {
-  std::vector<std::string> doubts;
-  add_mass_doubt(model, constants.mass, doubts);
-  add_unit_doubts(model, constants.mass, doubts);
-  return doubts;
+std::vector<std::string> findings_about(const ReductionModel& model,
+                                        const BodyConstants& constants) {
+  std::vector<std::string> findings;
+  add_mass_finding(model, constants.mass, findings);
+  add_unit_findings(model, constants.mass, findings);
+  return findings;
 }
 
 }  // namespace pleuel

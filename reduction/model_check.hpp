@@ -14,7 +14,8 @@ void check_model(const ReductionModel& model);
 
 /// What is possible, but hardly meant: mass against the mesh, density and stiffness against those of
 /// materials, with the units that were understood.
-std::vector<std::string> doubts_about(const ReductionModel& model, const BodyConstants& constants);
+std::vector<std::string> findings_about(const ReductionModel& model,
+                                        const BodyConstants& constants);
 
 /// The box around the nodes [m].
 Eigen::Vector3d extent_of(const SolidMesh& mesh);

@@ -135,7 +135,7 @@ ReducedBody reduce(const ReductionModel& model) {
       fmt::format("the interface \"{}\" is clamped", model.interfaces.front().name);
   body.file.coordinates = modes.names;
   body.file.constants = constants_of(model, modes.shape);
-  body.doubts = doubts_about(model, body.file.constants);
+  body.findings = findings_about(model, body.file.constants);
   if (model.plane) body.asymmetry = clear_across_plane(body.file.constants, *model.plane);
   return body;
 }

@@ -11,12 +11,12 @@ namespace pleuel {
 
 struct ReducedBody {
   InvariantsFile file;
-  Eigen::VectorXd frequencies;      ///< of the modes with held interfaces [rad/s]
-  double next_frequency = 0.0;      ///< of the first mode that is left out [rad/s]
-  double asymmetry = 0.0;           ///< of the mesh about the plane, relative
-  double volume = 0.0;              ///< of the mesh [m³]
-  Eigen::Vector3d extent;           ///< of the box around it [m]
-  std::vector<std::string> doubts;  ///< what speaks against the model, in words
+  Eigen::VectorXd frequencies;        ///< of the modes with held interfaces [rad/s]
+  double next_frequency = 0.0;        ///< of the first mode that is left out [rad/s]
+  double asymmetry = 0.0;             ///< of the mesh about the plane, relative
+  double volume = 0.0;                ///< of the mesh [m³]
+  Eigen::Vector3d extent;             ///< of the box around it [m]
+  std::vector<std::string> findings;  ///< what speaks against the model, in words
 };
 
 /// @throws InputError      if the model is not that of an elastic body

@@ -4,7 +4,7 @@
 #include <utility>
 #include <variant>
 
-#include "core/trust/nested_runs.hpp"
+#include "core/trust/refined_runs.hpp"
 
 namespace pleuel {
 

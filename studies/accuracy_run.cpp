@@ -9,7 +9,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/base/relative_error.hpp"
-#include "core/trust/doubts.hpp"
+#include "core/trust/checks.hpp"
 #include "sensitivity/gradients.hpp"
 
 namespace pleuel {
@@ -74,7 +74,7 @@ AccuracyRun measure_run(ProblemFile problem, const Eigen::VectorXd& x, Timing ti
   std::unique_ptr<Analysis> analysis;
   run.simulation_seconds = seconds_of([&] { analysis = analyze(problem, x); });
   keep_values(*analysis, run);
-  run.doubts = find_doubts(problem, x, *analysis);
+  run.findings = check_run(problem, x, *analysis);
   if (x.size() == 0) return run;
   run.gradient_seconds = seconds_of([&] { run.gradients = direct_gradients(*analysis); });
   return run;

@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 #include "core/scene/problem_file.hpp"
-#include "core/trust/doubt.hpp"
+#include "core/trust/finding.hpp"
 #include "studies/accuracy_grid.hpp"
 
 namespace pleuel {
@@ -29,7 +29,7 @@ struct AccuracyRun {
   double simulation_seconds = 0.0;  ///< the fastest of a few, one thread
   double gradient_seconds = 0.0;    ///< direct differentiation of all responses, on top
   int steps = 0, unknowns = 0, newton_iterations = 0, factorizations = 0;
-  std::vector<Doubt> doubts;  ///< about the values
+  std::vector<Finding> findings;  ///< about the values
 
   bool has_failed() const { return !failure.empty(); }
   double seconds() const { return simulation_seconds + gradient_seconds; }

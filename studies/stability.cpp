@@ -9,7 +9,7 @@
 #include "core/response/monitors.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/problem_reader.hpp"
-#include "core/trust/doubts.hpp"
+#include "core/trust/checks.hpp"
 
 namespace pleuel {
 
@@ -45,7 +45,7 @@ void measure(UndecidedProblem read, StabilityRun& run) {
   run.position_drift = monitors.position_drift;
   run.velocity_drift = monitors.velocity_drift;
   run.energy_error = monitors.energy_error;
-  run.warnings = texts_of(find_doubts(TrustedRun{problem, x, *analysis, monitors}));
+  run.warnings = texts_of(check_run(TrustedRun{problem, x, *analysis, monitors}));
 }
 
 /// Overrides that set a formulation, without a projection unless that follows.

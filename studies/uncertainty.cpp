@@ -12,7 +12,7 @@
 #include "core/base/stopwatch.hpp"
 #include "core/scene/packed_problem.hpp"
 #include "core/scene/sample_extent.hpp"
-#include "core/trust/doubts.hpp"
+#include "core/trust/checks.hpp"
 #include "optimization/design/setting_text.hpp"
 #include "optimization/stored_tasks.hpp"
 #include "optimization/verdict.hpp"
@@ -226,7 +226,7 @@ class Study {
         with_same_steps_(with_steps_of(analysis_->trajectory, problem)) {
     const Monitors monitors = monitor(analysis_->model, analysis_->trajectory);
     Trust trust = judge_run(TrustedRun{problem, x_, *analysis_, monitors});
-    study_.doubts = std::move(trust.doubts);
+    study_.findings = std::move(trust.findings);
     study_.errors = std::move(trust.errors);
   }
 
@@ -332,7 +332,7 @@ class Study {
     for (std::size_t i = 0; i < study_.responses.size(); ++i) {
       study_.responses[i].sampled = responses.of(i);
     }
-    doubt_first_order(responses.count());
+    check_first_order(responses.count());
     if (histories.count() < 2) return;
     const Eigen::VectorXd deviations = histories.deviations();
     const Eigen::Index instants = study_.time.size();
@@ -343,7 +343,7 @@ class Study {
   }
 
   /// Where samples deviate by others than first order says, by more than their own scatter.
-  void doubt_first_order(int samples) {
+  void check_first_order(int samples) {
     constexpr double small = 0.1;       // of a deviation
     constexpr double round_off = 1e-9;  // of a value
     const double scatter = 3.0 / std::sqrt(2.0 * (samples - 1.0));
@@ -360,11 +360,12 @@ class Study {
                                           "its deviation by samples is {:.3g} times that of "
                                           "first order",
                                           sampled / first);
-      study_.doubts.push_back({fmt::format("\"{}\" is not linear over the range of the parameters: "
-                                           "{}. Rely on the samples.",
-                                           name, share),
-                               false,
-                               {name}});
+      study_.findings.push_back(
+          {fmt::format("\"{}\" is not linear over the range of the parameters: "
+                       "{}. Rely on the samples.",
+                       name, share),
+           false,
+           {name}});
     }
   }
 

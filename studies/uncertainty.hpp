@@ -9,7 +9,7 @@
 
 #include "core/base/error_bar.hpp"
 #include "core/scene/problem_file.hpp"
-#include "core/trust/doubt.hpp"
+#include "core/trust/finding.hpp"
 #include "optimization/evaluation_store.hpp"
 
 namespace pleuel {
@@ -57,7 +57,7 @@ struct UncertaintyStudy {
   int samples = 0;                           ///< that could be simulated
   int failures = 0;                          ///< that could not
   bool is_interrupted = false;               ///< before all samples were simulated
-  std::vector<Doubt> doubts;                 ///< about the values at the design
+  std::vector<Finding> findings;             ///< about the values at the design
   /// Of the values, by steps and elements; one a response, empty where they are not checked.
   std::vector<std::optional<ErrorBar>> errors;
   double gradient_seconds = 0.0, sampling_seconds = 0.0;

@@ -20,7 +20,7 @@
 #include "core/base/stopwatch.hpp"
 #include "core/model/drive_rows.hpp"
 #include "core/scene/body_rules.hpp"
-#include "core/trust/doubts.hpp"
+#include "core/trust/checks.hpp"
 #include "core/trust/ranking.hpp"
 #include "sensitivity/gradients.hpp"
 #include "sensitivity/unknown_derivatives.hpp"
@@ -63,9 +63,9 @@ Examination examine(const ProblemFile& problem, const Eigen::VectorXd& x,
   findings.freedoms = rigid_degrees_of_freedom(model.mechanism, initial);
   findings.freedoms.blocked = blocked_drives(model.mechanism, initial, drive_rows(model));
   findings.ties = find_ties(*findings.analysis, problem.variables);
-  const std::vector<Doubt> doubts = find_doubts(problem, x, *findings.analysis);
-  warn(texts_of(doubts));
-  if (!arguments.wants_all_warnings) findings.consequences = count_consequences(doubts);
+  const std::vector<Finding> of_checks = check_run(problem, x, *findings.analysis);
+  warn(texts_of(of_checks));
+  if (!arguments.wants_all_warnings) findings.consequences = count_consequences(of_checks);
   ProgressLine progress(arguments, "measuring effects");
   try {
     findings.influences = effect_influences(

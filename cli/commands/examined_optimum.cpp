@@ -24,10 +24,10 @@
 #include "core/response/value_over_cases.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/shown_unit.hpp"
-#include "core/trust/case_doubts.hpp"
-#include "core/trust/doubts.hpp"
-#include "core/trust/nested_runs.hpp"
+#include "core/trust/case_findings.hpp"
+#include "core/trust/checks.hpp"
 #include "core/trust/ranking.hpp"
+#include "core/trust/refined_runs.hpp"
 #include "optimization/prices.hpp"
 #include "picture/companions.hpp"
 
@@ -181,15 +181,15 @@ std::string drives_text(const ProblemFile& problem, const Analysis& start,
 /// What each case says of the design; several are told apart by their names.
 Examined examine_cases(Optimum& optimum, std::vector<CaseDesigns>& designs) {
   Examined examined;
-  std::vector<std::vector<Doubt>> doubts;
+  std::vector<std::vector<Finding>> findings;
   for (CaseDesigns& one : designs) {
     one.influence = design_influence(*one.problem, *one.end);
     const Monitors monitors = monitor(one.end->model, one.end->trajectory);
     if (&one == &designs.front()) optimum.monitors = monitors;
     add_monitors(optimum.monitors, monitors);
-    // Of an answer with gradients the doubts are known: they are part of its verdict.
+    // Of an answer with gradients the findings are known: they are part of its verdict.
     if (!optimum.result.evaluation.has_gradients()) {
-      doubts.push_back(find_doubts(TrustedRun{*one.problem, optimum.result.x, *one.end, monitors}));
+      findings.push_back(check_run(TrustedRun{*one.problem, optimum.result.x, *one.end, monitors}));
     }
     const std::string& load_case = one.problem->load_case;
     for (Json& effect : effects_document(*one.problem, one.end->model, optimum.influences)) {
@@ -203,7 +203,7 @@ Examined examine_cases(Optimum& optimum, std::vector<CaseDesigns>& designs) {
     examined.drives += drives;
   }
   if (!optimum.result.evaluation.has_gradients()) {
-    const std::vector<Doubt> joined = joined_doubts(optimum.problem, doubts);
+    const std::vector<Finding> joined = joined_findings(optimum.problem, findings);
     optimum.warnings = texts_of(joined);
     optimum.consequences = count_consequences(joined);
   }

@@ -20,7 +20,7 @@
 #include "core/base/number_text.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/scene/shown_unit.hpp"
-#include "core/trust/doubts.hpp"
+#include "core/trust/checks.hpp"
 #include "core/trust/ranking.hpp"
 #include "sensitivity/gradients.hpp"
 #include "sensitivity/kinks.hpp"
@@ -333,8 +333,8 @@ Outcome run_gradient(const Arguments& arguments) {
   Trust trust = judge_run(judged);
   findings.warnings =
       unknown_derivatives(problem, Design<double>(input.design.begin(), input.design.end()));
-  add_new(findings.warnings, texts_of(trust.doubts));
-  if (!arguments.wants_all_warnings) findings.consequences = count_consequences(trust.doubts);
+  add_new(findings.warnings, texts_of(trust.findings));
+  if (!arguments.wants_all_warnings) findings.consequences = count_consequences(trust.findings);
   findings.errors = std::move(trust.errors);
   Outcome outcome = make_outcome(arguments, problem, findings);
   if (arguments.differentiated_body) add_by_invariants(arguments, input, findings, outcome);

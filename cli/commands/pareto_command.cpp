@@ -268,7 +268,7 @@ std::string limit_text(const ProblemFile& problem, const ParetoPoint& point) {
 }
 
 /// Why the others are not verified; one sentence each.
-std::string doubts_text(const ProblemFile& problem, const std::vector<ParetoPoint>& points) {
+std::string findings_text(const ProblemFile& problem, const std::vector<ParetoPoint>& points) {
   std::string text;
   for (const ParetoPoint& point : points) {
     if (point.result.status == Status::verified) continue;
@@ -336,7 +336,7 @@ Outcome run_pareto(const Arguments& arguments) {
           interruption_text(problem, front), problem.name, front_text(problem),
           count_text(problem, front), points_text(problem, document["points"]),
           spacing_text(problem, front), single_point_text(problem, front),
-          doubts_text(problem, points) + warnings_of_points(problem, points),
+          findings_text(problem, points) + warnings_of_points(problem, points),
           front.is_whole ? "" : resume_text(arguments, record.folder(), Status::interrupted),
           store.text(), record.folder().string())};
   store.finish(outcome);

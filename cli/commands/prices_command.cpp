@@ -15,7 +15,7 @@
 #include "cli/text/table.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/number_text.hpp"
-#include "core/trust/doubts.hpp"
+#include "core/trust/checks.hpp"
 #include "optimization/design/design_problem.hpp"
 #include "optimization/design/design_solve.hpp"
 #include "optimization/design/size_choice.hpp"
@@ -65,7 +65,7 @@ AnalyzedDesign find_optimum(const ProblemInput& input, const Arguments& argument
 
 AnalyzedDesign given_design(const ProblemInput& input) {
   const auto analysis = analyze(input.problem, input.design);
-  return {input.design, "", true, texts_of(find_doubts(input.problem, input.design, *analysis))};
+  return {input.design, "", true, texts_of(check_run(input.problem, input.design, *analysis))};
 }
 
 const char* kind_name(NumberPrice::Kind kind) {
@@ -198,7 +198,7 @@ std::string report(const ProblemFile& problem, const AnalyzedDesign& design,
 }
 
 /// A design whose multipliers explain nothing has no prices.
-void doubt_design(AnalyzedDesign& design, const PriceList& list) {
+void check_design(AnalyzedDesign& design, const PriceList& list) {
   if (list.residual <= nearly_optimal) return;
   design.is_optimum = false;
   design.warnings.insert(
@@ -220,7 +220,7 @@ Outcome run_prices(const Arguments& arguments) {
   AnalyzedDesign design = arguments.design ? given_design(input) : find_optimum(input, arguments);
   record.begin_phase("prices");
   const PriceList list = number_prices(input.text, input.problem, design.x, arguments.jobs);
-  doubt_design(design, list);
+  check_design(design, list);
   Outcome outcome{design.is_optimum ? ExitCode::done : ExitCode::not_verified,
                   make_document(input.problem, design, list), report(input.problem, design, list)};
   outcome.text += fmt::format("Written to {}: prices.csv, result.json, run_card.json\n",

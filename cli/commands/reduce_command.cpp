@@ -36,7 +36,7 @@ Json body_document(const ReducedBody& body, const ReductionModel& model, const f
   document["asymmetry"] = body.asymmetry;
   document["stress_points"] = constants.stress ? constants.stress->points.size() : 0;
   document["stiffening"] = constants.stretching.has_value();
-  document["warnings"] = body.doubts;
+  document["warnings"] = body.findings;
   return document;
 }
 
@@ -76,7 +76,7 @@ std::string result_text(const ReducedBody& body, const ReductionModel& model,
     text += wrapped(fmt::format("For motion in a plane: the mesh is symmetric about it to {:.1e}\n",
                                 body.asymmetry));
   }
-  for (const std::string& doubt : body.doubts) text += wrapped("WARNING: " + doubt + "\n");
+  for (const std::string& finding : body.findings) text += wrapped("WARNING: " + finding + "\n");
   return text;
 }
 

@@ -28,9 +28,9 @@
 #include "core/start/degrees_of_freedom.hpp"
 #include "core/start/initial_state.hpp"
 #include "core/trust/blocked_drives.hpp"
-#include "core/trust/doubts.hpp"
-#include "core/trust/idle_freedoms.hpp"
+#include "core/trust/checks.hpp"
 #include "core/trust/proportions.hpp"
+#include "core/trust/unactuated_freedoms.hpp"
 #include "picture/rigid_motion.hpp"
 
 /// The mechanism as the file places it, before anything is simulated.
@@ -148,16 +148,17 @@ void add_first_steps(const ProblemFile& problem, const Eigen::VectorXd& x, Shown
   const Monitors monitors = monitor(first.analysis->model, first.analysis->trajectory);
   const TrustedRun run{problem, x, *first.analysis, monitors};
   shown.document["unheld_bodies"] = Json::array();
-  for (const auto find : {doubt_idle_freedoms, doubt_unconnected_bodies}) {
-    for (const Doubt& doubt : find(run)) {
-      warnings.push_back(doubt.text);
-      for (const std::string& body : doubt.bodies) shown.document["unheld_bodies"].push_back(body);
+  for (const auto find : {check_unactuated_freedoms, check_unconnected_bodies}) {
+    for (const Finding& finding : find(run)) {
+      warnings.push_back(finding.text);
+      for (const std::string& body : finding.bodies)
+        shown.document["unheld_bodies"].push_back(body);
     }
   }
 }
 
 Shown describe(const ProblemFile& problem, const Eigen::VectorXd& x) {
-  const std::vector<Doubt> doubts_before = find_doubts_before(problem);
+  const std::vector<Finding> findings_before = check_before(problem);
   const Eigen::VectorXd start = start_design(problem);
   Model model = build_model(problem.scene, problem.effects, {start.begin(), start.end()},
                             {x.begin(), x.end()}, problem.sensitivity.invariants);
@@ -180,8 +181,8 @@ Shown describe(const ProblemFile& problem, const Eigen::VectorXd& x) {
                     {"effects", effects_document(problem, model, {})}};
   add_assembly(problem, model, shown, warnings);
   if (!shown.document.contains("failure")) add_first_steps(problem, x, shown, warnings);
-  for (const auto& doubts : {doubts_before, doubt_proportions_before(problem, x)}) {
-    for (const std::string& text : texts_of(doubts)) warnings.push_back(text);
+  for (const auto& findings : {findings_before, check_proportions_before(problem, x)}) {
+    for (const std::string& text : texts_of(findings)) warnings.push_back(text);
   }
   shown.document["warnings"] = warnings;
   shown.text += warnings_text(warnings);

@@ -20,7 +20,7 @@
 #include "core/base/stop.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/integration/periodic_start.hpp"
-#include "core/trust/doubts.hpp"
+#include "core/trust/checks.hpp"
 #include "core/trust/proportions.hpp"
 #include "core/trust/ranking.hpp"
 
@@ -55,8 +55,8 @@ void check_numbers(const ProblemInput& input, Scrutiny scrutiny, Simulated& run)
     TrustedRun judged{input.problem, input.design, run.analysis, run.monitors, scrutiny};
     if (input.choice) judged.known = &input.choice->bars;
     Trust trust = judge_run(judged);
-    run.warnings = texts_of(trust.doubts);
-    run.consequences = count_consequences(trust.doubts);
+    run.warnings = texts_of(trust.findings);
+    run.consequences = count_consequences(trust.findings);
     run.errors = std::move(trust.errors);
     run.bands = std::move(trust.bands);
   } catch (const Stopped&) {
@@ -154,7 +154,7 @@ std::unique_ptr<Analysis> analyze_or_doubt(const ProblemInput& input) {
   try {
     return analyze(input.problem, input.design);
   } catch (const SimulationError&) {
-    show(stderr, warnings_text(texts_of(doubt_proportions_before(input.problem, input.design))));
+    show(stderr, warnings_text(texts_of(check_proportions_before(input.problem, input.design))));
     throw;
   }
 }

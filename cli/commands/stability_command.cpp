@@ -10,7 +10,7 @@
 #include "cli/reports/warnings.hpp"
 #include "cli/text/console.hpp"
 #include "core/base/number_text.hpp"
-#include "core/trust/doubts.hpp"
+#include "core/trust/checks.hpp"
 #include "studies/stability.hpp"
 
 namespace pleuel {
@@ -101,7 +101,7 @@ std::string failures_text(const Json& runs) {
   return text.empty() ? text : "\n" + text;
 }
 
-std::string doubts_text(const Json& runs) {
+std::string findings_text(const Json& runs) {
   SharedWarnings warnings;
   for (const Json& run : runs) {
     warnings.add(run.value("warnings", std::vector<std::string>()), run_name(run));
@@ -137,7 +137,7 @@ Outcome run_stability(const Arguments& arguments) {
   std::optional<DocumentCsv> csv;  // with the first result
   SharedWarnings before;
   for (const ProblemInput& input : inputs) {
-    before.add(texts_of(find_doubts_before(input.problem)), input.problem.name);
+    before.add(texts_of(check_before(input.problem)), input.problem.name);
   }
   show(stderr, warnings_text(before.sentences()));
   const std::size_t all =
@@ -150,7 +150,7 @@ Outcome run_stability(const Arguments& arguments) {
   Outcome outcome{is_whole ? ExitCode::done : ExitCode::not_verified, make_document(runs, is_whole),
                   is_whole ? "" : interrupted_text(runs.size(), all, "runs")};
   const Json& entries = outcome.document["runs"];
-  outcome.text += runs_text(entries) + failures_text(entries) + doubts_text(entries);
+  outcome.text += runs_text(entries) + failures_text(entries) + findings_text(entries);
   outcome.text += fmt::format("\nWritten to {}: stability.csv, result.json, run_card.json\n",
                               record.folder().string());
   record.finish(outcome);

@@ -18,7 +18,7 @@
 #include "cli/reports/warnings.hpp"
 #include "core/base/number_text.hpp"
 #include "core/scene/shown_unit.hpp"
-#include "core/trust/doubts.hpp"
+#include "core/trust/checks.hpp"
 #include "studies/missing_settings.hpp"
 #include "studies/uncertainty.hpp"
 
@@ -81,7 +81,7 @@ Json make_document(const ProblemFile& problem, const UncertaintyStudy& study) {
       {"limits", list_of(study.limits, limit_entry)},
       {"samples", study.samples},
       {"failures", study.failures},
-      {"warnings", texts_of(study.doubts)},
+      {"warnings", texts_of(study.findings)},
       {"seconds", {{"gradients", study.gradient_seconds}, {"samples", study.sampling_seconds}}}};
   for (const UncertainParameter& parameter : problem.uncertainty->parameters) {
     const auto& variable = problem.variables[parameter.variable];
@@ -228,7 +228,7 @@ std::string study_text(const ProblemFile& problem, const UncertaintyStudy& study
   if (samples > 0) {
     text += fmt::format("; {} samples {}", samples, duration(study.sampling_seconds));
   }
-  text += "\n" + warnings_text(texts_of(study.doubts));
+  text += "\n" + warnings_text(texts_of(study.findings));
   if (study.failures > 0) {
     text += fmt::format("{} samples could not be simulated and are left out\n", study.failures);
   }

@@ -6,7 +6,7 @@
 #include "cli/reports/setting_report.hpp"
 #include "cli/reports/time_text.hpp"
 #include "cli/reports/warnings.hpp"
-#include "core/trust/doubts.hpp"
+#include "core/trust/checks.hpp"
 
 namespace pleuel {
 
@@ -161,9 +161,9 @@ void add_optima(const ProblemInput& input, const OptimumStudy& optima, Json& doc
 }
 
 std::vector<std::string> warnings_of(const AccuracyStudy& study) {
-  std::vector<std::string> warnings = texts_of(study.reference.doubts);
+  std::vector<std::string> warnings = texts_of(study.reference.findings);
   if (!study.recommendations.empty() && study.recommendations.front().values) {
-    add_new(warnings, texts_of(study.runs[*study.recommendations.front().values].doubts));
+    add_new(warnings, texts_of(study.runs[*study.recommendations.front().values].findings));
   }
   if (!study.failure.empty()) {
     warnings.push_back("other knobs and effects are not known: " + study.failure);
@@ -187,7 +187,7 @@ Json run_document(const ProblemFile& problem, const AccuracyRun& run) {
     document["failure"] = run.failure;
     return document;
   }
-  document["warnings"] = texts_of(run.doubts);
+  document["warnings"] = texts_of(run.findings);
   add_measures(problem, run, document);
   return document;
 }

@@ -6,7 +6,7 @@
 
 #include "cli/text/console.hpp"
 #include "cli/text/wrapped_text.hpp"
-#include "core/trust/doubts.hpp"
+#include "core/trust/checks.hpp"
 
 namespace pleuel {
 
@@ -21,7 +21,7 @@ std::string warnings_text(const std::vector<std::string>& warnings, int conseque
 }
 
 void show_warnings_before(const ProblemFile& problem) {
-  show(stderr, warnings_text(texts_of(find_doubts_before(problem))));
+  show(stderr, warnings_text(texts_of(check_before(problem))));
 }
 
 void SharedWarnings::add(const std::vector<std::string>& warnings, const std::string& whose) {

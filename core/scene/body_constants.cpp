@@ -24,8 +24,9 @@ double largest_of(const Eigen::MatrixBase<Derived>& matrix) {
 }  // namespace
 
 void add_constants(BodyConstants& to, double factor, const BodyConstants& change) {
-  visit_constants(to, change,
-             [factor](auto& number, const auto& derivative) { number += factor * derivative; });
+  visit_constants(to, change, [factor](auto& number, const auto& derivative) {
+    number += factor * derivative;
+  });
 }
 
 bool is_zero(const BodyConstants& change) {

@@ -38,7 +38,7 @@ std::string blocked_drives_text(const Model& model, const State& state) {
          "a drive is too many";
 }
 
-std::vector<Doubt> doubt_blocked_drives(const TrustedRun& run) {
+std::vector<Finding> check_blocked_drives(const TrustedRun& run) {
   State start;
   run.analysis.trajectory.states->load(0, start);
   const std::string text = blocked_drives_text(run.analysis.model, start);
@@ -51,7 +51,7 @@ std::vector<Doubt> doubt_blocked_drives(const TrustedRun& run) {
                    names_of_drives(run.analysis.model))}};
 }
 
-std::vector<Doubt> doubt_rest(const TrustedRun& run) {
+std::vector<Finding> check_rest(const TrustedRun& run) {
   const Model& model = run.analysis.model;
   const Mechanism& mechanism = model.mechanism;
   const RigidPath& path = run.analysis.rigid_path;

@@ -40,7 +40,7 @@ std::string what_may_jump(const Scene& scene) {
 
 }  // namespace
 
-std::vector<Doubt> doubt_energy_balance(const TrustedRun& run) {
+std::vector<Finding> check_energy_balance(const TrustedRun& run) {
   const double error = run.monitors.energy_error;
   if (error <= small_energy_error) return {};
   return {{fmt::format("energy is balanced to {} of the largest in the motion only: steps are "

@@ -49,11 +49,11 @@ double observed_order(const Curve& of_twice, const Curve& of_four, double promis
   return now > 0.0 && before > 0.0 ? std::min(std::log2(before / now), promised) : 0.0;
 }
 
-Curve curve_of(const Response& response, const NestedRun& run, std::size_t index) {
+Curve curve_of(const Response& response, const RefinedRun& run, std::size_t index) {
   return {run.time, shown_history(response, run.histories[index])};
 }
 
-bool is_there(const NestedRun* run) {
+bool is_there(const RefinedRun* run) {
   return run != nullptr && !run->has_failed();
 }
 

@@ -31,7 +31,7 @@ ErrorPart unresolved(double bound) {
 }
 
 /// @returns nothing without a run, NaN of one that failed
-std::optional<double> value_of(const NestedRun* run, std::size_t response) {
+std::optional<double> value_of(const RefinedRun* run, std::size_t response) {
   if (run == nullptr) return std::nullopt;
   return run->has_failed() ? unknown : run->values(response);
 }
@@ -58,7 +58,7 @@ Eigen::Index nearest(const Eigen::VectorXd& times, double time) {
 /// Of a response that is no expression:
 /// Σ weight (y − y_other) over what a value depends on, each at the nearest instant of the other
 /// run: the difference at a fixed time, where that of two peaks leaves out what moved them.
-double local_difference(const Analysis& analysis, std::size_t response, const NestedRun& other) {
+double local_difference(const Analysis& analysis, std::size_t response, const RefinedRun& other) {
   const Eigen::MatrixXd& history = analysis.histories[response];
   if (history.size() == 0 || other.histories[response].rows() != history.rows()) return 0.0;
   const Eigen::VectorXd& time = analysis.trajectory.time;
@@ -74,7 +74,7 @@ double local_difference(const Analysis& analysis, std::size_t response, const Ne
 
 /// Of an expression, what its parts differ by, without regard to signs.
 double local_difference_of_parts(const Analysis& analysis, std::size_t response,
-                                 const NestedRun& other) {
+                                 const RefinedRun& other) {
   double sum = 0.0;
   for (const WeightedResponse& part : linearized(analysis, response).parts) {
     sum += std::abs(part.weight) * local_difference(analysis, part.response, other);

@@ -4,7 +4,7 @@
 
 #include "core/base/error_bar.hpp"
 #include "core/response/analysis.hpp"
-#include "core/trust/nested_runs.hpp"
+#include "core/trust/refined_runs.hpp"
 
 /// How far the responses of a simulation may be from those of an arbitrarily fine one.
 namespace pleuel {
@@ -50,18 +50,18 @@ Extrapolation extrapolate(double fine, double middle, double coarse, double orde
 
 /// Two runs that differ in one thing.
 struct Comparison {
-  const NestedRun* run = nullptr;  ///< null: not made
-  const NestedRun* beside = nullptr;
+  const RefinedRun* run = nullptr;  ///< null: not made
+  const RefinedRun* beside = nullptr;
 
   bool is_asked() const { return run != nullptr; }
 };
 
 /// Runs that judge a simulation; those that are null were not made.
 struct JudgingRuns {
-  const NestedRun* quarter_step = nullptr;  ///< beside half_step only
-  const NestedRun* half_step = nullptr;
-  const NestedRun* twice_step = nullptr;
-  const NestedRun* four_steps = nullptr;
+  const RefinedRun* quarter_step = nullptr;  ///< beside half_step only
+  const RefinedRun* half_step = nullptr;
+  const RefinedRun* twice_step = nullptr;
+  const RefinedRun* four_steps = nullptr;
   Comparison more_elements;   ///< with twice the elements
   Comparison fewer_elements;  ///< with half the elements
   Comparison modes;           ///< with more modes

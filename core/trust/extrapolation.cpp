@@ -36,29 +36,30 @@ std::string moved_variables(const ImportedBody& imported, const ProblemFile& pro
 
 }  // namespace
 
-std::vector<Doubt> doubt_extrapolation(const TrustedRun& run) {
-  std::vector<Doubt> doubts;
+std::vector<Finding> check_extrapolation(const TrustedRun& run) {
+  std::vector<Finding> findings;
   const Design<double> design(run.x.begin(), run.x.end());
   for (const Body& body : run.problem.scene.bodies) {
     const auto* imported = std::get_if<ImportedBody>(&body.shape);
     if (imported && imported->maker &&
         imported->maker->distance(body_values(*imported, design)) > 0.0) {
-      doubts.push_back({fmt::format("the constants of \"{}\" are continued from other designs: {} "
-                                    "has not made it for this one",
-                                    body.name, imported->source),
-                        true});
+      findings.push_back(
+          {fmt::format("the constants of \"{}\" are continued from other designs: {} "
+                       "has not made it for this one",
+                       body.name, imported->source),
+           true});
     }
     if (!imported || !imported->is_linear) continue;
     const std::string moved = moved_variables(*imported, run.problem, run.x);
     if (moved.empty()) continue;
-    doubts.push_back(
+    findings.push_back(
         {fmt::format("the constants of \"{}\" are continued linearly to a design that its file {} "
                      "is not of: {}. Nothing says how wrong they are there. Write the file anew "
                      "for this design, go on from there, and repeat it until the design stays.",
                      body.name, imported->source, moved),
          true});
   }
-  return doubts;
+  return findings;
 }
 
 }  // namespace pleuel

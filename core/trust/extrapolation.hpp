@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/trust/doubt.hpp"
+#include "core/trust/finding.hpp"
 #include "core/trust/trusted_run.hpp"
 
 namespace pleuel {
@@ -9,6 +9,6 @@ namespace pleuel {
 /// file: nothing says how far they are still those of the body. Serious where a variable has moved
 /// by more than 1e-4 of its value: then the square of that may matter beside an optimizer's
 /// tolerance.
-std::vector<Doubt> doubt_extrapolation(const TrustedRun& run);
+std::vector<Finding> check_extrapolation(const TrustedRun& run);
 
 }  // namespace pleuel

@@ -55,7 +55,7 @@ bool can_be_divided(const ProblemFile& problem, const std::string& name) {
   return beam != nullptr && is_none(beam->damping.mass) && is_none(beam->damping.modal);
 }
 
-Doubt stretched(const std::string& body, double strain) {
+Finding stretched(const std::string& body, double strain) {
   return {fmt::format(
               "\"{}\" is stretched by {:.2g} %: linear elasticity is for small strains, and is off "
               "by as much. Do not trust these numbers; a stiffer member or smaller loads keep "
@@ -64,7 +64,7 @@ Doubt stretched(const std::string& body, double strain) {
           true};
 }
 
-Doubt bent(const std::string& body, double rotation, double error, const std::string& why) {
+Finding bent(const std::string& body, double rotation, double error, const std::string& why) {
   return {fmt::format(
               "\"{}\" deforms until it has turned by {:.3g} rad against its frame: too far for "
               "linear elasticity, which is off by some {} there. Do not trust these numbers: more "
@@ -85,24 +85,25 @@ std::vector<ConcernedBeam> find_far_bending(const TrustedRun& run) {
   return found;
 }
 
-std::vector<Doubt> doubt_untold_bending(const TrustedRun& run,
-                                        const std::vector<std::string>& bodies,
-                                        const std::string& why) {
-  std::vector<Doubt> doubts;
+std::vector<Finding> check_untold_bending(const TrustedRun& run,
+                                          const std::vector<std::string>& bodies,
+                                          const std::string& why) {
+  std::vector<Finding> findings;
   for (const auto& [name, most] : largest_of_bodies(run)) {
     const double error = error_per_square * most.bending * most.bending;
     const bool is_meant = std::ranges::find(bodies, name) != bodies.end();
-    if (is_meant && error > tolerable_error) doubts.push_back(bent(name, most.bending, error, why));
+    if (is_meant && error > tolerable_error)
+      findings.push_back(bent(name, most.bending, error, why));
   }
-  return doubts;
+  return findings;
 }
 
-std::vector<Doubt> doubt_linear_elasticity(const TrustedRun& run) {
-  std::vector<Doubt> doubts;
+std::vector<Finding> check_linear_elasticity(const TrustedRun& run) {
+  std::vector<Finding> findings;
   std::vector<std::string> imported, damped;
   for (const auto& [name, most] : largest_of_bodies(run)) {
     if (most.strain > tolerable_error) {
-      doubts.push_back(stretched(name, most.strain));
+      findings.push_back(stretched(name, most.strain));
     } else if (!is_beam(run.problem, name)) {
       imported.push_back(name);
     } else if (!can_be_divided(run.problem, name)) {
@@ -110,12 +111,12 @@ std::vector<Doubt> doubt_linear_elasticity(const TrustedRun& run) {
     }
   }
   const auto add = [&](const std::vector<std::string>& bodies, const char* why) {
-    const std::vector<Doubt> more = doubt_untold_bending(run, bodies, why);
-    doubts.insert(doubts.end(), more.begin(), more.end());
+    const std::vector<Finding> more = check_untold_bending(run, bodies, why);
+    findings.insert(findings.end(), more.begin(), more.end());
   };
   add(imported, "this body is from a file: import it in several, joined by fixed joints");
   add(damped, "its damping is of the motion against one of them: damp it by \"stiffness\" only");
-  return doubts;
+  return findings;
 }
 
 }  // namespace pleuel

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/trust/concerned_beam.hpp"
-#include "core/trust/doubt.hpp"
+#include "core/trust/finding.hpp"
 
 namespace pleuel {
 
@@ -16,12 +16,12 @@ std::vector<ConcernedBeam> find_far_bending(const TrustedRun& run);
 /// Of these bodies, those that bend so far that 0.45 θ² exceeds 1 %: what is missed of the deflection of a
 /// cantilever whose tip turns by θ.
 /// @param why  no run with more frames can tell
-std::vector<Doubt> doubt_untold_bending(const TrustedRun& run,
-                                        const std::vector<std::string>& bodies,
-                                        const std::string& why);
+std::vector<Finding> check_untold_bending(const TrustedRun& run,
+                                          const std::vector<std::string>& bodies,
+                                          const std::string& why);
 
 /// Bodies that are stretched or bent beyond what linear elasticity is for, where no variant can tell
 /// what that changes: stretched by more than 1 %, or bent and not to be divided.
-std::vector<Doubt> doubt_linear_elasticity(const TrustedRun& run);
+std::vector<Finding> check_linear_elasticity(const TrustedRun& run);
 
 }  // namespace pleuel

@@ -20,8 +20,8 @@ bool is_far(double bound, double other, double start) {
   return start != 0.0 && std::abs(bound) > far_times * size;
 }
 
-Doubt far_bound(const DesignVariable& variable, const char* side, double bound,
-                const ShownUnit& unit) {
+Finding far_bound(const DesignVariable& variable, const char* side, double bound,
+                  const ShownUnit& unit) {
   return {fmt::format(
       "the {} bound of variable \"{}\" is {:.3g}{}, {:.1g} times its start: steps and scales of a "
       "search come from the range between the bounds, which says nothing here, and an optimum may "
@@ -31,19 +31,19 @@ Doubt far_bound(const DesignVariable& variable, const char* side, double bound,
 
 }  // namespace
 
-std::vector<Doubt> doubt_far_bounds(const ProblemFile& problem) {
-  std::vector<Doubt> doubts;
+std::vector<Finding> check_far_bounds(const ProblemFile& problem) {
+  std::vector<Finding> findings;
   const std::vector<ShownUnit> units = variable_units(problem);
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
     const DesignVariable& variable = problem.variables[i];
     const auto see = [&](const char* side, double bound, double other) {
       if (!is_far(bound, other, variable.start)) return;
-      doubts.push_back(far_bound(variable, side, bound, units[i]));
+      findings.push_back(far_bound(variable, side, bound, units[i]));
     };
     see("lower", variable.lower, variable.upper);
     see("upper", variable.upper, variable.lower);
   }
-  return doubts;
+  return findings;
 }
 
 }  // namespace pleuel

@@ -42,16 +42,16 @@ std::optional<std::string> far_limit_text(const ProblemFile& problem,
       constraint.name, *limit, unit, value, unit, std::abs(value / *limit));
 }
 
-std::vector<Doubt> doubt_far_limits(const TrustedRun& run) {
-  std::vector<Doubt> doubts;
+std::vector<Finding> check_far_limits(const TrustedRun& run) {
+  std::vector<Finding> findings;
   const Eigen::VectorXd values = values_of(run.analysis);
   for (const ConstraintSettings& constraint : run.problem.constraints) {
     const auto index = index_of_named(run.problem.responses, constraint.response);
     if (!index) continue;
     const auto text = far_limit_text(run.problem, constraint, values(*index));
-    if (text) doubts.push_back({*text, false, {constraint.response}});
+    if (text) findings.push_back({*text, false, {constraint.response}});
   }
-  return doubts;
+  return findings;
 }
 
 }  // namespace pleuel

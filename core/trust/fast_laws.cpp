@@ -23,28 +23,28 @@ constexpr double most_missed_share = 1e-2;
 constexpr double most_missed_direction = 5e-3;
 
 void add_law(const MissedSubject& subject, const TimeFunction& function, const TimeLaw<double>& law,
-             const Eigen::VectorXd& time, std::vector<Doubt>& doubts) {
+             const Eigen::VectorXd& time, std::vector<Finding>& findings) {
   const MissedValues missed = missed_by(
       time,
       [&](double t) -> ObservedValues {
         return {law.at(t).value, 0.0};
       },
       sharp_times(function, time(time.size() - 1)));
-  add_missed(subject, missed, missed.scale, doubts);
+  add_missed(subject, missed, missed.scale, findings);
 }
 
 void add_load(const std::string& name, const TimeFunction& function, const Design<double>& design,
-              const Eigen::VectorXd& time, std::vector<Doubt>& doubts) {
+              const Eigen::VectorXd& time, std::vector<Finding>& findings) {
   if (depends_on_state(function)) return;
   add_law({fmt::format("the load \"{}\"", name), "value", most_missed_share}, function,
-          resolve_time_law(function, design), time, doubts);
+          resolve_time_law(function, design), time, findings);
 }
 
 /// What the motor of a load follows.
 void add_target(const std::string& name, const TimeFunction& target, const Design<double>& design,
-                const Eigen::VectorXd& time, std::vector<Doubt>& doubts) {
+                const Eigen::VectorXd& time, std::vector<Finding>& findings) {
   add_law({fmt::format("the motor of the load \"{}\"", name), "target", most_missed_share}, target,
-          resolve_time_law(target, design, LawOf::motion), time, doubts);
+          resolve_time_law(target, design, LawOf::motion), time, findings);
 }
 
 /// The first time within the simulation at which the speed of straight lines or of a formula jumps.
@@ -73,11 +73,11 @@ std::optional<double> speed_jump(const TimeFunction& motion, const TimeLaw<doubl
 }
 
 void add_drive(const Joint& joint, const TimeLaw<double>& law, const Eigen::VectorXd& time,
-               std::vector<Doubt>& doubts) {
+               std::vector<Finding>& findings) {
   const std::string who = fmt::format("the drive of the joint \"{}\"", joint.name);
   const bool is_formula = std::holds_alternative<ExpressionFunction>(joint.drive->motion);
   if (const auto jump = speed_jump(joint.drive->motion, law, time(time.size() - 1))) {
-    doubts.push_back(
+    findings.push_back(
         {fmt::format("{} {}: its speed jumps at t = {:.4g} s, where forces "
                      "would be infinite; what is shown depends on the step. {}.",
                      who, is_formula ? "has a kink" : "follows straight lines", *jump,
@@ -96,7 +96,7 @@ void add_drive(const Joint& joint, const TimeLaw<double>& law, const Eigen::Vect
           return {std::cos(angle), std::sin(angle)};
         },
         knots);
-    add_missed({who, "direction", most_missed_direction}, turned, 1.0, doubts);
+    add_missed({who, "direction", most_missed_direction}, turned, 1.0, findings);
     if (turned.largest > most_missed_direction) return;
   }
   const MissedValues moved = missed_by(
@@ -105,19 +105,19 @@ void add_drive(const Joint& joint, const TimeLaw<double>& law, const Eigen::Vect
         return {law.at(t).acceleration, 0.0};
       },
       knots);
-  add_missed({who, "acceleration", most_missed_share}, moved, moved.scale, doubts);
+  add_missed({who, "acceleration", most_missed_share}, moved, moved.scale, findings);
 }
 
 /// @param time  the instants of the steps
-std::vector<Doubt> find_fast_laws(const Scene& scene, const Design<double>& design,
-                                  const Eigen::VectorXd& time) {
-  std::vector<Doubt> doubts;
+std::vector<Finding> find_fast_laws(const Scene& scene, const Design<double>& design,
+                                    const Eigen::VectorXd& time) {
+  std::vector<Finding> findings;
   for (const Joint& joint : scene.joints) {
     if (!joint.drive) continue;
-    add_drive(joint, resolve_time_law(joint.drive->motion, design, LawOf::motion), time, doubts);
+    add_drive(joint, resolve_time_law(joint.drive->motion, design, LawOf::motion), time, findings);
   }
   const auto add = [&](const std::string& name, const TimeFunction& function) {
-    add_load(name, function, design, time, doubts);
+    add_load(name, function, design, time, findings);
   };
   for (const Load& load : scene.loads) {
     if (const auto* force = std::get_if<PointForce>(&load.element)) {
@@ -126,20 +126,20 @@ std::vector<Doubt> find_fast_laws(const Scene& scene, const Design<double>& desi
       add(load.name, torque->value);
     } else if (const auto* joint = std::get_if<JointForce>(&load.element)) {
       if (joint->motor) add(load.name, *joint->motor);
-      if (joint->control) add_target(load.name, joint->control->target, design, time, doubts);
+      if (joint->control) add_target(load.name, joint->control->target, design, time, findings);
     }
   }
-  return doubts;
+  return findings;
 }
 
 }  // namespace
 
-std::vector<Doubt> doubt_fast_laws(const TrustedRun& run) {
+std::vector<Finding> check_fast_laws(const TrustedRun& run) {
   return find_fast_laws(run.problem.scene, Design<double>(run.x.begin(), run.x.end()),
                         run.analysis.trajectory.time);
 }
 
-std::vector<Doubt> doubt_fast_laws_before(const ProblemFile& problem) {
+std::vector<Finding> check_fast_laws_before(const ProblemFile& problem) {
   if (problem.simulation.local_error > 0.0) return {};
   SimulationOptions options{problem.simulation};
   options.breaks = time_breaks(problem.scene, options);

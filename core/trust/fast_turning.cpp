@@ -13,7 +13,7 @@ constexpr double most_turned = 0.5 * std::numbers::pi;
 
 }  // namespace
 
-std::vector<Doubt> doubt_fast_turning(const TrustedRun& run) {
+std::vector<Finding> check_fast_turning(const TrustedRun& run) {
   const Trajectory& trajectory = run.analysis.trajectory;
   double most = most_turned, step_size = 0.0, time = 0.0;
   const BodyModel* fastest = nullptr;

@@ -64,14 +64,14 @@ std::vector<Shift> shifts(const TrustedRun& run, const std::vector<const Respons
 }
 
 void add_missing_stress(const TrustedRun& run, const std::vector<const Response*>& responses,
-                        std::vector<Doubt>& doubts) {
+                        std::vector<Finding>& findings) {
   const std::string& why = run.analysis.vibrating->without_equilibrium;
   if (why.empty()) return;
-  doubts.push_back({fmt::format("natural frequencies are those of undeformed members: the "
-                                "equilibrium with the motion and the loads at t = 0, about which "
-                                "they would vibrate, was not found ({}).",
-                                why),
-                    true, names_of(responses)});
+  findings.push_back({fmt::format("natural frequencies are those of undeformed members: the "
+                                  "equilibrium with the motion and the loads at t = 0, about which "
+                                  "they would vibrate, was not found ({}).",
+                                  why),
+                      true, names_of(responses)});
 }
 
 /// The problem with beams counted in other body frames, which leaves the mechanism the same.
@@ -101,7 +101,7 @@ Eigen::VectorXd frequencies_in_equilibrium(const ProblemFile& problem, const Eig
 /// its frame turns with it: of first order in the load, and in none of the error bars of steps and
 /// elements. Other frames have another part of it.
 void add_frames(const TrustedRun& run, const std::vector<const Response*>& responses,
-                std::vector<Doubt>& doubts) {
+                std::vector<Finding>& findings) {
   const VibrationState& vibrating = *run.analysis.vibrating;
   if (!vibrating.initial.is_equilibrium || !run.analysis.modes_left_out.empty()) return;
   if (!vibrating.initial.state.v.isZero(0.0)) return;  // where axes matter, too
@@ -114,7 +114,7 @@ void add_frames(const TrustedRun& run, const std::vector<const Response*>& respo
     return;
   }
   for (const auto& [response, shown, other] : shifts(run, responses, found)) {
-    doubts.push_back(
+    findings.push_back(
         {fmt::format("the frequency \"{}\" is {} with the body frames as they are, and "
                      "{} with \"mean-axis\" ones (\"chord\" in place of those): "
                      "members are bent or twisted so much at the start that what it does to their "
@@ -127,7 +127,7 @@ void add_frames(const TrustedRun& run, const std::vector<const Response*>& respo
 
 /// Small motions have constant coefficients only in axes that turn with the mechanism.
 void add_turning(const TrustedRun& run, const std::vector<const Response*>& responses,
-                 std::vector<Doubt>& doubts) {
+                 std::vector<Finding>& findings) {
   const Analysis& analysis = run.analysis;
   const State& state = analysis.vibrating->initial.state;
   if (!analysis.modes_left_out.empty() || state.v.isZero(0.0)) return;
@@ -147,7 +147,7 @@ void add_turning(const TrustedRun& run, const std::vector<const Response*>& resp
                 " (seen from beside the machine a whirl is faster or slower by the speed, {})",
                 frequency_text(run, *responses.front(), speed))
           : "";
-  doubts.push_back(
+  findings.push_back(
       {fmt::format("frequencies are not high against the speed at which the mechanism moves at "
                    "t = 0: in axes that stand still and in axes that turn with the bodies {}. "
                    "Where all bodies turn alike the second is right{}; where only some turn, as a "
@@ -158,21 +158,21 @@ void add_turning(const TrustedRun& run, const std::vector<const Response*>& resp
 
 }  // namespace
 
-std::vector<Doubt> doubt_frequencies(const TrustedRun& run) {
-  std::vector<Doubt> doubts;
+std::vector<Finding> check_frequencies(const TrustedRun& run) {
+  std::vector<Finding> findings;
   if (!run.analysis.modes_left_out.empty()) {
-    doubts.push_back(
+    findings.push_back(
         {fmt::format("natural frequencies are those of the motion in the plane and of "
                      "what effects leave in it only, as the mechanism cannot be "
                      "started in space: {}",
                      run.analysis.modes_left_out)});
   }
   const std::vector<const Response*> responses = frequencies_of_mechanism(run);
-  if (responses.empty()) return doubts;
-  add_turning(run, responses, doubts);
-  add_missing_stress(run, responses, doubts);
-  add_frames(run, responses, doubts);
-  return doubts;
+  if (responses.empty()) return findings;
+  add_turning(run, responses, findings);
+  add_missing_stress(run, responses, findings);
+  add_frames(run, responses, findings);
+  return findings;
 }
 
 }  // namespace pleuel

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/trust/doubt.hpp"
+#include "core/trust/finding.hpp"
 #include "core/trust/trusted_run.hpp"
 
 namespace pleuel {
@@ -9,6 +9,6 @@ namespace pleuel {
 /// members that start undeformed though they are loaded or turn, bent members whose frequencies
 /// depend on their body frames, modes out of the plane that cannot be had, and those that are not
 /// high against the speed of the motion.
-std::vector<Doubt> doubt_frequencies(const TrustedRun& run);
+std::vector<Finding> check_frequencies(const TrustedRun& run);
 
 }  // namespace pleuel

@@ -30,7 +30,7 @@ class InitialMotion {
     run.analysis.trajectory.states->load(0, start_);
   }
 
-  std::vector<Doubt> find() {
+  std::vector<Finding> find() {
     for (const Body& body : run_.problem.scene.bodies) {
       const BodyFrame& frame = run_.analysis.model.parts(body.name).front()->frame;
       const int first = frame.offset, turn = frame.offset + frame.translations();
@@ -44,7 +44,7 @@ class InitialMotion {
       for (std::size_t i = 0; i < body.initial_deflections.size(); ++i) compare_place(body, i);
     }
     compare_with_impulse();
-    return std::move(doubts_);
+    return std::move(findings_);
   }
 
  private:
@@ -54,7 +54,7 @@ class InitialMotion {
   /// has to change, the start is what the file says.
   void compare_with_impulse() {
     const Eigen::VectorXd change = start_.v - asked_.v;
-    if (change.isZero(0.0) || !doubts_.empty()) return;
+    if (change.isZero(0.0) || !findings_.empty()) return;
     const Eigen::VectorXd other = impulsive_change(change);
     if (other.size() == 0) return;
     const Eigen::VectorXd& scale = run_.analysis.model.mechanism.scale;
@@ -74,7 +74,7 @@ class InitialMotion {
       see("angular velocity", "rad/s", frame.offset + frame.translations(), frame.rotations());
     }
     if (worst.body.empty()) return;
-    doubts_.push_back(
+    findings_.push_back(
         {fmt::format(
              "drives and joints demand velocities at t = 0 that the file does not give, and "
              "leave some of them open: the {1} of \"{0}\" starts as {3:.4g} {2}, where a "
@@ -150,7 +150,7 @@ class InitialMotion {
     Eigen::Index worst = 0;
     const double change = (is - should).cwiseAbs().maxCoeff(&worst);
     if (!(change > small_correction * should.lpNorm<Eigen::Infinity>())) return;
-    doubts_.push_back(
+    findings_.push_back(
         {fmt::format("the initial {0} {1} of \"{2}\" is {3:.4g} {4} instead of the {5:.4g} {4} of "
                      "the file: joints and drives hold the body in another shape.",
                      what, worst, body, is(worst), unit, should(worst)),
@@ -177,7 +177,7 @@ class InitialMotion {
     for (const double end : {0.0, 1.0}) {
       if (std::abs(moved_along(body.name, one, end, from + end * axis)) > small) return;
     }
-    doubts_.push_back(
+    findings_.push_back(
         {fmt::format("the initial deflection {} of \"{}\" moves its place by {:.4g} m from where "
                      "it is drawn, not by {:.4g} m: it counts against the body frame, which is the "
                      "tangent at an end and turns with the bent beam. With \"frame\": \"chord\" "
@@ -207,7 +207,7 @@ class InitialMotion {
     const Eigen::VectorXd found = start_.v.segment(offset, size);
     if (!((found - asked).norm() > small_correction * asked.norm())) return;
     const bool is_turned = std::abs(found.norm() - asked.norm()) <= small_correction * asked.norm();
-    doubts_.push_back(
+    findings_.push_back(
         {fmt::format(
              "the initial {0} of \"{1}\" is {2:.4g} {3}{4} instead of the {5:.4g} {3} of the "
              "file, as joints, drives and elastic bodies at rest demand it. Give every body "
@@ -221,12 +221,12 @@ class InitialMotion {
   Design<double> design_;
   const State& asked_;
   State start_;
-  std::vector<Doubt> doubts_;
+  std::vector<Finding> findings_;
 };
 
 }  // namespace
 
-std::vector<Doubt> doubt_initial_motion(const TrustedRun& run) {
+std::vector<Finding> check_initial_motion(const TrustedRun& run) {
   // A motion that repeats itself is not told how it begins.
   if (run.analysis.trajectory.periodic) return {};
   return InitialMotion(run).find();

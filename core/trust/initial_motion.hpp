@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/trust/doubt.hpp"
+#include "core/trust/finding.hpp"
 #include "core/trust/trusted_run.hpp"
 
 namespace pleuel {
@@ -8,6 +8,6 @@ namespace pleuel {
 /// Initial velocities and deflections of the file that are not those of the simulation: they are made
 /// consistent with joints and drives, and elastic bodies begin without other elastic rates. What the
 /// file gives and changes by more than a percent is named.
-std::vector<Doubt> doubt_initial_motion(const TrustedRun& run);
+std::vector<Finding> check_initial_motion(const TrustedRun& run);
 
 }  // namespace pleuel

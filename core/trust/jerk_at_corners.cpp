@@ -27,7 +27,7 @@ std::optional<double> corner_at(const std::vector<double>& corners, double peak,
 
 }  // namespace
 
-std::vector<Doubt> doubt_jerks_at_corners(const TrustedRun& run) {
+std::vector<Finding> check_jerks_at_corners(const TrustedRun& run) {
   const Trajectory& trajectory = run.analysis.trajectory;
   if (run.problem.simulation.formulation.constraints == ConstraintForm::index_1) return {};
   std::vector<double> corners;
@@ -37,7 +37,7 @@ std::vector<Doubt> doubt_jerks_at_corners(const TrustedRun& run) {
         sharp_times(joint.drive->motion, trajectory.time(trajectory.steps()));
     corners.insert(corners.end(), times.begin(), times.end());
   }
-  std::vector<Doubt> doubts;
+  std::vector<Finding> findings;
   for (const std::size_t i : asked_parts(run.problem)) {
     const std::optional<ResponseType> rate_of = kind_of(run.problem.responses[i].type).rate_of;
     const bool is_jerk =
@@ -47,7 +47,7 @@ std::vector<Doubt> doubt_jerks_at_corners(const TrustedRun& run) {
     const auto corner = corner_at(corners, peak->time, trajectory.scheme.step);
     if (!corner) continue;
     const std::string& name = run.analysis.responses[i].name;
-    doubts.push_back(
+    findings.push_back(
         {fmt::format(
              "the peak of the jerk \"{}\" is at a corner in the acceleration of a drive (t = "
              "{:.4g} s): the accelerations ring there, and the jerk is wrong by up to a "
@@ -58,7 +58,7 @@ std::vector<Doubt> doubt_jerks_at_corners(const TrustedRun& run) {
          true,
          {name}});
   }
-  return doubts;
+  return findings;
 }
 
 }  // namespace pleuel

@@ -124,11 +124,11 @@ bool is_in_space(const Model& model) {
 
 }  // namespace
 
-std::vector<Doubt> doubt_joint_turns(const TrustedRun& run) {
+std::vector<Finding> check_joint_turns(const TrustedRun& run) {
   if (!is_in_space(run.analysis.model)) return {};
   const Design<double> design(run.x.begin(), run.x.end());
   const Scene& scene = run.problem.scene;
-  std::vector<Doubt> doubts;
+  std::vector<Finding> findings;
   for (const Load& load : scene.loads) {
     const auto name = find_counted_joint(load, design, run.problem.simulation.end_time);
     if (!name) continue;
@@ -136,7 +136,7 @@ std::vector<Doubt> doubt_joint_turns(const TrustedRun& run) {
     const std::optional<double> time = jump_of(run, *joint);
     if (!time) continue;
     const auto* in_joint = std::get_if<JointForce>(&load.element);
-    doubts.push_back(
+    findings.push_back(
         {fmt::format("the joint \"{}\" turns by more than half a turn, at t = {:.4g} s; in space "
                      "the {} \"{}\" counts its angle from -180 to 180 deg, and {} "
                      "jumps there. Only motion in a plane counts whole turns.",
@@ -144,7 +144,7 @@ std::vector<Doubt> doubt_joint_turns(const TrustedRun& run) {
                      in_joint ? "its moment" : "it"),
          true});
   }
-  return doubts;
+  return findings;
 }
 
 }  // namespace pleuel

@@ -1,12 +1,12 @@
 #pragma once
 
-#include "core/trust/doubt.hpp"
+#include "core/trust/finding.hpp"
 #include "core/trust/trusted_run.hpp"
 
 namespace pleuel {
 
 /// Springs in joints in space that turn farther than half a turn from where they began: there the
 /// angle is counted from −π to π, where motion in a plane counts whole turns, and the moment jumps.
-std::vector<Doubt> doubt_joint_turns(const TrustedRun& run);
+std::vector<Finding> check_joint_turns(const TrustedRun& run);
 
 }  // namespace pleuel

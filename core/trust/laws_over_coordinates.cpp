@@ -222,29 +222,29 @@ class LawBetweenInstants {
 
 }  // namespace
 
-std::vector<Doubt> doubt_laws_over_coordinates(const TrustedRun& run) {
+std::vector<Finding> check_laws_over_coordinates(const TrustedRun& run) {
   const Eigen::VectorXd& time = run.analysis.trajectory.time;
-  std::vector<Doubt> doubts;
-  if (time.size() < 2) return doubts;
+  std::vector<Finding> findings;
+  if (time.size() < 2) return findings;
   for (const LawOverCoordinate& one : laws_over_coordinates(run)) {
     const CoordinateHistory history(run, one);
     LawBetweenInstants law(one, history, time);
     const std::vector<double> knots = passages(one, history, time);
     const std::string who = fmt::format("the load \"{}\"", one.load);
-    const std::size_t before = doubts.size();
+    const std::size_t before = findings.size();
     if (one.law.argument != LawArgument::rate) {
       const MissedValues missed = law.at_frozen_rates(knots);
       const bool is_ripple = missed.median_of_halves > left_by_halves * missed.median &&
                              missed.median > most_ripple * missed.scale;
       add_missed({who, "value", is_ripple ? most_ripple : most_passed_over}, missed, missed.scale,
-                 doubts);
+                 findings);
     }
     const bool has_rate = one.law.argument == LawArgument::rate || one.law.expression;
-    if (doubts.size() > before || !has_rate) continue;
+    if (findings.size() > before || !has_rate) continue;
     const MissedValues exceeded = law.beyond_ends(knots);
-    add_missed({who, "value", most_exceeded}, exceeded, exceeded.scale, doubts);
+    add_missed({who, "value", most_exceeded}, exceeded, exceeded.scale, findings);
   }
-  return doubts;
+  return findings;
 }
 
 }  // namespace pleuel

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/trust/doubt.hpp"
+#include "core/trust/finding.hpp"
 #include "core/trust/trusted_run.hpp"
 
 namespace pleuel {
@@ -9,6 +9,6 @@ namespace pleuel {
 /// the gas force of a crank, or of its rate, of which the steps pass over most of a tooth or peak: what
 /// acts between two instants is not seen, and runs with other steps may miss the same. Less than that
 /// they do see.
-std::vector<Doubt> doubt_laws_over_coordinates(const TrustedRun& run);
+std::vector<Finding> check_laws_over_coordinates(const TrustedRun& run);
 
 }  // namespace pleuel

@@ -17,10 +17,10 @@ constexpr double rounding = 1e-6;
 
 }  // namespace
 
-std::vector<Doubt> doubt_lost_places(const TrustedRun& run) {
+std::vector<Finding> check_lost_places(const TrustedRun& run) {
   const Eigen::VectorXd x = start_design(run.problem);
   const Design<double> start(x.begin(), x.end());
-  std::vector<Doubt> doubts;
+  std::vector<Finding> findings;
   for (const Body& body : run.problem.scene.bodies) {
     const auto* beam = std::get_if<BeamBody>(&body.shape);
     if (beam == nullptr || beam->is_rigid) continue;
@@ -33,14 +33,14 @@ std::vector<Doubt> doubt_lost_places(const TrustedRun& run) {
       const double distance = std::min(place.xi, 1.0 - place.xi) *
                               model.beam.elements[static_cast<std::size_t>(place.element)].length;
       if (distance <= rounding * length) continue;
-      doubts.push_back({fmt::format(
+      findings.push_back({fmt::format(
           "\"{}\" is only {:.2g} m beside an end of the beam \"{}\", a boundary of its segments or "
           "another place where something is: forces and stress in between are not known. Put both "
           "at one place, or give the beam shorter elements there.",
           point.name, distance, body.name)});
     }
   }
-  return doubts;
+  return findings;
 }
 
 }  // namespace pleuel

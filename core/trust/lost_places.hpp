@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/trust/doubt.hpp"
+#include "core/trust/finding.hpp"
 #include "core/trust/trusted_run.hpp"
 
 namespace pleuel {
@@ -10,6 +10,6 @@ namespace pleuel {
 /// Places of joints and loads so near to an end of an elastic beam, a boundary of its segments or
 /// another place that no node of the mesh is there (core/scene/beam_mesh.hpp): section forces do not
 /// know what lies between both.
-std::vector<Doubt> doubt_lost_places(const TrustedRun& run);
+std::vector<Finding> check_lost_places(const TrustedRun& run);
 
 }  // namespace pleuel

@@ -74,16 +74,16 @@ bool any_moves(const std::vector<std::string>& names, const TrustedRun& run) {
 
 }  // namespace
 
-std::vector<Doubt> doubt_misaligned_joints(const TrustedRun& run) {
+std::vector<Finding> check_misaligned_joints(const TrustedRun& run) {
   State start;
   run.analysis.trajectory.states->load(0, start);
   const Model& model = run.analysis.model;
-  std::vector<Doubt> doubts;
+  std::vector<Finding> findings;
   for (const Misalignment& found : find_misalignments(model, start, locking)) {
     if (found.size > hardly_meant && any_moves(found.joints, run)) continue;
-    doubts.push_back({found.text(), true});
+    findings.push_back({found.text(), true});
   }
-  return doubts;
+  return findings;
 }
 
 }  // namespace pleuel

@@ -74,9 +74,9 @@ MissedValues missed_by(const Eigen::VectorXd& time, const ObservedFunction& valu
 }
 
 void add_missed(const MissedSubject& subject, const MissedValues& missed, double scale,
-                std::vector<Doubt>& doubts) {
+                std::vector<Finding>& findings) {
   if (!(missed.largest > subject.most * scale)) return;
-  doubts.push_back(
+  findings.push_back(
       {fmt::format("{} changes faster than the steps can follow: within the step of {:.3g} s at "
                    "t = {:.4g} s its {} is {} of the largest away from what the steps see. "
                    "Give an oscillation 22 steps or more, a revolution 32: a smaller "

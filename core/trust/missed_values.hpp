@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include "core/trust/doubt.hpp"
+#include "core/trust/finding.hpp"
 
 /// What happens between the instants of a simulation, which sees the instants only.
 namespace pleuel {
@@ -37,8 +37,8 @@ struct MissedSubject {
   double most;       ///< share of the scale that may be missed
 };
 
-/// A serious doubt where more than may be is missed.
+/// A serious finding where more than may be is missed.
 void add_missed(const MissedSubject& subject, const MissedValues& missed, double scale,
-                std::vector<Doubt>& doubts);
+                std::vector<Finding>& findings);
 
 }  // namespace pleuel

@@ -45,28 +45,28 @@ bool is_damped_by_modes(const ProblemFile& problem, const std::string& name) {
 
 }  // namespace
 
-std::vector<Doubt> doubt_modal_damping(const TrustedRun& run) {
+std::vector<Finding> check_modal_damping(const TrustedRun& run) {
   const Model& model = run.analysis.model;
   const auto is_concerned = [&](const BodyModel& body) {
     return body.has_stiffening && body.is_beam() && is_damped_by_modes(run.problem, body.name);
   };
   if (std::ranges::none_of(model.bodies, is_concerned)) return {};
   const auto& largest = largest_deformations(run);
-  std::vector<Doubt> doubts;
+  std::vector<Finding> findings;
   for (std::size_t i = 0; i < largest.size(); ++i) {
     const BodyModel& body = model.bodies[i];
     if (!is_concerned(body)) continue;
     const double rotation = largest[i].bending;
     const double share = growth_of_damping * slenderness(body.beam) * rotation * rotation;
     if (share < small_growth) continue;
-    doubts.push_back({fmt::format(
+    findings.push_back({fmt::format(
         "\"{}\" bends by {:.2g} rad, and its \"modal\" damping takes the shortening that goes "
         "with it for a stretch: bending is damped by some {} % too much, so that resonances are "
         "lower and free vibrations die sooner. Give it damping by \"stiffness\", which knows the "
         "difference.",
         body.name, rotation, significant(100.0 * share, 1))});
   }
-  return doubts;
+  return findings;
 }
 
 }  // namespace pleuel

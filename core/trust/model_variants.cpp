@@ -17,9 +17,9 @@
 #include "core/base/quoted.hpp"
 #include "core/scene/body_groups.hpp"
 #include "core/trust/far_bending.hpp"
+#include "core/trust/low_slenderness.hpp"
 #include "core/trust/response_changes.hpp"
 #include "core/trust/round_off.hpp"
-#include "core/trust/stubby_beams.hpp"
 #include "core/trust/variant_basis.hpp"
 
 namespace pleuel {
@@ -52,7 +52,7 @@ struct Variant {
   std::vector<ConcernedBeam> (*find)(const TrustedRun&);
   void (*put_in)(BeamBody&);
   /// What else says whether it counts, where not all responses are there with it; null: nothing.
-  std::vector<Doubt> (*untold)(const TrustedRun&, const Names&, const std::string& why);
+  std::vector<Finding> (*untold)(const TrustedRun&, const Names&, const std::string& why);
   std::string_view one, several;  ///< "is stubby: shear, which it leaves out,"
   /// @param change  the largest that is told, relative
   std::string (*advice)(const ProblemFile&, const Names& beams, double change);
@@ -93,12 +93,11 @@ std::string advice_of_frames(const ProblemFile& problem, const Names& beams, dou
 }
 
 constexpr Variant variants[] = {
-    {"shear", Cause::left_out, 1.0, find_stubby_beams,
-     [](BeamBody& beam) { beam.has_shear = true; }, nullptr,
-     "is stubby: shear, which it leaves out,", "are stubby: shear, which they leave out,",
+    {"shear", Cause::left_out, 1.0, find_slenderness, [](BeamBody& beam) { beam.has_shear = true; },
+     nullptr, "is stubby: shear, which it leaves out,", "are stubby: shear, which they leave out,",
      advice_of_shear},
     {"more_frames", Cause::not_modelled, 4.0 / 3.0, find_far_bending,
-     [](BeamBody& beam) { beam.frames *= 2; }, doubt_untold_bending,
+     [](BeamBody& beam) { beam.frames *= 2; }, check_untold_bending,
      "bends too far for linear elasticity in its frame: more frames",
      "bend too far for linear elasticity in their frames: more frames", advice_of_frames},
 };
@@ -120,16 +119,16 @@ class VariantRun {
     try {
       changed = analyze_variant(run_, problem);
     } catch (const SimulationError& error) {
-      found.doubts.push_back(failed(error.what()));
+      found.findings.push_back(failed(error.what()));
       return;
     } catch (const InputError& error) {  // of what cannot be asked of it
-      for (Doubt& doubt : untold(error.what())) found.doubts.push_back(std::move(doubt));
+      for (Finding& finding : untold(error.what())) found.findings.push_back(std::move(finding));
       return;
     }
     measure({problem, run_.x, *changed, run_.monitors});
     const Eigen::VectorXd change = values_of(*changed) - values_of(basis_of_variants(run_));
     found.changes.push_back({std::string(variant_.name), variant_.missing * change});
-    for (const bool is_serious : {true, false}) add_doubt(is_serious, found.doubts);
+    for (const bool is_serious : {true, false}) add_finding(is_serious, found.findings);
   }
 
  private:
@@ -140,7 +139,7 @@ class VariantRun {
     return problem;
   }
 
-  Doubt failed(const std::string& why) const {
+  Finding failed(const std::string& why) const {
     return {fmt::format("{} {} might change anything: this design cannot be simulated then: {}",
                         quoted(beams_), words(beams_), why),
             true,
@@ -149,11 +148,11 @@ class VariantRun {
             variant_.cause};
   }
 
-  std::vector<Doubt> untold(const std::string& why) const {
+  std::vector<Finding> untold(const std::string& why) const {
     if (variant_.untold == nullptr) return {failed(why)};
-    std::vector<Doubt> doubts = variant_.untold(run_, beams_, why);
-    for (Doubt& doubt : doubts) doubt.cause = variant_.cause;
-    return doubts;
+    std::vector<Finding> findings = variant_.untold(run_, beams_, why);
+    for (Finding& finding : findings) finding.cause = variant_.cause;
+    return findings;
   }
 
   std::string_view words(const Names& beams) const {
@@ -209,7 +208,7 @@ class VariantRun {
   }
 
   /// Of the responses whose change is alarming, or of the others that are worth a word.
-  void add_doubt(bool is_serious, std::vector<Doubt>& doubts) const {
+  void add_finding(bool is_serious, std::vector<Finding>& findings) const {
     Names names, changed;
     std::vector<bool> has_part(beams_.size(), false);
     double largest = 0.0;
@@ -232,15 +231,15 @@ class VariantRun {
       if (has_part[k]) beams.push_back(beams_[k]);
     }
     if (beams.empty()) beams = beams_;  // they do it together
-    doubts.push_back({fmt::format("{} {} would change {} (of what {} then). {}: {}.", quoted(beams),
-                                  words(beams), fmt::join(changed, ", "),
-                                  names.size() == 1 ? "it is" : "they are",
-                                  is_serious ? "Do not trust that" : "Where that matters",
-                                  variant_.advice(run_.problem, beams, largest)),
-                      is_serious,
-                      names,
-                      {},
-                      variant_.cause});
+    findings.push_back({fmt::format("{} {} would change {} (of what {} then). {}: {}.",
+                                    quoted(beams), words(beams), fmt::join(changed, ", "),
+                                    names.size() == 1 ? "it is" : "they are",
+                                    is_serious ? "Do not trust that" : "Where that matters",
+                                    variant_.advice(run_.problem, beams, largest)),
+                        is_serious,
+                        names,
+                        {},
+                        variant_.cause});
   }
 
   /// Whether a beam is tied to what a response is about.

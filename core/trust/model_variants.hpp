@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "core/trust/doubt.hpp"
+#include "core/trust/finding.hpp"
 #include "core/trust/trusted_run.hpp"
 
 /// What the model leaves out: the mechanism is simulated once more with it, and the difference is what
@@ -20,11 +20,11 @@ struct VariantChange {
 
 struct LeftOut {
   std::vector<VariantChange> changes;
-  std::vector<Doubt> doubts;
+  std::vector<Finding> findings;
 };
 
 /// Runs the variants whose indicators speak, at twice the step (variant_basis.hpp):
-/// - `shear` in beams that leave it out and are stubby (stubby_beams.hpp),
+/// - `shear` in beams that leave it out and are stubby (low_slenderness.hpp),
 /// - `more_frames`, by twice as many, in beams that bend or twist far against those they have: linear
 ///   elasticity in a frame is off by the square of rotations, of which twice the frames leave a
 ///   quarter.

@@ -90,7 +90,7 @@ std::string text_of(const Model& model, Eigen::Index coordinate, const Eigen::Ve
 
 }  // namespace
 
-std::vector<Doubt> doubt_open_positions(const TrustedRun& run) {
+std::vector<Finding> check_open_positions(const TrustedRun& run) {
   // A motion that repeats itself is not told where it begins.
   if (run.analysis.trajectory.periodic) return {};
   const Mechanism& asked = run.analysis.model.mechanism;

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/trust/doubt.hpp"
+#include "core/trust/finding.hpp"
 #include "core/trust/trusted_run.hpp"
 
 namespace pleuel {
@@ -13,6 +13,6 @@ namespace pleuel {
 /// compared by the size of the mechanism at the start of its variables; serious where another
 /// measure, of which angles or one direction count more, moves a body by more than a hundredth of
 /// this size, or of a radian.
-std::vector<Doubt> doubt_open_positions(const TrustedRun& run);
+std::vector<Finding> check_open_positions(const TrustedRun& run);
 
 }  // namespace pleuel

@@ -87,8 +87,8 @@ double furthest(const TrustedRun& run, std::size_t response, double side) {
 
 }  // namespace
 
-std::vector<Doubt> doubt_other_side(const TrustedRun& run) {
-  std::vector<Doubt> doubts;
+std::vector<Finding> check_other_side(const TrustedRun& run) {
+  std::vector<Finding> findings;
   for (const ConstraintSettings& limit : run.problem.constraints) {
     const auto index = index_of_named(run.problem.responses, limit.response);
     if (!index) continue;
@@ -101,14 +101,14 @@ std::vector<Doubt> doubt_other_side(const TrustedRun& run) {
     const bool is_beyond = reach > 0.0 && beyond > reach;
     if (!is_beyond || is_limited(run.problem, response, -side)) continue;
     const ShownUnit unit = unit_of(response);
-    doubts.push_back({fmt::format(
+    findings.push_back({fmt::format(
         "the limit \"{}\" holds \"{}\" at {:.4g}{} to one side only, and it comes to {:.4g}{} "
         "on the other one. Where both sides count: \"over_time\": \"max-abs\".",
         limit.name, response.name, unit.shown(side * reach), unit.suffix(),
         unit.shown(-side * beyond), unit.suffix())});
-    doubts.back().responses = {response.name};
+    findings.back().responses = {response.name};
   }
-  return doubts;
+  return findings;
 }
 
 }  // namespace pleuel

@@ -39,7 +39,7 @@ double largest_allowed(const ProblemFile& problem, const std::string& response) 
 
 }  // namespace
 
-std::vector<Doubt> doubt_promised_buckling(const TrustedRun& run) {
+std::vector<Finding> check_promised_buckling(const TrustedRun& run) {
   constexpr double notable = 1.1;
   const auto& responses = run.problem.responses;
   const bool is_asked = std::any_of(responses.begin(), responses.end(), [](const auto& response) {
@@ -48,7 +48,7 @@ std::vector<Doubt> doubt_promised_buckling(const TrustedRun& run) {
   if (!is_asked) return {};
   const LoadFactor load_factor(run.problem, run.x, run.analysis);
   if (!load_factor.is_known()) return {};
-  std::vector<Doubt> doubts;
+  std::vector<Finding> findings;
   for (std::size_t i = 0; i < responses.size(); ++i) {
     const ResponseSettings& response = responses[i];
     if (response.type != ResponseType::buckling) continue;
@@ -58,7 +58,7 @@ std::vector<Doubt> doubt_promised_buckling(const TrustedRun& run) {
     const double factor = load_factor.at(peak);
     const double allowed = largest_allowed(run.problem, response.name);
     if (!(factor > 0.0) || 1.0 / factor < std::max(allowed, notable * promised)) continue;
-    doubts.push_back(
+    findings.push_back(
         {fmt::format(
              "\"{0}\" takes \"{1}\" by itself, pinned at both ends: it would buckle at "
              "{2:.3g} times what presses it at t = {3:.4g} s. Together with the bodies that "
@@ -70,7 +70,7 @@ std::vector<Doubt> doubt_promised_buckling(const TrustedRun& run) {
          false,
          {response.name}});
   }
-  return doubts;
+  return findings;
 }
 
 }  // namespace pleuel

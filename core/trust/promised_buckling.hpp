@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/trust/doubt.hpp"
+#include "core/trust/finding.hpp"
 #include "core/trust/trusted_run.hpp"
 
 namespace pleuel {
@@ -14,6 +14,6 @@ namespace pleuel {
 /// the instant of the peak (elastic_stability.hpp), in the coordinates of the motion: in a plane, of
 /// buckling in it. Drives hold. Not serious: the response is what it says it is. Nothing is said of
 /// mechanisms with springs, nor without geometric stiffening.
-std::vector<Doubt> doubt_promised_buckling(const TrustedRun& run);
+std::vector<Finding> check_promised_buckling(const TrustedRun& run);
 
 }  // namespace pleuel

@@ -50,7 +50,7 @@ class Proportions {
   Proportions(const Scene& scene, const Eigen::VectorXd& x)
       : scene_(scene), design_(x.begin(), x.end()) {}
 
-  std::vector<Doubt> find() {
+  std::vector<Finding> find() {
     collect_places();
     check_distances();
     for (const Body& body : scene_.bodies) {
@@ -60,12 +60,12 @@ class Proportions {
     for (const Material& material : scene_.materials) check_material(material);
     for (const Joint& joint : scene_.joints) check_speed(joint);
     check_gravity();
-    return std::move(doubts_);
+    return std::move(findings_);
   }
 
  private:
   void add(const std::string& text) {
-    doubts_.push_back({text + ". Is a unit missing, or another one meant?"});
+    findings_.push_back({text + ". Is a unit missing, or another one meant?"});
   }
 
   // Where things are.
@@ -288,16 +288,17 @@ class Proportions {
   Design<double> design_;
   std::vector<Place> places_;
   std::optional<double> size_;  ///< of the mechanism, once it is asked for
-  std::vector<Doubt> doubts_;
+  std::vector<Finding> findings_;
 };
 
 }  // namespace
 
-std::vector<Doubt> doubt_proportions(const TrustedRun& run) {
-  return doubt_proportions_before(run.problem, run.x);
+std::vector<Finding> check_proportions(const TrustedRun& run) {
+  return check_proportions_before(run.problem, run.x);
 }
 
-std::vector<Doubt> doubt_proportions_before(const ProblemFile& problem, const Eigen::VectorXd& x) {
+std::vector<Finding> check_proportions_before(const ProblemFile& problem,
+                                              const Eigen::VectorXd& x) {
   return Proportions(problem.scene, x).find();
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/trust/doubt.hpp"
+#include "core/trust/finding.hpp"
 #include "core/trust/trusted_run.hpp"
 
 namespace pleuel {
@@ -10,9 +10,9 @@ namespace pleuel {
 /// five thousand times as long as they are thick, densities and moduli of no solid, inertia of a
 /// body ten times as large as the mechanism, drives beyond 1000 rad/s that move a body beyond 50 m/s, gravity of
 /// no planet. Most often a unit is missing.
-std::vector<Doubt> doubt_proportions(const TrustedRun& run);
+std::vector<Finding> check_proportions(const TrustedRun& run);
 
 /// The same of a design that need not be simulated.
-std::vector<Doubt> doubt_proportions_before(const ProblemFile& problem, const Eigen::VectorXd& x);
+std::vector<Finding> check_proportions_before(const ProblemFile& problem, const Eigen::VectorXd& x);
 
 }  // namespace pleuel

@@ -8,26 +8,27 @@ namespace pleuel {
 namespace {
 
 /// The highest class in which something is wrong; the lowest where nothing is.
-Cause speaking_cause(const std::vector<Doubt>& doubts) {
+Cause speaking_cause(const std::vector<Finding>& findings) {
   Cause cause = Cause::left_out;
-  for (const Doubt& doubt : doubts) {
-    if (doubt.is_serious || doubt.cause == Cause::unit) cause = std::min(cause, doubt.cause);
+  for (const Finding& finding : findings) {
+    if (finding.is_serious || finding.cause == Cause::unit) cause = std::min(cause, finding.cause);
   }
   return cause;
 }
 
 }  // namespace
 
-void rank_doubts(std::vector<Doubt>& doubts) {
-  std::stable_sort(doubts.begin(), doubts.end(), [](const Doubt& a, const Doubt& b) {
+void rank_findings(std::vector<Finding>& findings) {
+  std::stable_sort(findings.begin(), findings.end(), [](const Finding& a, const Finding& b) {
     return std::tuple(a.cause, !a.is_serious) < std::tuple(b.cause, !b.is_serious);
   });
 }
 
-int count_consequences(const std::vector<Doubt>& doubts) {
-  const Cause speaking = speaking_cause(doubts);
-  return static_cast<int>(std::count_if(
-      doubts.begin(), doubts.end(), [&](const Doubt& doubt) { return doubt.cause > speaking; }));
+int count_consequences(const std::vector<Finding>& findings) {
+  const Cause speaking = speaking_cause(findings);
+  return static_cast<int>(
+      std::count_if(findings.begin(), findings.end(),
+                    [&](const Finding& finding) { return finding.cause > speaking; }));
 }
 
 }  // namespace pleuel

@@ -35,14 +35,14 @@ RefinementSet::RefinementSet(const ProblemFile& problem, const Eigen::VectorXd& 
     compare(&JudgingRuns::newton, 1, {4.0, 1.0, 0, judging_newton});
   }
   if (twice != nullptr) refinements.erase(refinements.begin());
-  std::vector<NestedRun> runs = make_nested_runs(problem, x, refinements, similar_);
-  if (twice != nullptr) runs.insert(runs.begin(), nested_run_of(*twice));
-  std::vector<const NestedRun*> kept;
-  for (NestedRun& run : runs) kept.push_back(&made_.emplace_back(std::move(run)));
+  std::vector<RefinedRun> runs = make_refined_runs(problem, x, refinements, similar_);
+  if (twice != nullptr) runs.insert(runs.begin(), refined_run_of(*twice));
+  std::vector<const RefinedRun*> kept;
+  for (RefinedRun& run : runs) kept.push_back(&made_.emplace_back(std::move(run)));
   for (std::size_t i = 0; i < comparisons.size(); ++i) {
     runs_.*comparisons[i].first = {kept[i + 2], kept[comparisons[i].second]};
   }
-  const auto is_coarser = [](const NestedRun& one, Eigen::Index instants) {
+  const auto is_coarser = [](const RefinedRun& one, Eigen::Index instants) {
     return one.has_failed() || one.time.size() < instants;  // one step has none above it
   };
   if (is_coarser(*kept[0], analysis.trajectory.time.size())) runs_.twice_step = kept[0];
@@ -50,9 +50,9 @@ RefinementSet::RefinementSet(const ProblemFile& problem, const Eigen::VectorXd& 
 }
 
 void RefinementSet::refine_steps() {
-  const NestedRun*& finer = runs_.half_step == nullptr ? runs_.half_step : runs_.quarter_step;
+  const RefinedRun*& finer = runs_.half_step == nullptr ? runs_.half_step : runs_.quarter_step;
   const double step = runs_.half_step == nullptr ? 0.5 : 0.25;
-  finer = &made_.emplace_back(make_nested_run(problem_, x_, {step, 1.0}, similar_));
+  finer = &made_.emplace_back(make_refined_run(problem_, x_, {step, 1.0}, similar_));
 }
 
 JudgingRuns RefinementSet::runs_of_histories() const {
@@ -64,7 +64,7 @@ JudgingRuns RefinementSet::runs_of_histories() const {
 
 std::string RefinementSet::failure() const {
   const auto failed = std::find_if(made_.rbegin(), made_.rend(),
-                                   [](const NestedRun& run) { return run.has_failed(); });
+                                   [](const RefinedRun& run) { return run.has_failed(); });
   return failed == made_.rend() ? "" : failed->failure;
 }
 

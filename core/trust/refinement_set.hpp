@@ -3,7 +3,7 @@
 #include <list>
 
 #include "core/trust/error_bars.hpp"
-#include "core/trust/nested_runs.hpp"
+#include "core/trust/refined_runs.hpp"
 
 namespace pleuel {
 
@@ -38,7 +38,7 @@ class RefinementSet {
   const ProblemFile& problem_;
   const Eigen::VectorXd& x_;
   const Trajectory* similar_;
-  std::list<NestedRun> made_;  ///< the first two: with twice and four times the step
+  std::list<RefinedRun> made_;  ///< the first two: with twice and four times the step
   JudgingRuns runs_;
 };
 

@@ -189,25 +189,25 @@ std::vector<Uncertain> uncertain_by(const Resolution& found,
   return uncertain;
 }
 
-/// The doubt about some responses.
-Doubt doubt_about(const TrustedRun& run, const Resolution& found,
-                  const std::vector<Uncertain>& uncertain, const std::string& cause,
-                  const std::string& advice) {
-  Doubt doubt;
+/// The finding about some responses.
+Finding check_about(const TrustedRun& run, const Resolution& found,
+                    const std::vector<Uncertain>& uncertain, const std::string& cause,
+                    const std::string& advice) {
+  Finding finding;
   std::vector<std::string> bars;
   for (const Uncertain& one : uncertain) {
     const std::string& name = run.analysis.responses[one.response].name;
-    doubt.responses.push_back(name);
-    doubt.is_serious =
-        doubt.is_serious || (one.error > serious_error && counts(run.problem, one.response));
+    finding.responses.push_back(name);
+    finding.is_serious =
+        finding.is_serious || (one.error > serious_error && counts(run.problem, one.response));
     bars.push_back(std::isinf(one.bar)
                        ? fmt::format("\"{}\" unknown", name)
                        : fmt::format("\"{}\" uncertain by {}", name, rough_percent(one.bar)));
   }
-  doubt.text = fmt::format(
+  finding.text = fmt::format(
       "{} leave {}: not resolved. {}", cause, fmt::join(bars, ", "),
       found.failure.empty() ? advice : "A run that would tell failed: " + found.failure);
-  return doubt;
+  return finding;
 }
 
 /// A step that brings an error below half a percent by order 2, two digits.
@@ -224,30 +224,30 @@ Resolution judge_resolution(const TrustedRun& run) {
                                                              : Resolution();
 }
 
-std::vector<Doubt> doubt_resolution(const TrustedRun& run, const Resolution& found) {
-  std::vector<Doubt> doubts;
+std::vector<Finding> check_resolution(const TrustedRun& run, const Resolution& found) {
+  std::vector<Finding> findings;
   const auto of_step =
       uncertain_by(found, [](const ErrorBar& bar, const Evidence&) { return bar.step; });
   if (!of_step.empty()) {
-    doubts.push_back(doubt_about(run, found, of_step, "the steps",
-                                 fmt::format("Try a /simulation/step of {}{}",
-                                             proposed_step(run.problem, of_step.front().error),
-                                             advice_to_damp(run.analysis.model))));
+    findings.push_back(check_about(run, found, of_step, "the steps",
+                                   fmt::format("Try a /simulation/step of {}{}",
+                                               proposed_step(run.problem, of_step.front().error),
+                                               advice_to_damp(run.analysis.model))));
   }
   const auto of_elements = uncertain_by(found, [](const ErrorBar& bar, const Evidence& evidence) {
     return smaller(element_part(evidence), bar.elements);
   });
   if (!of_elements.empty()) {
-    doubts.push_back(doubt_about(run, found, of_elements, "the elements", "Try more elements"));
+    findings.push_back(check_about(run, found, of_elements, "the elements", "Try more elements"));
   }
   const auto of_modes = uncertain_by(found, [](const ErrorBar& bar, const Evidence& evidence) {
     return smaller(mode_part(evidence), bar.elements);
   });
   if (!of_modes.empty()) {
-    doubts.push_back(
-        doubt_about(run, found, of_modes, "the modes of a \"reduction\"", "Try more modes"));
+    findings.push_back(
+        check_about(run, found, of_modes, "the modes of a \"reduction\"", "Try more modes"));
   }
-  return doubts;
+  return findings;
 }
 
 }  // namespace pleuel

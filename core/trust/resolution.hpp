@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/trust/doubt.hpp"
 #include "core/trust/error_bars.hpp"
+#include "core/trust/finding.hpp"
 #include "core/trust/trusted_run.hpp"
 
 namespace pleuel {
@@ -28,10 +28,10 @@ struct Resolution {
 /// constraints are errors themselves, and not judged; round-off neither (round_off.hpp).
 Resolution judge_resolution(const TrustedRun& run);
 
-/// Doubts about what the bars do not know well enough: one about the steps, one about the elements,
+/// Findings about what the bars do not know well enough: one about the steps, one about the elements,
 /// one about modes, from an estimated error of one percent on, which is half of most bars. Serious
 /// from ten percent on of a response that is minimized or limited; of any in a file that
 /// minimizes nothing.
-std::vector<Doubt> doubt_resolution(const TrustedRun& run, const Resolution& found);
+std::vector<Finding> check_resolution(const TrustedRun& run, const Resolution& found);
 
 }  // namespace pleuel

@@ -49,9 +49,9 @@ bool bends_alike(const BodyModel& body) {
 
 }  // namespace
 
-std::vector<Doubt> doubt_section_axes(const TrustedRun& run) {
+std::vector<Finding> check_section_axes(const TrustedRun& run) {
   const Design<double> design(run.x.begin(), run.x.end());
-  std::vector<Doubt> doubts;
+  std::vector<Finding> findings;
   for (const Body& body : run.problem.scene.bodies) {
     const auto* beam = std::get_if<BeamBody>(&body.shape);
     if (!beam || beam->reference) continue;
@@ -59,7 +59,7 @@ std::vector<Doubt> doubt_section_axes(const TrustedRun& run) {
     if (angle > close || bends_alike(*run.analysis.model.parts(body.name).front())) continue;
     const DesignVariable* variable = turning_variable(run, *beam);
     if (!variable) continue;
-    doubts.push_back(
+    findings.push_back(
         {fmt::format(
              "\"{0}\" is {1} the global z axis, and the variable \"{2}\" turns "
              "it: without a reference its section turns with it, local y being in the x-y "
@@ -69,7 +69,7 @@ std::vector<Doubt> doubt_section_axes(const TrustedRun& run) {
              variable->name),
          true});
   }
-  return doubts;
+  return findings;
 }
 
 }  // namespace pleuel

@@ -15,7 +15,7 @@
 #include "core/integration/simulation_options.hpp"
 #include "core/response/effect_measurement.hpp"
 #include "core/trust/asked_responses.hpp"
-#include "core/trust/doubts.hpp"
+#include "core/trust/checks.hpp"
 #include "core/trust/error_bars.hpp"
 #include "core/trust/fast_turning.hpp"
 #include "core/trust/laws_over_coordinates.hpp"
@@ -190,7 +190,7 @@ class Search {
     const Monitors monitors = monitor(analysis->model, analysis->trajectory);
     const TrustedRun run{divided, x_, *analysis, monitors};
     return monitors.energy_error > most_missing_energy ||
-           has_serious(doubt_laws_over_coordinates(run)) || has_serious(doubt_fast_turning(run));
+           has_serious(check_laws_over_coordinates(run)) || has_serious(check_fast_turning(run));
   }
 
   /// A coarser setting, if its errors are still small: those of the finer one with what differs.
@@ -227,7 +227,7 @@ class Search {
     Trial trial;
     trial.tried = {setting, divided.simulation.step, beam_elements(divided), infinite, "", 0.0};
     try {
-      if (!find_doubts_before(starting_at(divided, x_)).empty()) return trial;
+      if (!check_before(starting_at(divided, x_)).empty()) return trial;
       const auto analysis = analyze(divided, x_);
       trial.values = values_of(*analysis);
       trial.fewest_elements = fewest_elements(analysis->model, divided);
@@ -288,7 +288,7 @@ class Search {
   /// Compares with a finer run, which makes the bars narrower where it agrees.
   void confirm(Trial& trial) const {
     const Refinement finer{std::min(0.25 * trial.setting().step, 1.0), trial.setting().elements};
-    const NestedRun run = make_nested_run(problem_, x_, finer);
+    const RefinedRun run = make_refined_run(problem_, x_, finer);
     if (run.has_failed()) {
       trial.tried.error = infinite;
       return;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/base/error_bar.hpp"
-#include "core/trust/nested_runs.hpp"
+#include "core/trust/refined_runs.hpp"
 
 /// Steps and elements for an accuracy, instead of an accuracy for steps and elements.
 namespace pleuel {

@@ -82,7 +82,7 @@ class SidewaysBuckling {
   double share() { return share_ > near_critical && is_bent() ? share_ : 0.0; }
 
   /// @pre share() > 0
-  Doubt doubt() const { return doubt(1.0 / share_); }
+  Finding finding() const { return finding(1.0 / share_); }
 
  private:
   /// Whether the bending moment takes part.
@@ -122,7 +122,7 @@ class SidewaysBuckling {
     return std::sqrt(1.0 + pi * pi * lateral_ * depth_ * depth_ / (length_ * length_ * twisting_));
   }
 
-  Doubt doubt(double factor) const {
+  Finding finding(double factor) const {
     const double moment = largest_moment(load_), press = largest_press(load_);
     std::string what = fmt::format("a bending moment of {:.3g} N m", moment);
     if (press > 1e-3 * euler_load())
@@ -182,7 +182,7 @@ std::vector<std::vector<SidewaysBuckling>> members_of(const TrustedRun& run) {
 
 }  // namespace
 
-std::vector<Doubt> doubt_sideways_buckling(const TrustedRun& run) {
+std::vector<Finding> check_sideways_buckling(const TrustedRun& run) {
   std::vector<std::vector<SidewaysBuckling>> members = members_of(run);
   if (members.empty()) return {};
   State state;
@@ -192,7 +192,7 @@ std::vector<Doubt> doubt_sideways_buckling(const TrustedRun& run) {
       for (SidewaysBuckling& plane : planes) plane.see(state, run.analysis.trajectory.time(i));
     }
   }
-  std::vector<Doubt> doubts;
+  std::vector<Finding> findings;
   for (auto& planes : members) {
     double worst = 0.0;
     const SidewaysBuckling* told = nullptr;
@@ -201,9 +201,9 @@ std::vector<Doubt> doubt_sideways_buckling(const TrustedRun& run) {
       worst = plane.share();
       told = &plane;
     }
-    if (told != nullptr) doubts.push_back(told->doubt());
+    if (told != nullptr) findings.push_back(told->finding());
   }
-  return doubts;
+  return findings;
 }
 
 }  // namespace pleuel

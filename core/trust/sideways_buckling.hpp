@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/trust/doubt.hpp"
+#include "core/trust/finding.hpp"
 #include "core/trust/trusted_run.hpp"
 
 namespace pleuel {
@@ -12,6 +12,6 @@ namespace pleuel {
 /// compression does alone, or with neighbours, is asked of the whole mechanism (stability.hpp).
 /// Warping of sections helps short I beams: a bent beam is said to buckle only beyond what flanges
 /// at the edges of its section could bear.
-std::vector<Doubt> doubt_sideways_buckling(const TrustedRun& run);
+std::vector<Finding> check_sideways_buckling(const TrustedRun& run);
 
 }  // namespace pleuel

@@ -80,8 +80,8 @@ double way_along(const TrustedRun& run, const Joint& joint, std::size_t side, do
 
 }  // namespace
 
-std::vector<Doubt> doubt_sliding_contacts(const TrustedRun& run) {
-  std::vector<Doubt> doubts;
+std::vector<Finding> check_sliding_contacts(const TrustedRun& run) {
+  std::vector<Finding> findings;
   for (const Joint& joint : run.problem.scene.joints) {
     for (std::size_t side = 0; side < 2; ++side) {
       const std::string& name = joint.bodies[side];
@@ -91,7 +91,7 @@ std::vector<Doubt> doubt_sliding_contacts(const TrustedRun& run) {
       const double length = body.beam.node_position(body.beam.node_count() - 1);
       const double way = way_along(run, joint, side, length);
       if (way <= short_way * length) continue;
-      doubts.push_back(
+      findings.push_back(
           {fmt::format("\"{}\" slides {:.3g} m along the elastic beam \"{}\", but the joint \"{}\" "
                        "belongs to the node where it is drawn: its forces act there, as by a rigid "
                        "lever, wherever the slider is. Loads that travel over an elastic beam are "
@@ -101,7 +101,7 @@ std::vector<Doubt> doubt_sliding_contacts(const TrustedRun& run) {
            true});
     }
   }
-  return doubts;
+  return findings;
 }
 
 }  // namespace pleuel

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/trust/doubt.hpp"
+#include "core/trust/finding.hpp"
 #include "core/trust/trusted_run.hpp"
 
 namespace pleuel {
@@ -8,6 +8,6 @@ namespace pleuel {
 /// What slides along an elastic beam: the line of a joint belongs to the node at which the joint is
 /// drawn, and does not bend with the beam, so that forces act there as by a rigid lever, wherever
 /// the slider is. Right for a contact that stays, wrong for one that travels over the beam.
-std::vector<Doubt> doubt_sliding_contacts(const TrustedRun& run);
+std::vector<Finding> check_sliding_contacts(const TrustedRun& run);
 
 }  // namespace pleuel

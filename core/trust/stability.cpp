@@ -19,7 +19,7 @@
 #include "core/response/lateral_buckling_signal.hpp"
 #include "core/start/equilibrium.hpp"
 #include "core/trust/disturbance_growth.hpp"
-#include "core/trust/nested_runs.hpp"
+#include "core/trust/refined_runs.hpp"
 
 namespace pleuel {
 
@@ -189,7 +189,7 @@ void add_outside_holds(const Eigen::VectorXd& x, Scene& scene) {
 
 constexpr const char* remedy = " Make it stiffer, or hold it.";
 
-Doubt not_judged(const std::string& reason) {
+Finding not_judged(const std::string& reason) {
   return {"Whether the pressed beams of the mechanism buckle was not looked at: " + reason, false};
 }
 
@@ -197,7 +197,7 @@ std::string times_text(double factor) {
   return factor < 1e6 ? fmt::format("{:.2g} times", factor) : "a million times and more";
 }
 
-Doubt grown(const DisturbanceGrowth& growth, const ElasticStability& frozen) {
+Finding grown(const DisturbanceGrowth& growth, const ElasticStability& frozen) {
   const std::string how =
       frozen.is_stable
           ? "the motion or what acts feeds it (flutter, whirl, or parametric resonance)"
@@ -208,7 +208,7 @@ Doubt grown(const DisturbanceGrowth& growth, const ElasticStability& frozen) {
           true};
 }
 
-Doubt passing(const ElasticStability& frozen, double time, const DisturbanceGrowth& growth) {
+Finding passing(const ElasticStability& frozen, double time, const DisturbanceGrowth& growth) {
   const std::string what = growth.factor > 1.0
                                ? fmt::format("grows {} only", times_text(growth.factor))
                                : "has no time to grow";
@@ -255,7 +255,7 @@ std::optional<int> first_doubtful(const std::set<int>& instants, const Analysis&
 
 /// Of a mechanism whose model shows buckling.
 /// @throws SimulationError where the steps have no derivatives
-std::vector<Doubt> judge_motion(const std::set<int>& instants, const Analysis& analysis) {
+std::vector<Finding> judge_motion(const std::set<int>& instants, const Analysis& analysis) {
   const Mechanism& mechanism = analysis.model.mechanism;
   const Trajectory& trajectory = analysis.trajectory;
   const std::optional<int> first = first_doubtful(instants, analysis);
@@ -310,7 +310,7 @@ bool is_firm_in_space(const ProblemFile& space, const TrustedRun& run,
 }
 
 /// @param instants  at which it is worth while to look
-std::vector<Doubt> judge_in_space(const TrustedRun& run, const std::set<int>& instants) {
+std::vector<Finding> judge_in_space(const TrustedRun& run, const std::set<int>& instants) {
   const ProblemFile space = problem_in_space(run);
   if (is_firm_in_space(space, run, instants)) return {};
   std::string failure;
@@ -333,7 +333,7 @@ std::vector<Doubt> judge_in_space(const TrustedRun& run, const std::set<int>& in
 }
 
 /// Of the motion, as it is or in space.
-std::vector<Doubt> judge_members(const TrustedRun& run, const CriticalInstants& instants) {
+std::vector<Finding> judge_members(const TrustedRun& run, const CriticalInstants& instants) {
   const Analysis& analysis = run.analysis;
   if (shows_buckling(run.problem.scene, analysis.model)) {
     try {
@@ -368,7 +368,7 @@ bool is_in_equilibrium(const Mechanism& mechanism, const State& state) {
 
 /// Of the start, where it is an equilibrium and the file asks for one, or for small vibrations about one: the
 /// mode that grows fastest, rigid motions included. Where beams are held from outside, it does not know.
-std::vector<Doubt> judge_start(const TrustedRun& run) {
+std::vector<Finding> judge_start(const TrustedRun& run) {
   const Analysis& analysis = run.analysis;
   const std::vector<std::string> names = numbers_of_modes(analysis);
   const bool is_equilibrium = run.problem.simulation.quasi_static_start;
@@ -396,19 +396,19 @@ std::vector<Doubt> judge_start(const TrustedRun& run) {
 
 }  // namespace
 
-std::vector<Doubt> doubt_stability(const TrustedRun& run) {
+std::vector<Finding> check_stability(const TrustedRun& run) {
   const Model& model = run.analysis.model;
-  std::vector<Doubt> doubts = judge_start(run);
-  if (!doubts.empty() && doubts.front().is_serious) return doubts;
+  std::vector<Finding> findings = judge_start(run);
+  if (!findings.empty() && findings.front().is_serious) return findings;
   const CriticalInstants instants = critical_instants(run.problem.scene, run.analysis);
   if (coordinates_in_space(model) <= most_judged_coordinates) {
-    const std::vector<Doubt> of_motion = judge_members(run, instants);
-    doubts.insert(doubts.end(), of_motion.begin(), of_motion.end());
+    const std::vector<Finding> of_motion = judge_members(run, instants);
+    findings.insert(findings.end(), of_motion.begin(), of_motion.end());
   } else if (instants.may_buckle) {
-    doubts.push_back(
+    findings.push_back(
         not_judged(fmt::format("it has more than {} coordinates.", most_judged_coordinates)));
   }
-  return doubts;
+  return findings;
 }
 
 }  // namespace pleuel

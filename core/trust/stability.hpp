@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/trust/doubt.hpp"
+#include "core/trust/finding.hpp"
 #include "core/trust/trusted_run.hpp"
 
 namespace pleuel {
@@ -26,6 +26,6 @@ constexpr int most_judged_coordinates = 600;
 /// A mechanism in a plane is judged in space where it may grow in the plane, or where a beam is pressed beyond
 /// a twentieth of the Euler load of a column as long as all beams together, or at all beside springs.
 /// Mechanisms of more than most_judged_coordinates are told of.
-std::vector<Doubt> doubt_stability(const TrustedRun& run);
+std::vector<Finding> check_stability(const TrustedRun& run);
 
 }  // namespace pleuel

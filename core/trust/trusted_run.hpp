@@ -20,18 +20,18 @@ enum class Scrutiny {
   close   ///< three times as much more: with half the step and twice the elements
 };
 
-/// What several doubts ask for, each made when the first of them does.
+/// What several findings ask for, each made when the first of them does.
 struct SharedFindings {
   /// What variants are compared with (variant_basis.hpp): null is the run that is judged.
   std::optional<ProblemFile> problem{};
   std::unique_ptr<Analysis> analysis{};
   std::optional<std::vector<bool>> is_round_off{};  ///< round_off.hpp
-  /// Values of a run with short steps behind jumps, one a response; of one that was needed (unseen_overshoot.hpp).
+  /// Values of a run with short steps behind jumps, one a response; of one that was needed (unresolved_transients.hpp).
   std::optional<Eigen::VectorXd> with_short_steps{};
   std::optional<std::vector<LargestDeformation>> deformations{};  ///< beam_state.hpp
 };
 
-/// A simulated design, and what its doubts are made from.
+/// A simulated design, and what its findings are made from.
 struct TrustedRun {
   const ProblemFile& problem;
   const Eigen::VectorXd& x;  ///< design variables [SI]

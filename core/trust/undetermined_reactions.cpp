@@ -9,7 +9,7 @@
 
 namespace pleuel {
 
-std::vector<Doubt> doubt_undetermined_reactions(const TrustedRun& run) {
+std::vector<Finding> check_undetermined_reactions(const TrustedRun& run) {
   if (std::ranges::none_of(run.analysis.model.effects, [](const EffectRecord& effect) {
         return effect.name == "redundant_constraints";
       })) {
@@ -18,17 +18,17 @@ std::vector<Doubt> doubt_undetermined_reactions(const TrustedRun& run) {
   const Trajectory& trajectory = run.analysis.trajectory;
   State state;
   trajectory.states->load(trajectory.steps() / 2, state);
-  Doubt doubt;
+  Finding finding;
   std::string names;
   for (const std::size_t i : asked_parts(run.problem)) {
     const Response& response = run.analysis.responses[i];
     if (!response.history() || response.history()->signal->is_determined(state)) continue;
-    doubt.responses.push_back(response.name);
+    finding.responses.push_back(response.name);
     names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", response.name);
   }
   if (names.empty()) return {};
-  const bool is_one = doubt.responses.size() == 1;
-  doubt.text = fmt::format(
+  const bool is_one = finding.responses.size() == 1;
+  finding.text = fmt::format(
       "{} {} not determined by the motion: joints hold more than they have to (`pleuel check` "
       "names "
       "them), and of all reactions that do so the smallest ones are shown. Real ones depend on how "
@@ -36,7 +36,7 @@ std::vector<Doubt> doubt_undetermined_reactions(const TrustedRun& run) {
       "a "
       "shaft, for one, the first as \"spherical\", the second as \"point-on-line\".",
       names, is_one ? "is" : "are");
-  return {doubt};
+  return {finding};
 }
 
 }  // namespace pleuel

@@ -1,7 +1,7 @@
 #include "core/trust/variant_basis.hpp"
 
 #include "core/base/error.hpp"
-#include "core/trust/nested_runs.hpp"
+#include "core/trust/refined_runs.hpp"
 
 namespace pleuel {
 

@@ -9,7 +9,7 @@
 #include "core/base/error.hpp"
 #include "core/response/monitors.hpp"
 #include "core/scene/load_cases.hpp"
-#include "core/trust/case_doubts.hpp"
+#include "core/trust/case_findings.hpp"
 
 namespace pleuel {
 
@@ -83,7 +83,7 @@ std::optional<ErrorBar> error_of_sum(const ProblemFile& joined, const Trust& tru
 Trust judge_cases(DesignProblem& design, const Eigen::VectorXd& x, Scrutiny scrutiny) {
   const ProblemFile& file = design.file();
   if (!file.has_cases()) return trust_of(design.load_case(0), x, scrutiny);
-  std::vector<std::vector<Doubt>> doubts;
+  std::vector<std::vector<Finding>> findings;
   Trust all;
   all.errors.resize(file.responses.size());
   all.evidence.resize(file.responses.size());
@@ -91,7 +91,7 @@ Trust judge_cases(DesignProblem& design, const Eigen::VectorXd& x, Scrutiny scru
   bool has_errors = false, has_bands = false;
   for (std::size_t c = 0; c < design.case_count(); ++c) {
     Trust one = trust_of(design.load_case(c), x, scrutiny);
-    doubts.push_back(std::move(one.doubts));
+    findings.push_back(std::move(one.findings));
     if (all.failed_run.empty()) all.failed_run = std::move(one.failed_run);
     for (std::size_t i = 0; i < file.responses.size(); ++i) {
       if (is_over_cases(file, i) || file.case_responses[i].load_case != c) continue;
@@ -109,7 +109,7 @@ Trust judge_cases(DesignProblem& design, const Eigen::VectorXd& x, Scrutiny scru
   }
   if (has_errors) add_errors_over_cases(design, x, all);
   if (!has_bands) all.bands.clear();
-  all.doubts = joined_doubts(file, doubts);
+  all.findings = joined_findings(file, findings);
   return all;
 }
 

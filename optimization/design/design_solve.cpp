@@ -12,7 +12,7 @@
 #include "core/response/describe_tie.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/response_parts.hpp"
-#include "core/trust/nested_runs.hpp"
+#include "core/trust/refined_runs.hpp"
 #include "optimization/broken_limits.hpp"
 #include "optimization/design/linear_limits.hpp"
 #include "optimization/design/margin_problem.hpp"

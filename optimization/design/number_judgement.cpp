@@ -9,10 +9,10 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/trust/asked_responses.hpp"
-#include "core/trust/doubts.hpp"
+#include "core/trust/checks.hpp"
 #include "core/trust/ranking.hpp"
 #include "optimization/design/case_trust.hpp"
-#include "optimization/design/margin_doubts.hpp"
+#include "optimization/design/margin_check.hpp"
 #include "optimization/design/optimum_error.hpp"
 #include "optimization/scaling.hpp"
 
@@ -31,20 +31,20 @@ Eigen::VectorXd objectives_in_cases(DesignProblem& design, const Eigen::VectorXd
   return values;
 }
 
-/// The first serious doubt about what is minimized, limited or asked for; those about other responses do
+/// The first serious finding about what is minimized, limited or asked for; those about other responses do
 /// not touch an optimum. Of files with cases all count.
-const Doubt* find_serious(const std::vector<Doubt>& doubts, const ProblemFile& file) {
+const Finding* find_serious(const std::vector<Finding>& findings, const ProblemFile& file) {
   std::set<std::string> asked;
   for (const std::size_t i : asked_responses(file)) asked.insert(file.responses[i].name);
   for (const std::size_t i : asked_parts(file)) asked.insert(file.responses[i].name);
-  const auto counts = [&](const Doubt& doubt) {
-    return doubt.is_serious &&
-           (file.has_cases() || doubt.responses.empty() ||
-            std::any_of(doubt.responses.begin(), doubt.responses.end(),
+  const auto counts = [&](const Finding& finding) {
+    return finding.is_serious &&
+           (file.has_cases() || finding.responses.empty() ||
+            std::any_of(finding.responses.begin(), finding.responses.end(),
                         [&](const std::string& name) { return asked.contains(name); }));
   };
-  const auto found = std::find_if(doubts.begin(), doubts.end(), counts);
-  return found == doubts.end() ? nullptr : &*found;
+  const auto found = std::find_if(findings.begin(), findings.end(), counts);
+  return found == findings.end() ? nullptr : &*found;
 }
 
 /// How near to an answer its gradients and margins are differences.
@@ -70,17 +70,17 @@ void judge_numbers(DesignProblem& design, Scrutiny scrutiny, Result& result) {
   confirm_answer(design, result);
   result.case_objectives = objectives_in_cases(design, result.x);
   Trust trust = judge_cases(design, result.x, scrutiny);
-  for (Doubt doubt : doubt_margins(design, result.x)) {
-    doubt.cause = Cause::limit;
-    trust.doubts.push_back(std::move(doubt));
+  for (Finding finding : check_margins(design, result.x)) {
+    finding.cause = Cause::limit;
+    trust.findings.push_back(std::move(finding));
   }
-  rank_doubts(trust.doubts);
-  result.warnings = texts_of(trust.doubts);
-  result.consequences = count_consequences(trust.doubts);
+  rank_findings(trust.findings);
+  result.warnings = texts_of(trust.findings);
+  result.consequences = count_consequences(trust.findings);
   result.error = optimum_error(design, result, trust);
   if (result.status == Status::verified) {
     const std::string inaccurate = inaccuracy(design, result, trust);
-    if (const Doubt* serious = find_serious(trust.doubts, design.file())) {
+    if (const Finding* serious = find_serious(trust.findings, design.file())) {
       result.status = Status::unresolved;
       result.message = "optimal by its numbers, but these are not to be trusted: " + serious->text;
     } else if (!inaccurate.empty()) {

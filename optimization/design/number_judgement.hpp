@@ -6,7 +6,7 @@
 
 namespace pleuel {
 
-/// Doubts about the numbers of the last design, and their errors: no optimum that rests on numbers
+/// Findings about the numbers of the last design, and their errors: no optimum that rests on numbers
 /// which are not to be trusted, or not known as well as the file asks for, is verified.
 /// @param result  gets warnings, errors, bands and the objectives of all cases; its status may change
 void judge_numbers(DesignProblem& design, Scrutiny scrutiny, Result& result);

@@ -48,7 +48,7 @@ std::string complaint(const ProblemFile& file, const std::string& what, const Er
   const bool is_asked = file.accuracy.chooses_setting;
   const double target = is_asked ? file.accuracy.target : most_unasked_error;
   const double share = relative_error(bar, size);
-  if (!bar.is_modelled) return "";  // it is a doubt that forbids more
+  if (!bar.is_modelled) return "";  // it is a finding that forbids more
   if (bar.is_resolved() && share <= target) return "";
   const std::string amount =
       bar.is_resolved() ? fmt::format("is known to ± {} % only", significant(100.0 * share, 2))

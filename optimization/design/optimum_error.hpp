@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/base/error_bar.hpp"
-#include "core/trust/doubts.hpp"
+#include "core/trust/checks.hpp"
 #include "optimization/design/design_problem.hpp"
 #include "optimization/solve.hpp"
 

@@ -20,15 +20,15 @@ class Instability : public HardCase {
   static double growth_of(const Analysis& analysis, double time) {
     return std::log(value_of(analysis, "late") / value_of(analysis, "early")) / time;
   }
-  static std::vector<Doubt> doubts_of(const ProblemFile& problem, const Analysis& analysis) {
+  static std::vector<Finding> findings_of(const ProblemFile& problem, const Analysis& analysis) {
     const Eigen::VectorXd x = start_design(problem);
-    return doubt_stability({problem, x, analysis, monitor(analysis.model, analysis.trajectory)});
+    return check_stability({problem, x, analysis, monitor(analysis.model, analysis.trajectory)});
   }
   void expect_veto(const ProblemFile& problem, const Analysis& analysis, const char* how) {
-    const std::vector<Doubt> doubts = doubts_of(problem, analysis);
-    ASSERT_EQ(doubts.size(), 1u);
-    EXPECT_TRUE(doubts[0].is_serious) << doubts[0].text;
-    EXPECT_NE(doubts[0].text.find(how), std::string::npos) << doubts[0].text;
+    const std::vector<Finding> findings = findings_of(problem, analysis);
+    ASSERT_EQ(findings.size(), 1u);
+    EXPECT_TRUE(findings[0].is_serious) << findings[0].text;
+    EXPECT_NE(findings[0].text.find(how), std::string::npos) << findings[0].text;
   }
 };
 PLEUEL_WITH_EACH_FORMULATION(Instability);
@@ -46,7 +46,7 @@ TEST_P(Instability, OfAStrutInParametricResonanceGrowsAsMathieuSays) {
   expect_veto(strut, *analysis, "\"strut\"");
   const ProblemFile beside =
       problem("parametric_strut", {"/scene/loads/press/value/frequency=\"= 2.6*omega\""});
-  EXPECT_TRUE(doubts_of(beside, *run(beside)).empty());
+  EXPECT_TRUE(findings_of(beside, *run(beside)).empty());
 }
 
 /// z̈ + βω² (ż − iΩ z) + ω² z = 0 of the deflection z = y + iz, seen from beside the shaft, whose damping turns
@@ -61,7 +61,7 @@ TEST_P(Instability, OfAShaftBeyondItsCriticalSpeedIsFedByItsOwnDamping) {
               1.0, 0.01);
   expect_veto(shaft, *analysis, "whirls");
   const ProblemFile slow = problem("whirling_shaft", {"/constants/ratio=0.9"});
-  EXPECT_TRUE(doubts_of(slow, *run(slow)).empty());
+  EXPECT_TRUE(findings_of(slow, *run(slow)).empty());
 }
 
 /// As fast as the eigenvalue of the column under the same load says (tests/sensitivity/damped_mode_test.cpp
@@ -78,7 +78,7 @@ TEST_P(Instability, OfBecksColumnComesWithItsLoad) {
   EXPECT_NEAR(growth_of(*analysis, 1.0) / value_of(*run(loaded), "rate"), 1.0, 0.02);
   expect_veto(column, *analysis, "flutter");
   const ProblemFile less = problem("late_flutter", {"/constants/p=10"});
-  EXPECT_TRUE(doubts_of(less, *run(less)).empty());
+  EXPECT_TRUE(findings_of(less, *run(less)).empty());
 }
 
 /// F(h) = 2 EA (L₀ − L)/L₀ h/L, L² = b² + h², largest where L³ = L₀ b². 1e-3: the bars shorten by 0.2 %.

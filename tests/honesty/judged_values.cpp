@@ -8,7 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/response/analysis.hpp"
 #include "core/response/monitors.hpp"
-#include "core/trust/nested_runs.hpp"
+#include "core/trust/refined_runs.hpp"
 #include "core/trust/resolution.hpp"
 
 namespace pleuel::test {
@@ -20,14 +20,14 @@ constexpr double round_off = 1e-9;
 constexpr double fine_step = 0.125, fine_elements = 4.0;
 constexpr int more_modes = 2;
 
-NestedRun fine_run(const JudgedScene& scene, const Refinement& refinement) {
-  return make_nested_run(scene.file, scene.x, refinement);
+RefinedRun fine_run(const JudgedScene& scene, const Refinement& refinement) {
+  return make_refined_run(scene.file, scene.x, refinement);
 }
 
 /// The reference, a coarser one, and one a number of elements with fine steps only.
 struct References {
-  NestedRun finest, coarser;
-  std::map<double, NestedRun> in_time;
+  RefinedRun finest, coarser;
+  std::map<double, RefinedRun> in_time;
 
   explicit References(const JudgedScene& scene)
       : finest(fine_run(scene, {fine_step, fine_elements, more_modes})),
@@ -50,7 +50,7 @@ void judge(const JudgedScene& scene, const Coarseness& coarseness, const Referen
            std::vector<JudgedValue>& judged) {
   const ProblemFile file = refined(scene.file, {coarseness.step, coarseness.elements});
   const std::unique_ptr<Analysis> analysis = analyze(file, scene.x);
-  const NestedRun& in_time = references.in_time.at(coarseness.elements);
+  const RefinedRun& in_time = references.in_time.at(coarseness.elements);
   if (in_time.has_failed()) return;
   const Monitors monitors = monitor(analysis->model, analysis->trajectory);
   const Resolution found = judge_resolution({file, scene.x, *analysis, monitors});

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/trust/nested_runs.hpp"
+#include "core/trust/refined_runs.hpp"
 #include "optimization/design/design_solve.hpp"
 #include "tests/honesty/coarseness.hpp"
 #include "tests/honesty/shipped_problems.hpp"

@@ -3,18 +3,18 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/response/monitors.hpp"
-#include "core/trust/doubts.hpp"
+#include "core/trust/checks.hpp"
 #include "core/trust/fast_laws.hpp"
 #include "tests/laws/law_problems.hpp"
 
 namespace pleuel::test::fast_law_test {
 namespace {
 
-std::vector<Doubt> doubts_about(const ProblemFile& problem) {
+std::vector<Finding> findings_about(const ProblemFile& problem) {
   const Eigen::VectorXd x = start_design(problem);
   const auto analysis = analyze(problem, x);
   const Monitors monitors = monitor(analysis->model, analysis->trajectory);
-  return doubt_fast_laws(TrustedRun{problem, x, *analysis, monitors});
+  return check_fast_laws(TrustedRun{problem, x, *analysis, monitors});
 }
 
 std::string harmonic(double steps_a_period) {
@@ -24,12 +24,12 @@ std::string harmonic(double steps_a_period) {
 
 /// A share of 1 − cos(π/n) of its amplitude is missed between two of n steps a period.
 TEST(FastLoad, IsDoubtedFromTwentyTwoStepsAPeriodOn) {
-  EXPECT_TRUE(doubts_about(pushed_block(harmonic(23))).empty());
+  EXPECT_TRUE(findings_about(pushed_block(harmonic(23))).empty());
   for (const double steps : {21.0, 10.0, 2.0, 1.0, 0.5, 0.25, 0.1}) {
-    const std::vector<Doubt> doubts = doubts_about(pushed_block(harmonic(steps)));
-    ASSERT_EQ(doubts.size(), 2U) << steps;
-    EXPECT_TRUE(doubts[0].is_serious);
-    EXPECT_THAT(doubts[0].text, testing::HasSubstr("the load \"push\""));
+    const std::vector<Finding> findings = findings_about(pushed_block(harmonic(steps)));
+    ASSERT_EQ(findings.size(), 2U) << steps;
+    EXPECT_TRUE(findings[0].is_serious);
+    EXPECT_THAT(findings[0].text, testing::HasSubstr("the load \"push\""));
   }
 }
 
@@ -39,11 +39,11 @@ TEST(FastLoad, IsDoubtedWhereATableIsFinerThanTheSteps) {
     return R"({"type": "table", "times": [)" + at(0) + "," + at(1) + "," + at(2) +
            R"(], "values": [0, 1, 0]})";
   };
-  EXPECT_TRUE(doubts_about(pushed_block(pulse(5e-3))).empty());
+  EXPECT_TRUE(findings_about(pushed_block(pulse(5e-3))).empty());
   for (const double width : {3e-4, 3e-6, 3e-9}) {
-    const std::vector<Doubt> doubts = doubts_about(pushed_block(pulse(width)));
-    ASSERT_EQ(doubts.size(), 2U) << width;
-    EXPECT_EQ(doubts[0].text.find("e+"), std::string::npos) << doubts[0].text;
+    const std::vector<Finding> findings = findings_about(pushed_block(pulse(width)));
+    ASSERT_EQ(findings.size(), 2U) << width;
+    EXPECT_EQ(findings[0].text.find("e+"), std::string::npos) << findings[0].text;
   }
 }
 
@@ -56,22 +56,22 @@ TEST(FastLoad, IsDoubtedOfTheTargetOfAMotor) {
             "hold": "0.1 ms", "begin": "50.3 ms"}}, "proportional": 100, "derivative": 10}}}})",
                           rise)});
   };
-  const std::vector<Doubt> doubts = doubts_about(followed(0.2));
-  ASSERT_EQ(doubts.size(), 1U);
-  EXPECT_TRUE(doubts[0].is_serious);
-  EXPECT_THAT(doubts[0].text, testing::HasSubstr("the motor of the load \"push\""));
-  EXPECT_THAT(doubts[0].text, testing::HasSubstr("its target is"));
-  EXPECT_TRUE(doubts_about(followed(20)).empty());
+  const std::vector<Finding> findings = findings_about(followed(0.2));
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_TRUE(findings[0].is_serious);
+  EXPECT_THAT(findings[0].text, testing::HasSubstr("the motor of the load \"push\""));
+  EXPECT_THAT(findings[0].text, testing::HasSubstr("its target is"));
+  EXPECT_TRUE(findings_about(followed(20)).empty());
 }
 
 TEST(FastLoad, IsKnownBeforeTheSimulation) {
-  EXPECT_TRUE(doubt_fast_laws_before(pushed_block(harmonic(23))).empty());
+  EXPECT_TRUE(check_fast_laws_before(pushed_block(harmonic(23))).empty());
   const ProblemFile fast = pushed_block(harmonic(10));
-  EXPECT_EQ(texts_of(doubt_fast_laws_before(fast)), texts_of(doubts_about(fast)));
+  EXPECT_EQ(texts_of(check_fast_laws_before(fast)), texts_of(findings_about(fast)));
 }
 
 TEST(FastLoad, IsNotDoubtedWhereItJumpsOnAnInstant) {
-  EXPECT_TRUE(doubts_about(pushed_block(R"({"type": "table", "times": [0, 0.0313],
+  EXPECT_TRUE(findings_about(pushed_block(R"({"type": "table", "times": [0, 0.0313],
                                             "values": [0, 6], "interpolation": "step"})"))
                   .empty());
 }
@@ -91,12 +91,12 @@ ProblemFile driven_disc(const std::string& drive) {
 
 /// 32 steps a revolution of 1 ms each are 196 rad/s; 1 − cos(π/32) is 0.5 %.
 TEST(FastDrive, IsDoubtedBelowThirtyTwoStepsARevolution) {
-  EXPECT_TRUE(doubts_about(driven_disc(R"({"type": "constant-speed", "speed": 190})")).empty());
+  EXPECT_TRUE(findings_about(driven_disc(R"({"type": "constant-speed", "speed": 190})")).empty());
   for (const char* speed : {"205", "3000", "6283.185"}) {
-    const std::vector<Doubt> doubts = doubts_about(
+    const std::vector<Finding> findings = findings_about(
         driven_disc(std::string(R"({"type": "constant-speed", "speed": )") + speed + "}"));
-    ASSERT_EQ(doubts.size(), 1U) << speed;
-    EXPECT_THAT(doubts[0].text, testing::HasSubstr("the drive of the joint \"bearing\""));
+    ASSERT_EQ(findings.size(), 1U) << speed;
+    EXPECT_THAT(findings[0].text, testing::HasSubstr("the drive of the joint \"bearing\""));
   }
 }
 
@@ -105,9 +105,9 @@ TEST(FastDrive, IsDoubtedWhereItsRampIsAFewSteps) {
     return driven_disc(std::string(R"({"type": "ramp-to-speed", "speed": 10, "ramp": )") + time +
                        "}");
   };
-  EXPECT_TRUE(doubts_about(ramp("0.03")).empty());
-  EXPECT_EQ(doubts_about(ramp("0.008")).size(), 1U);
-  EXPECT_EQ(doubts_about(ramp("0.0005")).size(), 1U);
+  EXPECT_TRUE(findings_about(ramp("0.03")).empty());
+  EXPECT_EQ(findings_about(ramp("0.008")).size(), 1U);
+  EXPECT_EQ(findings_about(ramp("0.0005")).size(), 1U);
 }
 
 TEST(DriveOfStraightLines, IsDoubtedWhereItsSpeedJumps) {
@@ -116,11 +116,11 @@ TEST(DriveOfStraightLines, IsDoubtedWhereItsSpeedJumps) {
                                        "interpolation": "linear", "values": )") +
                        values + "}");
   };
-  EXPECT_TRUE(doubts_about(lines("[0, 0.1, 0.2]")).empty());
-  const std::vector<Doubt> doubts = doubts_about(lines("[0, 0.1, 0.1]"));
-  ASSERT_EQ(doubts.size(), 1U);
-  EXPECT_TRUE(doubts[0].is_serious);
-  EXPECT_THAT(doubts[0].text, testing::HasSubstr("its speed jumps at t = 0.05 s"));
+  EXPECT_TRUE(findings_about(lines("[0, 0.1, 0.2]")).empty());
+  const std::vector<Finding> findings = findings_about(lines("[0, 0.1, 0.1]"));
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_TRUE(findings[0].is_serious);
+  EXPECT_THAT(findings[0].text, testing::HasSubstr("its speed jumps at t = 0.05 s"));
 }
 
 }  // namespace

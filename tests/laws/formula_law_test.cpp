@@ -138,14 +138,14 @@ TEST(FormulaWithKinks, HasInstantsThere) {
 }
 
 TEST(FormulaWithKinks, IsDoubtedAsADriveWhoseSpeedJumps) {
-  const std::vector<Doubt> doubts =
-      doubt_fast_laws_before(disc_driven_by("= abs(2 rad/s*t - 0.5 rad)"));
-  ASSERT_EQ(doubts.size(), 1U);
-  EXPECT_TRUE(doubts[0].is_serious);
-  EXPECT_THAT(doubts[0].text, testing::HasSubstr("its speed jumps at t = 0.25 s"));
-  EXPECT_TRUE(doubt_fast_laws_before(disc_driven_by("= 2 rad/s*t + 0.5 rad")).empty());
+  const std::vector<Finding> findings =
+      check_fast_laws_before(disc_driven_by("= abs(2 rad/s*t - 0.5 rad)"));
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_TRUE(findings[0].is_serious);
+  EXPECT_THAT(findings[0].text, testing::HasSubstr("its speed jumps at t = 0.25 s"));
+  EXPECT_TRUE(check_fast_laws_before(disc_driven_by("= 2 rad/s*t + 0.5 rad")).empty());
   // A kink of a formula whose speed and acceleration go on.
-  EXPECT_TRUE(doubt_fast_laws_before(disc_driven_by("= 1 rad*max(0, t/(1 s) - 0.0333)^3")).empty());
+  EXPECT_TRUE(check_fast_laws_before(disc_driven_by("= 1 rad*max(0, t/(1 s) - 0.0333)^3")).empty());
 }
 
 TEST(FormulaOfTime, IsAnsweredWithItsColumn) {

@@ -67,7 +67,7 @@ TEST(Jerk, AtACornerOfADriveIsToldWhereItRings) {
   const auto analysis = analyze(ringing, x);
   EXPECT_GT(analysis->reductions[0].value, 1.2 * 120.0);
   const Monitors monitors = monitor(analysis->model, analysis->trajectory);
-  const std::vector<Doubt> found = doubt_jerks_at_corners({ringing, x, *analysis, monitors});
+  const std::vector<Finding> found = check_jerks_at_corners({ringing, x, *analysis, monitors});
   ASSERT_EQ(found.size(), 1u);
   EXPECT_TRUE(found[0].is_serious);
   EXPECT_THAT(found[0].text, HasSubstr("the peak of the jerk \"jerk\" is at a corner"));
@@ -78,16 +78,16 @@ TEST(Jerk, AtACornerOfADriveIsToldWhereItRings) {
       cubic_motion({corner, R"(/responses/twice={"type": "expression", "value": "= 2 * jerk"})",
                     R"(/objective={"minimize": "twice"})"});
   const auto doubled = analyze(formula, x);
-  EXPECT_EQ(doubt_jerks_at_corners({formula, x, *doubled, monitors}).size(), 1u);
+  EXPECT_EQ(check_jerks_at_corners({formula, x, *doubled, monitors}).size(), 1u);
 
   const ProblemFile calm = cubic_motion({corner, "/simulation/formulation=index-1"});
   const auto right = analyze(calm, x);
   EXPECT_NEAR(right->reductions[0].value, 120.0, 1e-6);
-  EXPECT_TRUE(doubt_jerks_at_corners({calm, x, *right, monitors}).empty());
+  EXPECT_TRUE(check_jerks_at_corners({calm, x, *right, monitors}).empty());
 
   const ProblemFile smooth = cubic_motion();
   const auto all = analyze(smooth, x);
-  EXPECT_TRUE(doubt_jerks_at_corners({smooth, x, *all, monitors}).empty());
+  EXPECT_TRUE(check_jerks_at_corners({smooth, x, *all, monitors}).empty());
 }
 
 TEST(Jerk, HasNoMagnitudeOfItsOwn) {

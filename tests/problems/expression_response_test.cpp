@@ -8,7 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/response/linearized_expression.hpp"
 #include "core/scene/problem_reader.hpp"
-#include "core/trust/doubts.hpp"
+#include "core/trust/checks.hpp"
 #include "optimization/design/design_solve.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/support/problem_runs.hpp"

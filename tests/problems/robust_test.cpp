@@ -5,7 +5,7 @@
 #include "core/scene/problem_reader.hpp"
 #include "optimization/design/design_problem.hpp"
 #include "optimization/design/design_solve.hpp"
-#include "optimization/design/margin_doubts.hpp"
+#include "optimization/design/margin_check.hpp"
 #include "studies/uncertainty.hpp"
 #include "tests/support/source_folder.hpp"
 
@@ -121,7 +121,7 @@ TEST(RobustConstraints, AreNotVerifiedWhereFirstOrderMissesThem) {
 /// frequencies that coincide is that of their mean, which falls by c σ/√2: three deviations of this are
 /// 2.1 of the other. A bar that is 1 mm higher has no such frequencies.
 TEST(RobustConstraints, TellMarginsOfFrequenciesThatCoincide) {
-  const auto doubts_of = [](double higher) {
+  const auto findings_of = [](double higher) {
     const ProblemFile problem =
         read_problem_text(
             fmt::format(R"j({{"scene": {{"bodies": {{"b": {{"type": "beam", "from": [0, 0, 0],
@@ -142,13 +142,14 @@ TEST(RobustConstraints, TellMarginsOfFrequenciesThatCoincide) {
             "bar.json")
             .complete();
     DesignProblem design(problem);
-    return doubt_margins(design, start_design(problem));
+    return check_margins(design, start_design(problem));
   };
-  const std::vector<Doubt> doubts = doubts_of(0.0);
-  ASSERT_EQ(doubts.size(), 1);
-  EXPECT_NE(doubts[0].text.find("to one side only"), std::string::npos) << doubts[0].text;
-  EXPECT_NE(doubts[0].text.find("ask for 4.24 deviations"), std::string::npos) << doubts[0].text;
-  EXPECT_TRUE(doubts_of(1.0).empty());
+  const std::vector<Finding> findings = findings_of(0.0);
+  ASSERT_EQ(findings.size(), 1);
+  EXPECT_NE(findings[0].text.find("to one side only"), std::string::npos) << findings[0].text;
+  EXPECT_NE(findings[0].text.find("ask for 4.24 deviations"), std::string::npos)
+      << findings[0].text;
+  EXPECT_TRUE(findings_of(1.0).empty());
 }
 
 TEST(RobustConstraints, CostMassThatPlainLimitsDoNot) {

@@ -10,8 +10,8 @@
 #include "core/base/parallel.hpp"
 #include "core/base/relative_error.hpp"
 #include "core/response/monitors.hpp"
-#include "core/trust/doubts.hpp"
-#include "core/trust/nested_runs.hpp"
+#include "core/trust/checks.hpp"
+#include "core/trust/refined_runs.hpp"
 #include "core/trust/resolution.hpp"
 #include "tests/random/seeds.hpp"
 #include "tests/random/simulated_scene.hpp"
@@ -67,9 +67,9 @@ struct Judged {
   std::vector<std::string> missed;  ///< sentences
 };
 
-bool is_named(const std::vector<Doubt>& doubts, const std::string& response) {
-  return std::any_of(doubts.begin(), doubts.end(), [&](const Doubt& doubt) {
-    return doubt.text.find("\"" + response + "\"") != std::string::npos;
+bool is_named(const std::vector<Finding>& findings, const std::string& response) {
+  return std::any_of(findings.begin(), findings.end(), [&](const Finding& finding) {
+    return finding.text.find("\"" + response + "\"") != std::string::npos;
   });
 }
 
@@ -85,14 +85,14 @@ Judged judge(unsigned seed, const SimulatedScene& scene) {
   const Eigen::VectorXd x = start_design(scene.problem), values = values_of(*scene.analysis);
   const Monitors monitors = monitor(scene.analysis->model, scene.analysis->trajectory);
   const TrustedRun run{scene.problem, x, *scene.analysis, monitors};
-  const std::vector<Doubt> doubts = doubt_resolution(run, judge_resolution(run));
-  if (!doubts.empty()) judged.warning = fmt::format("seed {}: {}", seed, doubts.front().text);
+  const std::vector<Finding> findings = check_resolution(run, judge_resolution(run));
+  if (!findings.empty()) judged.warning = fmt::format("seed {}: {}", seed, findings.front().text);
   std::vector<Refinement> refinements = {{0.25, 1.0}, {1.0, 4.0}};
   if (has_reduced_beams(scene.analysis->model, scene.problem)) {
     refinements.push_back({1.0, 1.0, 2});
   }
   for (const Refinement& refinement : refinements) {
-    const NestedRun fine = make_nested_run(scene.problem, x, refinement);
+    const RefinedRun fine = make_refined_run(scene.problem, x, refinement);
     judged.is_converged = judged.is_converged && !fine.has_failed();
     if (fine.has_failed()) continue;
     for (Eigen::Index i = 0; i < values.size(); ++i) {
@@ -102,7 +102,7 @@ Judged judge(unsigned seed, const SimulatedScene& scene) {
       const double change = value_error(values(i), fine.values(i), size);
       const std::string& name = scene.problem.responses[index].name;
       if (change > 0.01) judged.is_converged = false;
-      if (change <= 0.1 || is_named(doubts, name)) continue;
+      if (change <= 0.1 || is_named(findings, name)) continue;
       judged.missed.push_back(fmt::format("seed {}: \"{}\" changes by {:.0f} % with {}", seed, name,
                                           100 * change, what_changes(refinement)));
     }

@@ -207,13 +207,13 @@ TEST(Reduction, OfMillimetresAndTonnesIsTheSame) {
   expect_same(a.stress->of_coordinates, b.stress->of_coordinates);
   EXPECT_NEAR(a.stretching->elements[1].axial_stiffness / b.stretching->elements[1].axial_stiffness,
               1.0, 1e-8);
-  EXPECT_THAT(mm.doubts, testing::IsEmpty());
+  EXPECT_THAT(mm.findings, testing::IsEmpty());
 }
 
 TEST(Reduction, SaysWhichUnitsWereUnderstoodWhereNoMaterialHasThem) {
   const ReducedBody body = reduced(Block(), "rigid", ", \"modes\": 0", {"m-kg-s", 1e-3, 1e3, 1.0});
-  EXPECT_THAT(body.doubts, testing::Contains(testing::AllOf(testing::HasSubstr("kg/m³"),
-                                                            testing::HasSubstr("units"))));
+  EXPECT_THAT(body.findings, testing::Contains(testing::AllOf(testing::HasSubstr("kg/m³"),
+                                                              testing::HasSubstr("units"))));
 }
 
 /// The largest bending stress M c/I under a force on the far end, at nodes on the top in the middle.

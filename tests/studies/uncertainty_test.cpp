@@ -65,18 +65,18 @@ TEST(Uncertainty, SaysWhereFirstOrderIsNotEnough) {
           "sag": {"type": "deflection", "body": "b", "at": 1, "over_time": "max"}}})",
                                   "h.json")
                                   .complete();
-  const auto doubts = [](const ProblemFile& of) {
+  const auto findings = [](const ProblemFile& of) {
     std::vector<std::string> texts;
-    for (const Doubt& doubt : uncertainty_study(of, {.tasks = {.jobs = 2}}).doubts)
-      texts.push_back(doubt.text);
+    for (const Finding& finding : uncertainty_study(of, {.tasks = {.jobs = 2}}).findings)
+      texts.push_back(finding.text);
     return texts;
   };
-  const std::vector<std::string> found = doubts(problem);
+  const std::vector<std::string> found = findings(problem);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].find("\"sag\" is not linear"), 0u);
   ProblemFile narrow = problem;
   narrow.uncertainty->parameters[0].deviation = 2e-4;
-  EXPECT_TRUE(doubts(narrow).empty());
+  EXPECT_TRUE(findings(narrow).empty());
 }
 
 /// A force F sin φ with φ within ± 1.5 rad: its deviation is F √(½ − sin(2a)/(4a)) = 0.690 F, and
@@ -100,10 +100,10 @@ TEST(Uncertainty, SaysWhereSamplesScatterLessThanFirstOrder) {
   const UncertainResponse& sag = study.responses[0];
   const double ratio = std::sqrt(0.5 - std::sin(3.0) / 6.0) / (1.5 / std::sqrt(3.0));
   EXPECT_NEAR(sag.sampled->deviation / sag.deviation, ratio, 0.05);  // of 500 samples
-  const auto is_that = [](const Doubt& doubt) {
-    return doubt.text.starts_with("\"sag\" is not linear");
+  const auto is_that = [](const Finding& finding) {
+    return finding.text.starts_with("\"sag\" is not linear");
   };
-  EXPECT_EQ(std::count_if(study.doubts.begin(), study.doubts.end(), is_that), 1);
+  EXPECT_EQ(std::count_if(study.findings.begin(), study.findings.end(), is_that), 1);
 }
 
 /// Monte Carlo knows no derivative. N samples know a deviation to 1/√(2 (N − 1)) and a mean to

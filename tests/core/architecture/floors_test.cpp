@@ -280,18 +280,18 @@ TEST(Rooms, OfTheCommandKnowOnlyThoseBefore) {
   }
 }
 
-/// A doubt that nobody asks for is never told, whatever its own tests say.
-TEST(Doubts, AreAllAskedFor) {
-  static const std::regex name("doubt_[a-z_]+");
+/// A finding that nobody asks for is never told, whatever its own tests say.
+TEST(Checks, AreAllAskedFor) {
+  static const std::regex name("check_[a-z_]+");
   Names declared, used;
   for (const auto& [file, line] : read_lines()) {
     if (!file.starts_with("core/trust/")) continue;
     std::smatch found;
     if (!std::regex_search(line, found, name)) continue;
-    if (file.ends_with(".hpp") && line.starts_with("std::vector<Doubt> ")) {
+    if (file.ends_with(".hpp") && line.starts_with("std::vector<Finding> ")) {
       declared.insert(found.str());
     }
-    if (!file.ends_with(".cpp") || line.starts_with("std::vector<Doubt> doubt_")) continue;
+    if (!file.ends_with(".cpp") || line.starts_with("std::vector<Finding> check_")) continue;
     for (std::sregex_iterator at(line.begin(), line.end(), name), end; at != end; ++at) {
       used.insert(at->str());
     }

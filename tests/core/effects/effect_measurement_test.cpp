@@ -13,7 +13,7 @@
 #include "core/model/effect_estimates.hpp"
 #include "core/response/effect_influence.hpp"
 #include "core/scene/problem_reader.hpp"
-#include "core/trust/left_out_effects.hpp"
+#include "core/trust/neglected_effects.hpp"
 #include "tests/support/problem_runs.hpp"
 
 namespace pleuel::test::effect_measurement_test {
@@ -122,20 +122,20 @@ TEST(MeasuredEffects, AreMeasuredAgainAtOtherDesigns) {
            {R"(/scene/loads/w/value={"variable": "force"})",
             R"(/variables={"force": {"start": "1e-6 N", "lower": "1e-7 N", "upper": "500 N"}})"});
   decide_effects(problem);
-  const auto doubts_at = [&](double force) {
+  const auto findings_at = [&](double force) {
     Eigen::VectorXd x(1);
     x << force;
     const auto analysis = analyze(problem, x);
     const Monitors monitors = monitor(analysis->model, analysis->trajectory);
     const TrustedRun run{problem, x, *analysis, monitors};
-    return doubt_left_out_effects(run, simulate_completely(run).value());
+    return check_neglected_effects(run, simulate_completely(run).value());
   };
-  EXPECT_THAT(doubts_at(1e-6), testing::IsEmpty());
-  EXPECT_THAT(doubts_at(2e-6), testing::IsEmpty());
-  const std::vector<Doubt> doubts = doubts_at(20.0);
-  ASSERT_THAT(doubts, testing::SizeIs(1));
-  EXPECT_TRUE(doubts[0].is_serious);
-  EXPECT_THAT(doubts[0].text, HasSubstr("left out at the start design"));
+  EXPECT_THAT(findings_at(1e-6), testing::IsEmpty());
+  EXPECT_THAT(findings_at(2e-6), testing::IsEmpty());
+  const std::vector<Finding> findings = findings_at(20.0);
+  ASSERT_THAT(findings, testing::SizeIs(1));
+  EXPECT_TRUE(findings[0].is_serious);
+  EXPECT_THAT(findings[0].text, HasSubstr("left out at the start design"));
 }
 
 /// y = −(bending + twist): without torsion the twist is missing, whether the file has it or not.

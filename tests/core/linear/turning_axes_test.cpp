@@ -9,7 +9,7 @@
 #include "core/scene/problem_reader.hpp"
 #include "core/trust/frequency_meaning.hpp"
 #include "core/trust/stability.hpp"
-#include "tests/core/trust/doubts_of.hpp"
+#include "tests/core/trust/findings_of.hpp"
 
 namespace pleuel::test::turning_axes_test {
 namespace {
@@ -62,14 +62,14 @@ TEST(TurningAxes, LeaveTheFrequenciesOfAMechanismAtRest) {
 }
 
 TEST(Frequencies, AreDoubtedWhereTheAxesMatter) {
-  const auto doubts = [](const ProblemFile& problem) {
+  const auto findings = [](const ProblemFile& problem) {
     const Eigen::VectorXd x = start_design(problem);
     const auto analysis = analyze(problem, x);
-    return doubt_frequencies({problem, x, *analysis, Monitors{}});
+    return check_frequencies({problem, x, *analysis, Monitors{}});
   };
-  EXPECT_TRUE(doubts(blade(R"("frame": "tangent")")).empty());
-  EXPECT_TRUE(doubts(blade(R"("frame": "chord")", 0.0)).empty());
-  const std::vector<Doubt> found = doubts(blade(R"("frame": "chord")"));
+  EXPECT_TRUE(findings(blade(R"("frame": "tangent")")).empty());
+  EXPECT_TRUE(findings(blade(R"("frame": "chord")", 0.0)).empty());
+  const std::vector<Finding> found = findings(blade(R"("frame": "chord")"));
   ASSERT_EQ(found.size(), 1u);  // all frequencies in one sentence
   EXPECT_TRUE(found[0].is_serious);
   EXPECT_NE(found[0].text.find("\"flap\" is "), std::string::npos);
@@ -78,7 +78,7 @@ TEST(Frequencies, AreDoubtedWhereTheAxesMatter) {
 
 /// A column under a force that follows its free end flutters from 20.05 EI/L² on (Beck 1952).
 TEST(Frequencies, AreDoubtedWhereAFollowerForceMakesThemGrow) {
-  const auto doubts = [](double load) {
+  const auto findings = [](double load) {
     const double stiffness = 2.1e11 * 0.013 * std::pow(0.01, 3) / 12;
     const ProblemFile problem = read_problem_text(fmt::format(R"({{"scene": {{
           "materials": {{"m": {{"young": 2.1e11, "poisson": 0.3, "density": 7850}}}},
@@ -94,10 +94,10 @@ TEST(Frequencies, AreDoubtedWhereAFollowerForceMakesThemGrow) {
                                     .complete();
     const Eigen::VectorXd x = start_design(problem);
     const auto analysis = analyze(problem, x);
-    return doubt_stability({problem, x, *analysis, Monitors{}});
+    return check_stability({problem, x, *analysis, Monitors{}});
   };
-  EXPECT_TRUE(doubts(20.0).empty());
-  const std::vector<Doubt> found = doubts(20.15);
+  EXPECT_TRUE(findings(20.0).empty());
+  const std::vector<Finding> found = findings(20.15);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NE(found[0].text.find("(flutter)"), std::string::npos) << found[0].text;
 }
@@ -128,12 +128,12 @@ TEST(Frequencies, AreDoubtedWhereTheyDependOnTheBodyFrame) {
   const double divided = fourth(bent(wall, tip, 6));
   EXPECT_NEAR(fourth(bent(wall, tip, 1)), divided, 0.003 * divided);
   EXPECT_NEAR(fourth(bent(tip, wall, 1)), 0.974 * divided, 0.002 * divided);
-  EXPECT_TRUE(doubts_of(bent(wall, tip, 1), doubt_frequencies).empty());
-  EXPECT_TRUE(doubts_of(bent(wall, tip, 6), doubt_frequencies).empty());
-  const std::vector<Doubt> doubts = doubts_of(bent(tip, wall, 1), doubt_frequencies);
-  ASSERT_EQ(doubts.size(), 1);
-  EXPECT_TRUE(doubts[0].is_serious);
-  EXPECT_EQ(doubts[0].responses, std::vector<std::string>{"fourth"});
+  EXPECT_TRUE(findings_of(bent(wall, tip, 1), check_frequencies).empty());
+  EXPECT_TRUE(findings_of(bent(wall, tip, 6), check_frequencies).empty());
+  const std::vector<Finding> findings = findings_of(bent(tip, wall, 1), check_frequencies);
+  ASSERT_EQ(findings.size(), 1);
+  EXPECT_TRUE(findings[0].is_serious);
+  EXPECT_EQ(findings[0].responses, std::vector<std::string>{"fourth"});
 }
 
 }  // namespace

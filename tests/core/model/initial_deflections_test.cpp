@@ -9,7 +9,7 @@
 #include "core/base/error.hpp"
 #include "core/trust/initial_motion.hpp"
 #include "sensitivity/gradients.hpp"
-#include "tests/core/trust/doubts_of.hpp"
+#include "tests/core/trust/findings_of.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/sample_scenes.hpp"
 
@@ -186,7 +186,7 @@ TEST(InitialDeflections, BetweenFixedPinsStretchTheWholeBeam) {
                                      0.5 * young * width * height * length * stretch * stretch),
         1.0, 1e-3)
         << elements;
-    EXPECT_TRUE(test::doubts_of(problem, doubt_initial_motion).empty());
+    EXPECT_TRUE(test::findings_of(problem, check_initial_motion).empty());
   }
 }
 
@@ -205,10 +205,10 @@ TEST(InitialDeflections, AgainstATangentThatTurnsAreTold) {
   ProblemFile problem = released(ReferenceCondition::chord, {along_y(0.5 * length, bow)});
   std::get<BeamBody>(problem.scene.bodies[0].shape).frame = ReferenceCondition::tangent;
   problem.responses = {deflection_at(0.5, OverTime::max)};
-  const std::vector<Doubt> doubts = test::doubts_of(problem, doubt_initial_motion);
-  ASSERT_EQ(doubts.size(), 1U);
-  EXPECT_THAT(doubts[0].text, HasSubstr("\"frame\": \"chord\""));
-  EXPECT_FALSE(doubts[0].is_serious);
+  const std::vector<Finding> findings = test::findings_of(problem, check_initial_motion);
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_THAT(findings[0].text, HasSubstr("\"frame\": \"chord\""));
+  EXPECT_FALSE(findings[0].is_serious);
 }
 
 TEST(InitialDeflections, MustBePossible) {

@@ -10,7 +10,7 @@
 #include "core/scene/problem_reader.hpp"
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/gradients.hpp"
-#include "tests/core/trust/doubts_of.hpp"
+#include "tests/core/trust/findings_of.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/problem_runs.hpp"
 
@@ -18,7 +18,7 @@
 namespace pleuel::test::full_modes_test {
 namespace {
 
-using test::doubts_of;
+using test::findings_of;
 using test::read_scene;
 
 constexpr double young = 2.1e11, poisson = 0.3, density = 7850.0, length = 0.8;
@@ -223,11 +223,11 @@ TEST(FrequencyOfAMechanism, OfAnUnstableModeIsNegativeAndMentioned) {
   const std::string text = pendulum("[0, -9.81, 0]");
   EXPECT_NEAR(values(text)(0), -expected, 1e-8);
   EXPECT_NEAR(values(pendulum("[0, 9.81, 0]"))(0), expected, 1e-8);
-  const std::vector<Doubt> doubts = doubts_of(read_scene(text));
-  ASSERT_EQ(doubts.size(), 1u);
-  EXPECT_NE(doubts[0].text.find("is unstable where it starts"), std::string::npos);
-  EXPECT_EQ(doubts[0].responses, std::vector<std::string>{"f"});
-  EXPECT_TRUE(doubts_of(read_scene(pendulum("[0, 9.81, 0]"))).empty());
+  const std::vector<Finding> findings = findings_of(read_scene(text));
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_NE(findings[0].text.find("is unstable where it starts"), std::string::npos);
+  EXPECT_EQ(findings[0].responses, std::vector<std::string>{"f"});
+  EXPECT_TRUE(findings_of(read_scene(pendulum("[0, 9.81, 0]"))).empty());
 }
 
 /// η = Ω √(ρAL⁴/EI) = 4 lifts the first flap frequency from λ = 3.516 to 5.585 (Wright et al.

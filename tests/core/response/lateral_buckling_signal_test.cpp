@@ -11,7 +11,7 @@
 #include "core/scene/problem_reader.hpp"
 #include "core/trust/sideways_buckling.hpp"
 #include "sensitivity/gradients.hpp"
-#include "tests/core/trust/doubts_of.hpp"
+#include "tests/core/trust/findings_of.hpp"
 #include "tests/support/parameter_name.hpp"
 
 /// A thin bar of 1.2 m, 2 mm × 40 mm, on edge: it bends in the plane x–y.
@@ -303,11 +303,11 @@ TEST(LateralBucklingResponse, OfADividedOrReducedBeamIsThatOfTheWhole) {
 TEST(LateralBucklingResponse, IsWhatTheDoubtTells) {
   const ProblemFile problem = problem_of({clamp, force(0.8 * tip_critical, "[0, -1, 0]")});
   const double share = analyze(problem, start_design(problem))->reductions[0].value;
-  const std::vector<Doubt> doubts = test::doubts_of(problem, doubt_sideways_buckling);
-  ASSERT_EQ(doubts.size(), 1U);
-  EXPECT_NE(doubts[0].text.find(fmt::format("critical load is {:.3g} times", 1.0 / share)),
+  const std::vector<Finding> findings = test::findings_of(problem, check_sideways_buckling);
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_NE(findings[0].text.find(fmt::format("critical load is {:.3g} times", 1.0 / share)),
             std::string::npos)
-      << doubts[0].text;
+      << findings[0].text;
 }
 
 /// A bar that swings under its weight and a force that turns: N and M change in time, in the plane

@@ -6,7 +6,7 @@
 
 #include "core/response/analysis.hpp"
 #include "sensitivity/gradients.hpp"
-#include "tests/core/trust/doubts_of.hpp"
+#include "tests/core/trust/findings_of.hpp"
 #include "tests/support/problem_runs.hpp"
 
 /// Frequencies of mechanisms whose motion begins with undeformed members under loads: those about
@@ -99,15 +99,15 @@ TEST(FrequencyUnderALoad, IsDoubtedWhereThereIsNoEquilibrium) {
       "responses": {{"f": {{"type": "frequency"}}}}}})j",
                                   force));
   };
-  const auto doubts = [](const ProblemFile& problem) {
-    for (const Doubt& doubt : doubts_of(problem)) {
-      const bool is_of_equilibrium = doubt.text.find("undeformed members") != std::string::npos;
-      if (is_of_equilibrium) return doubt.is_serious;
+  const auto findings = [](const ProblemFile& problem) {
+    for (const Finding& finding : findings_of(problem)) {
+      const bool is_of_equilibrium = finding.text.find("undeformed members") != std::string::npos;
+      if (is_of_equilibrium) return finding.is_serious;
     }
     return false;
   };
-  EXPECT_FALSE(doubts(pushed(10)));
-  EXPECT_TRUE(doubts(pushed(1e7)));
+  EXPECT_FALSE(findings(pushed(10)));
+  EXPECT_TRUE(findings(pushed(1e7)));
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "tests/core/trust/crank_rocker.hpp"
-#include "tests/core/trust/doubts_of.hpp"
+#include "tests/core/trust/findings_of.hpp"
 
 namespace pleuel::test::energy_balance_test {
 namespace {
@@ -24,11 +24,11 @@ TEST(EnergyBalance, IsDoubtedAboveOnePercent) {
   const auto analysis = analyze(problem, x);
   Monitors monitors = monitor(analysis->model, analysis->trajectory);
   monitors.energy_error = 0.0098;
-  EXPECT_THAT(doubt_energy_balance(TrustedRun{problem, x, *analysis, monitors}), IsEmpty());
+  EXPECT_THAT(check_energy_balance(TrustedRun{problem, x, *analysis, monitors}), IsEmpty());
   monitors.energy_error = 0.0102;
-  const auto doubts = doubt_energy_balance(TrustedRun{problem, x, *analysis, monitors});
-  ASSERT_THAT(doubts, SizeIs(1));
-  EXPECT_THAT(doubts[0].text, HasSubstr("balanced to 1 % of"));
+  const auto findings = check_energy_balance(TrustedRun{problem, x, *analysis, monitors});
+  ASSERT_THAT(findings, SizeIs(1));
+  EXPECT_THAT(findings[0].text, HasSubstr("balanced to 1 % of"));
 }
 
 /// What does not move has no energy to be balanced: the last digits of its potential are none.
@@ -41,7 +41,7 @@ TEST(EnergyBalance, IsNotDoubtedWhereNothingMoves) {
       "joints": {"wall": {"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}}},
     "simulation": {"end_time": 0.15, "step": 0.0007673},
     "responses": {"mass": {"type": "mass"}}})");
-  EXPECT_THAT(doubts_of(problem, doubt_energy_balance), IsEmpty());
+  EXPECT_THAT(findings_of(problem, check_energy_balance), IsEmpty());
 }
 
 /// An error of a small vibration is not hidden by where a scene stands.

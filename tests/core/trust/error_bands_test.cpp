@@ -9,7 +9,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/response/shown_history.hpp"
 #include "core/scene/problem_reader.hpp"
-#include "core/trust/doubts.hpp"
+#include "core/trust/checks.hpp"
 #include "tests/support/source_folder.hpp"
 
 /// Bands around histories against runs at an eighth of the step with four times the elements.
@@ -34,7 +34,7 @@ Coverage coverage(const std::string& name, const std::vector<std::string>& overr
   const Monitors monitors = monitor(analysis->model, analysis->trajectory);
   const std::vector<Eigen::VectorXd> bands =
       judge_run(TrustedRun{problem, x, *analysis, monitors}).bands;
-  const NestedRun exact = make_nested_run(problem, x, {0.125, 4.0});
+  const RefinedRun exact = make_refined_run(problem, x, {0.125, 4.0});
   EXPECT_EQ(exact.time.size(), 8 * (analysis->trajectory.time.size() - 1) + 1);
   double covered = 0.0, instants = 0.0;
   std::vector<double> ratios;

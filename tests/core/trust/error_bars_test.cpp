@@ -99,14 +99,14 @@ class ErrorBarOfAValue : public testing::Test {
     analysis_.reductions.emplace_back().value = 10.0;
     analysis_.histories.push_back(Eigen::MatrixXd::Constant(1, 1, 10.0));
   }
-  static NestedRun run(double value) {
-    NestedRun run;
+  static RefinedRun run(double value) {
+    RefinedRun run;
     run.values = Eigen::VectorXd::Constant(1, value);
     run.histories.emplace_back();
     return run;
   }
-  static NestedRun failed() {
-    NestedRun run;
+  static RefinedRun failed() {
+    RefinedRun run;
     run.failure = "no";
     return run;
   }
@@ -114,7 +114,7 @@ class ErrorBarOfAValue : public testing::Test {
 };
 
 TEST_F(ErrorBarOfAValue, AddsUpItsParts) {
-  const NestedRun twice = run(10.3), four = run(11.5), fewer = run(10.9), exact = run(11.52);
+  const RefinedRun twice = run(10.3), four = run(11.5), fewer = run(10.9), exact = run(11.52);
   JudgingRuns runs;
   runs.twice_step = &twice;
   runs.four_steps = &four;
@@ -131,7 +131,7 @@ TEST_F(ErrorBarOfAValue, AddsUpItsParts) {
 }
 
 TEST_F(ErrorBarOfAValue, PrefersFinerRuns) {
-  const NestedRun found = run(10.0), twice = run(10.4), half = run(9.9), more = run(9.7);
+  const RefinedRun found = run(10.0), twice = run(10.4), half = run(9.9), more = run(9.7);
   JudgingRuns runs;
   runs.twice_step = &twice;
   runs.half_step = &half;
@@ -145,7 +145,7 @@ TEST_F(ErrorBarOfAValue, PrefersFinerRuns) {
 /// Half the step changes the value as much as twice the step: no order is seen. The change itself,
 /// and twice as much that finer steps may add.
 TEST_F(ErrorBarOfAValue, TakesThreeTimesTheLastChangeWhereNothingFalls) {
-  const NestedRun twice = run(12.0), half = run(8.0), near = run(9.9), far = run(10.1);
+  const RefinedRun twice = run(12.0), half = run(8.0), near = run(9.9), far = run(10.1);
   JudgingRuns runs;
   runs.twice_step = &twice;
   runs.half_step = &half;
@@ -161,7 +161,7 @@ TEST_F(ErrorBarOfAValue, TakesThreeTimesTheLastChangeWhereNothingFalls) {
 
 /// Where half of the step shows no order, a quarter may: 10, 10.1, 10.125 go to 10.133.
 TEST_F(ErrorBarOfAValue, AsksAQuarterOfTheStep) {
-  const NestedRun twice = run(10.1), half = run(10.1), quarter = run(10.125);
+  const RefinedRun twice = run(10.1), half = run(10.1), quarter = run(10.125);
   JudgingRuns runs;
   runs.twice_step = &twice;
   runs.half_step = &half;
@@ -175,8 +175,8 @@ TEST_F(ErrorBarOfAValue, AsksAQuarterOfTheStep) {
 /// Of order two, more elements leave a third of what they changed; fewer may leave all of it. Where
 /// more elements agree by accident, to the same side or almost, fewer have a say.
 TEST_F(ErrorBarOfAValue, PrefersMoreElementsToFewer) {
-  const NestedRun twice = run(10.0), four = run(10.0), more = run(10.03), fewer = run(9.8),
-                  far = run(8.6), other_side = run(10.6);
+  const RefinedRun twice = run(10.0), four = run(10.0), more = run(10.03), fewer = run(9.8),
+                   far = run(8.6), other_side = run(10.6);
   JudgingRuns runs;
   runs.twice_step = &twice;
   runs.four_steps = &four;
@@ -212,11 +212,11 @@ TEST_F(ErrorBarOfAValue, OfASumKnowsWhatCancels) {
 }
 
 TEST_F(ErrorBarOfAValue, IsNotResolvedWhereARunFailed) {
-  const NestedRun broken = failed();
+  const RefinedRun broken = failed();
   JudgingRuns runs;
   runs.twice_step = &broken;
   EXPECT_FALSE(error_bar(analysis_, 0, runs, 2).is_resolved());
-  const NestedRun twice = run(10.0), four = run(10.0);
+  const RefinedRun twice = run(10.0), four = run(10.0);
   runs.twice_step = &twice;
   runs.four_steps = &four;
   EXPECT_TRUE(error_bar(analysis_, 0, runs, 2).is_resolved());
@@ -226,7 +226,7 @@ TEST_F(ErrorBarOfAValue, IsNotResolvedWhereARunFailed) {
 
 /// As of a mass and the limits that decide on it: the constant takes no evidence away.
 TEST_F(ErrorBarOfAValue, OfASumWithAConstantIsThatOfTheRest) {
-  const NestedRun four = run(11.5), twice = run(10.3), half = run(9.93), quarter = run(9.91);
+  const RefinedRun four = run(11.5), twice = run(10.3), half = run(9.93), quarter = run(9.91);
   JudgingRuns runs;
   runs.quarter_step = &quarter;
   runs.half_step = &half;
@@ -243,7 +243,7 @@ TEST_F(ErrorBarOfAValue, OfASumWithAConstantIsThatOfTheRest) {
 
 TEST_F(ErrorBarOfAValue, IsExactOfAConstantWhereStepsFailed) {
   analysis_.histories[0].resize(0, 0);
-  const NestedRun broken = failed();
+  const RefinedRun broken = failed();
   JudgingRuns runs;
   runs.half_step = runs.twice_step = runs.four_steps = &broken;
   const ErrorBar bar = error_bar(analysis_, 0, runs, 2);

@@ -7,7 +7,7 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "tests/core/trust/crank_rocker.hpp"
-#include "tests/core/trust/doubts_of.hpp"
+#include "tests/core/trust/findings_of.hpp"
 
 namespace pleuel::test::extrapolation_test {
 namespace {
@@ -16,7 +16,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::SizeIs;
 
-/// A rigid-looking body whose file knows its mass at h = 30 mm and how it changes; only the doubt's
+/// A rigid-looking body whose file knows its mass at h = 30 mm and how it changes; only the finding's
 /// own decision is looked at.
 TEST(Extrapolation, IsADoubtWhereTheDesignHasLeftThatOfTheFile) {
   ProblemFile problem = read_scene(crank_rocker(driven, closed));
@@ -32,23 +32,23 @@ TEST(Extrapolation, IsADoubtWhereTheDesignHasLeftThatOfTheFile) {
   imported.variables = {{Number::bound(0), quantities::length, 0}};
   problem.variables = {{"h", 0.03, 0.004, 0.06, "m"}};
   problem.scene.bodies.push_back({"imported", imported});
-  const auto doubts_at = [&](double height) {
+  const auto findings_at = [&](double height) {
     Eigen::VectorXd x(1);
     x << height;
-    return doubt_extrapolation(TrustedRun{problem, x, *analysis, monitors});
+    return check_extrapolation(TrustedRun{problem, x, *analysis, monitors});
   };
-  EXPECT_THAT(doubts_at(0.02), IsEmpty()) << "not continued";
+  EXPECT_THAT(findings_at(0.02), IsEmpty()) << "not continued";
   std::get<ImportedBody>(problem.scene.bodies.back().shape).is_linear = true;
-  EXPECT_THAT(doubts_at(0.03), IsEmpty());
-  EXPECT_THAT(doubts_at(0.03 * (1 + 0.9e-4)), IsEmpty());
-  EXPECT_THAT(doubts_at(0.03 * (1 - 0.9e-4)), IsEmpty());
-  EXPECT_THAT(doubts_at(0.03 * (1 + 1.1e-4)), SizeIs(1));
-  EXPECT_THAT(doubts_at(0.03 * (1 - 1.1e-4)), SizeIs(1));
-  EXPECT_THAT(doubts_at(0.03 * (1 + 1e-9)), IsEmpty());
-  ASSERT_THAT(doubts_at(0.0303), SizeIs(1));
-  EXPECT_TRUE(doubts_at(0.0303)[0].is_serious);
-  EXPECT_THAT(doubts_at(0.0303)[0].text, HasSubstr("h = 0.0303 instead of 0.03 m"));
-  EXPECT_THAT(doubts_at(0.0303)[0].text, HasSubstr("rod.json"));
+  EXPECT_THAT(findings_at(0.03), IsEmpty());
+  EXPECT_THAT(findings_at(0.03 * (1 + 0.9e-4)), IsEmpty());
+  EXPECT_THAT(findings_at(0.03 * (1 - 0.9e-4)), IsEmpty());
+  EXPECT_THAT(findings_at(0.03 * (1 + 1.1e-4)), SizeIs(1));
+  EXPECT_THAT(findings_at(0.03 * (1 - 1.1e-4)), SizeIs(1));
+  EXPECT_THAT(findings_at(0.03 * (1 + 1e-9)), IsEmpty());
+  ASSERT_THAT(findings_at(0.0303), SizeIs(1));
+  EXPECT_TRUE(findings_at(0.0303)[0].is_serious);
+  EXPECT_THAT(findings_at(0.0303)[0].text, HasSubstr("h = 0.0303 instead of 0.03 m"));
+  EXPECT_THAT(findings_at(0.0303)[0].text, HasSubstr("rod.json"));
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
-#include "tests/core/trust/doubts_of.hpp"
+#include "tests/core/trust/findings_of.hpp"
 #include "tests/support/bent_cantilever.hpp"
 #include "tests/support/problem_runs.hpp"
 
@@ -32,7 +32,7 @@ struct BentBeam : StartRun {
     }
     return 0.0;
   }
-  std::vector<Doubt> doubts() const { return doubt_variants(run()); }
+  std::vector<Finding> findings() const { return check_variants(run()); }
 };
 
 BentCantilever pushed(double alpha) {
@@ -81,24 +81,24 @@ TEST(MoreFrames, ForetellWhatManyFramesChangeInSpace) {
 TEST(MoreFrames, AreToldFromOnePercentAndSeriousFromTen) {
   EXPECT_THAT(compare_variants(BentBeam(pushed(0.08)).run()).changes, IsEmpty());
   EXPECT_THAT(compare_variants(BentBeam(pushed(0.12)).run()).changes, SizeIs(1));
-  EXPECT_THAT(BentBeam(pushed(0.12)).doubts(), IsEmpty());
-  const std::vector<Doubt> some = BentBeam(pushed(0.5)).doubts();
+  EXPECT_THAT(BentBeam(pushed(0.12)).findings(), IsEmpty());
+  const std::vector<Finding> some = BentBeam(pushed(0.5)).findings();
   ASSERT_THAT(some, SizeIs(1));
   EXPECT_FALSE(some[0].is_serious);
   EXPECT_EQ(some[0].cause, Cause::not_modelled);
   BentCantilever far = pushed(2.0);
   far.stiffening = "off";
-  EXPECT_TRUE(BentBeam(far).doubts().front().is_serious);
+  EXPECT_TRUE(BentBeam(far).findings().front().is_serious);
 }
 
-/// As many frames as are asked for leave an error below 1 %, and no doubt.
+/// As many frames as are asked for leave an error below 1 %, and no finding.
 TEST(MoreFrames, AreAsManyAsCure) {
   for (const ElasticaTip& exact : {elastica_tips[1], elastica_tips[2], elastica_tips[3]}) {
     BentCantilever cantilever = pushed(exact.load);
     cantilever.stiffening = "off";  // in one frame it finds no equilibrium that far
-    const std::vector<Doubt> doubts = BentBeam(cantilever).doubts();
-    ASSERT_FALSE(doubts.empty());
-    const std::string& text = doubts.front().text;
+    const std::vector<Finding> findings = BentBeam(cantilever).findings();
+    ASSERT_FALSE(findings.empty());
+    const std::string& text = findings.front().text;
     const std::string key = "/scene/bodies/beam/frames to ";
     ASSERT_THAT(text, HasSubstr(key));
     cantilever.frames = std::stoi(text.substr(text.find(key) + key.size()));
@@ -106,7 +106,7 @@ TEST(MoreFrames, AreAsManyAsCure) {
     cantilever.stiffening = "on";
     const BentBeam cured(cantilever);
     EXPECT_LE(relative(cured.value("y"), exact.deflection), 0.01) << exact.load;
-    EXPECT_TRUE(cured.doubts().empty()) << cured.doubts().front().text;
+    EXPECT_TRUE(cured.findings().empty()) << cured.findings().front().text;
   }
 }
 
@@ -116,14 +116,14 @@ TEST(MoreFrames, AreNotToldOfElementsWithFramesOfTheirOwn) {
     BentCantilever cantilever = pushed(1.0);
     cantilever.frames = cantilever.elements = frames;
     const BentBeam run(cantilever);
-    EXPECT_TRUE(run.doubts().empty()) << run.doubts().front().text;
+    EXPECT_TRUE(run.findings().empty()) << run.findings().front().text;
   }
 }
 
 /// A leaf of 1 m × 20 mm × 5 mm with a force of 8 N across its tip, which bends it by 61 mm, and one
 /// along it.
-std::vector<Doubt> doubts_of_leaf(double along, double place, int frames) {
-  return doubts_of(
+std::vector<Finding> findings_of_leaf(double along, double place, int frames) {
+  return findings_of(
       read_scene(fmt::format(
           R"j({{"scene": {{"bodies": {{"leaf": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0],
               "material": "steel", "section": {{"type": "rectangle", "width": "20 mm", "height": "5 mm"}},
@@ -137,29 +137,29 @@ std::vector<Doubt> doubts_of_leaf(double along, double place, int frames) {
           "responses": {{"pull": {{"type": "section-force", "body": "leaf", "at": {}, "part": "axial",
                                    "over_time": "max"}}}}}})j",
           frames, along, place)),
-      doubt_variants);
+      check_variants);
 }
 
 /// In its middle the section is turned by ¾ · P L²/(2 EI) = 0.07 rad, which makes 0.55 N of 8 N an axial
 /// force where there is none else; 1 N of 100 N is none.
 TEST(MoreFrames, AreToldOfAxialForcesInTurnedSections) {
-  const std::vector<Doubt> found = doubts_of_leaf(0.0, 0.5, 1);
+  const std::vector<Finding> found = findings_of_leaf(0.0, 0.5, 1);
   ASSERT_THAT(found, SizeIs(1));
   EXPECT_TRUE(found[0].is_serious);
   EXPECT_THAT(found[0].responses, ElementsAre("pull"));
-  EXPECT_THAT(doubts_of_leaf(100.0, 0.5, 1), IsEmpty());
-  EXPECT_THAT(doubts_of_leaf(0.0, 0.5, 8), IsEmpty());
+  EXPECT_THAT(findings_of_leaf(100.0, 0.5, 1), IsEmpty());
+  EXPECT_THAT(findings_of_leaf(0.0, 0.5, 8), IsEmpty());
 }
 
 /// Pulled by 2 % in its length.
 TEST(LinearElasticity, IsLeftByLargeStretching) {
   BentCantilever cantilever;
   cantilever.force_x = 0.02 * 1.2e11 * 1e-4;  // ε E A
-  const auto doubts = [&] { return doubt_linear_elasticity(BentBeam(cantilever).run()); };
-  ASSERT_THAT(doubts(), SizeIs(1));
-  EXPECT_THAT(doubts()[0].text, HasSubstr("stretched by 2 %"));
+  const auto findings = [&] { return check_linear_elasticity(BentBeam(cantilever).run()); };
+  ASSERT_THAT(findings(), SizeIs(1));
+  EXPECT_THAT(findings()[0].text, HasSubstr("stretched by 2 %"));
   cantilever.force_x *= 0.49;
-  EXPECT_THAT(doubts(), IsEmpty());
+  EXPECT_THAT(findings(), IsEmpty());
 }
 
 /// A beam with damping of modes cannot be divided: 0.45 θ² at θ = 0.24 rad are 2.7 %.
@@ -168,28 +168,28 @@ TEST(LinearElasticity, IsLeftByFarBendingThatCannotBeDivided) {
   cantilever.more = R"(, "reduction": {"modes": 4}, "damping": {"modal": 0.01})";
   const BentBeam run(cantilever);
   EXPECT_THAT(find_far_bending(run.run()), IsEmpty());
-  const std::vector<Doubt> doubts = doubt_linear_elasticity(run.run());
-  ASSERT_THAT(doubts, SizeIs(1));
-  EXPECT_TRUE(doubts[0].is_serious);
-  EXPECT_THAT(doubts[0].text, HasSubstr("which is off by some 2.8 %"));
+  const std::vector<Finding> findings = check_linear_elasticity(run.run());
+  ASSERT_THAT(findings, SizeIs(1));
+  EXPECT_TRUE(findings[0].is_serious);
+  EXPECT_THAT(findings[0].text, HasSubstr("which is off by some 2.8 %"));
 }
 
 /// A deflection along the beam is one of an undivided beam only: 0.45 θ² tells, 2.7 % at 0.24 rad and
 /// 0.16 % at 0.06.
 TEST(MoreFrames, ThatAResponseDoesNotAllowAreJudgedByRotations) {
-  const auto doubts = [](double alpha) {
+  const auto findings = [](double alpha) {
     const std::string text = pushed(alpha).text();
     const ProblemFile problem =
         read_scene(text, {R"(/responses/m={"type": "deflection", "body": "beam", "at": 1,
                                             "direction": "x", "over_time": "final"})"});
-    return doubts_of(problem, doubt_variants);
+    return findings_of(problem, check_variants);
   };
-  const std::vector<Doubt> far = doubts(0.5);
+  const std::vector<Finding> far = findings(0.5);
   ASSERT_THAT(far, SizeIs(1));
   EXPECT_TRUE(far[0].is_serious);
   EXPECT_EQ(far[0].cause, Cause::not_modelled);
   EXPECT_THAT(far[0].text, HasSubstr("more \"frames\" would help, but the response \"m\""));
-  EXPECT_THAT(doubts(0.12), IsEmpty());
+  EXPECT_THAT(findings(0.12), IsEmpty());
 }
 
 }  // namespace

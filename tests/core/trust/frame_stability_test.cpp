@@ -7,14 +7,14 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "tests/core/trust/buckling_doubts.hpp"
+#include "tests/core/trust/buckling_findings.hpp"
 
 /// Of members that buckle together, portals and columns of several parts, against closed forms.
 namespace pleuel::test::frame_stability_test {
 namespace {
 
-using test::buckling_doubts_of;
-using test::doubts_of;
+using test::buckling_findings_of;
+using test::findings_of;
 using test::read_scene;
 
 const double pi = std::numbers::pi;
@@ -74,15 +74,16 @@ TEST(FrameStability, OfAFrameTogetherIsThatOfCantilevers) {
          {std::pair("quasi-static", "equilibrium under the loads at t = 0 is unstable"),
           std::pair("consistent", "a small disturbance of the body")}) {
       SCOPED_TRACE(fmt::format("{} {}", knee, start));
-      EXPECT_TRUE(buckling_doubts_of(portal(0.97 * cantilever, knee, "auto", start)).empty());
-      const std::vector<Doubt> doubts =
-          buckling_doubts_of(portal(1.03 * cantilever, knee, "auto", start));
-      ASSERT_EQ(doubts.size(), 1u);
-      EXPECT_TRUE(doubts[0].is_serious);
-      EXPECT_NE(doubts[0].text.find(told), std::string::npos) << doubts[0].text;
+      EXPECT_TRUE(buckling_findings_of(portal(0.97 * cantilever, knee, "auto", start)).empty());
+      const std::vector<Finding> findings =
+          buckling_findings_of(portal(1.03 * cantilever, knee, "auto", start));
+      ASSERT_EQ(findings.size(), 1u);
+      EXPECT_TRUE(findings[0].is_serious);
+      EXPECT_NE(findings[0].text.find(told), std::string::npos) << findings[0].text;
     }
   }
-  EXPECT_EQ(buckling_doubts_of(portal(1.03 * cantilever, "fixed", "on", "consistent")).size(), 1u);
+  EXPECT_EQ(buckling_findings_of(portal(1.03 * cantilever, "fixed", "on", "consistent")).size(),
+            1u);
 }
 
 /// Hinges at the knees leave each column a cantilever in the plane, too. Of columns that are twice
@@ -90,16 +91,16 @@ TEST(FrameStability, OfAFrameTogetherIsThatOfCantilevers) {
 TEST(FrameStability, OfAFrameTogetherInThePlaneIsTold) {
   for (const double width : {0.08, 0.8}) {  // of leaf springs, too
     const double cantilever = pi * pi * 2.1e11 * (width * std::pow(0.04, 3) / 12) / (4.0 * 9.0);
-    const auto doubts = [&](double share) {
+    const auto findings = [&](double share) {
       std::string text = portal(share * cantilever, "revolute", "auto", "consistent");
       const std::string old = R"("width": 0.04, "height": 0.06)";
       for (auto at = text.find(old); at != std::string::npos; at = text.find(old, at)) {
         text.replace(at, old.size(), fmt::format(R"("width": {}, "height": 0.04)", width));
       }
-      return buckling_doubts_of(text);
+      return buckling_findings_of(text);
     };
-    EXPECT_TRUE(doubts(0.97).empty()) << width;
-    const std::vector<Doubt> beyond = doubts(1.03);
+    EXPECT_TRUE(findings(0.97).empty()) << width;
+    const std::vector<Finding> beyond = findings(1.03);
     ASSERT_EQ(beyond.size(), 1u) << width;
     EXPECT_TRUE(beyond[0].is_serious) << beyond[0].text;
   }
@@ -108,11 +109,12 @@ TEST(FrameStability, OfAFrameTogetherInThePlaneIsTold) {
 /// A frame of too many coordinates for a dense stiffness is not judged, which is said.
 TEST(FrameStability, OfALargeFrameTogetherIsSaidNotToBeLookedAt) {
   const double cantilever = pi * pi * 2.1e11 * (0.06 * std::pow(0.04, 3) / 12) / (4.0 * 9.0);
-  const std::vector<Doubt> doubts =
-      buckling_doubts_of(with_many_elements(portal(1.02 * cantilever, "fixed", "auto")));
-  ASSERT_EQ(doubts.size(), 1u);
-  EXPECT_FALSE(doubts[0].is_serious);
-  EXPECT_NE(doubts[0].text.find("more than 600 coordinates"), std::string::npos) << doubts[0].text;
+  const std::vector<Finding> findings =
+      buckling_findings_of(with_many_elements(portal(1.02 * cantilever, "fixed", "auto")));
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_FALSE(findings[0].is_serious);
+  EXPECT_NE(findings[0].text.find("more than 600 coordinates"), std::string::npos)
+      << findings[0].text;
 }
 
 /// So many beams of 10 × 30 mm, welded in line to a column of one metre that is clamped at its foot,
@@ -145,10 +147,10 @@ constexpr double column_stiffness = 2.1e11 * 0.03 * 0.01 * 0.01 * 0.01 / 12;  //
 /// Nothing is told at 0.95 of the critical force, and something serious at 1.05.
 template <class TextOf>
 void expect_critical_force(double force, const TextOf& text_of) {
-  EXPECT_TRUE(buckling_doubts_of(text_of(0.95 * force)).empty());
-  const std::vector<Doubt> doubts = buckling_doubts_of(text_of(1.05 * force));
-  ASSERT_EQ(doubts.size(), 1u);
-  EXPECT_TRUE(doubts[0].is_serious) << doubts[0].text;
+  EXPECT_TRUE(buckling_findings_of(text_of(0.95 * force)).empty());
+  const std::vector<Finding> findings = buckling_findings_of(text_of(1.05 * force));
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_TRUE(findings[0].is_serious) << findings[0].text;
 }
 
 /// However short the beams are of which it is made: π²EI/4L².
@@ -193,7 +195,7 @@ TEST(FrameStability, OfAColumnUnderWhatLeansIsTold) {
 /// Columns that are pressed most one after the other, but too much when they are pressed together.
 TEST(FrameStability, OfAFrameTogetherIsLookedForWhereAllIsPressedMost) {
   const double cantilever = pi * pi * 2.1e11 * (0.06 * std::pow(0.04, 3) / 12) / (4.0 * 9.0);
-  const auto doubts = [&](double together) {
+  const auto findings = [&](double together) {
     std::string text = portal(1.0, "fixed", "auto", "consistent");
     for (const char* values : {"0, {1}, {0}, 0, 0", "0, 0, {0}, {1}, 0"}) {
       const std::string old = R"("times": [0, 0.5], "values": [0, 1])";
@@ -204,10 +206,10 @@ TEST(FrameStability, OfAFrameTogetherIsLookedForWhereAllIsPressedMost) {
           fmt::format(R"("times": [0, 0.2, 0.3, 0.4, 0.5], "values": [{}])",
                       fmt::format(fmt::runtime(values), together * cantilever, 1.06 * cantilever)));
     }
-    return buckling_doubts_of(text);
+    return buckling_findings_of(text);
   };
-  EXPECT_TRUE(doubts(0.9).empty());
-  const std::vector<Doubt> beyond = doubts(1.04);
+  EXPECT_TRUE(findings(0.9).empty());
+  const std::vector<Finding> beyond = findings(1.04);
   ASSERT_EQ(beyond.size(), 1u);
   EXPECT_FALSE(beyond[0].is_serious) << "for an instant only: " << beyond[0].text;
 }
@@ -216,16 +218,18 @@ TEST(FrameStability, OfAFrameTogetherIsLookedForWhereAllIsPressedMost) {
 /// coordinates.
 TEST(FrameStability, OfAFrameInSpaceIsToldWithoutStiffeningAndWhereItIsTooLarge) {
   const double cantilever = pi * pi * 2.1e11 * (0.06 * std::pow(0.04, 3) / 12) / (4.0 * 9.0);
-  const auto doubts = [](std::string text) { return doubts_of(read_scene(text), doubt_stability); };
+  const auto findings = [](std::string text) {
+    return findings_of(read_scene(text), check_stability);
+  };
   const std::string off = R"(on", "geometric_stiffening": "off)";
   for (const char* start : {"quasi-static", "consistent"}) {
-    EXPECT_TRUE(doubts(portal(0.97 * cantilever, "fixed", off, start)).empty());
-    const std::vector<Doubt> beyond = doubts(portal(1.03 * cantilever, "fixed", off, start));
+    EXPECT_TRUE(findings(portal(0.97 * cantilever, "fixed", off, start)).empty());
+    const std::vector<Finding> beyond = findings(portal(1.03 * cantilever, "fixed", off, start));
     ASSERT_EQ(beyond.size(), 1u);
     EXPECT_TRUE(beyond[0].is_serious);
   }
-  const std::vector<Doubt> unseen =
-      doubts(with_many_elements(portal(0.5 * cantilever, "fixed", "on")));
+  const std::vector<Finding> unseen =
+      findings(with_many_elements(portal(0.5 * cantilever, "fixed", "on")));
   ASSERT_EQ(unseen.size(), 1u);
   EXPECT_FALSE(unseen[0].is_serious);
   EXPECT_NE(unseen[0].text.find("more than 600 coordinates"), std::string::npos) << unseen[0].text;

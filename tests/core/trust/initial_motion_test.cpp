@@ -8,7 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/core/trust/doubts_of.hpp"
+#include "tests/core/trust/findings_of.hpp"
 
 namespace pleuel::test::initial_motion_test {
 namespace {
@@ -30,21 +30,22 @@ ProblemFile turning_bar(double hinge, const std::string& velocity) {
 
 /// About its middle the left end goes down with ω/2; at rest it is not.
 TEST(InitialMotion, IsADoubtWhereJointsChangeWhatTheFileGives) {
-  EXPECT_THAT(doubts_of(turning_bar(0.0, "[0, 0, 0]"), doubt_initial_motion), IsEmpty());
-  EXPECT_THAT(doubts_of(turning_bar(0.5, "[0, -5, 0]"), doubt_initial_motion), IsEmpty());
-  const std::vector<Doubt> doubts = doubts_of(turning_bar(0.5, "[0, 0, 0]"), doubt_initial_motion);
-  ASSERT_THAT(doubts, SizeIs(1));
-  EXPECT_TRUE(doubts[0].is_serious);
-  EXPECT_THAT(doubts[0].text, HasSubstr("the initial angular velocity of \"bar\""));
-  EXPECT_THAT(doubts[0].text, HasSubstr("instead of the 10 rad/s of the file"));
-  EXPECT_THAT(doubts_of(turning_bar(0.0, "[0, 3, 0]"), doubt_initial_motion), SizeIs(1));
+  EXPECT_THAT(findings_of(turning_bar(0.0, "[0, 0, 0]"), check_initial_motion), IsEmpty());
+  EXPECT_THAT(findings_of(turning_bar(0.5, "[0, -5, 0]"), check_initial_motion), IsEmpty());
+  const std::vector<Finding> findings =
+      findings_of(turning_bar(0.5, "[0, 0, 0]"), check_initial_motion);
+  ASSERT_THAT(findings, SizeIs(1));
+  EXPECT_TRUE(findings[0].is_serious);
+  EXPECT_THAT(findings[0].text, HasSubstr("the initial angular velocity of \"bar\""));
+  EXPECT_THAT(findings[0].text, HasSubstr("instead of the 10 rad/s of the file"));
+  EXPECT_THAT(findings_of(turning_bar(0.0, "[0, 3, 0]"), check_initial_motion), SizeIs(1));
 }
 
 /// A slide that is turned by five degrees against the velocity leaves cos 5° of it, 0.4 % less, but
 /// in another direction; by half a degree all of it, as nearly as it matters.
 TEST(InitialMotion, InAnotherDirectionIsADoubt) {
-  const auto doubts = [](double angle) {
-    return doubts_of(
+  const auto findings = [](double angle) {
+    return findings_of(
         read_scene(fmt::format(
             R"({{"scene": {{"bodies": {{"block": {{"type": "rigid", "at": [0, 0, 0], "mass": 1,
                 "inertia": [1, 1, 1, 0, 0, 0], "velocity": [{:.12g}, {:.12g}, 0]}}}},
@@ -52,28 +53,28 @@ TEST(InitialMotion, InAnotherDirectionIsADoubt) {
                                      "at": [0, 0, 0], "axis": [1, 0, 0]}}}}}},
               "simulation": {{"end_time": 0.02, "step": 0.01}}}})",
             2.0 * std::cos(angle), 2.0 * std::sin(angle))),
-        doubt_initial_motion);
+        check_initial_motion);
   };
   const double degree = 3.14159265358979 / 180;
-  EXPECT_THAT(doubts(0.5 * degree), IsEmpty());
-  const std::vector<Doubt> turned = doubts(5.0 * degree);
+  EXPECT_THAT(findings(0.5 * degree), IsEmpty());
+  const std::vector<Finding> turned = findings(5.0 * degree);
   ASSERT_THAT(turned, SizeIs(1));
   EXPECT_THAT(turned[0].text, HasSubstr("in another direction instead of the 2 m/s"));
 }
 
 /// An elastic member begins without elastic rates, and takes the velocity of what it carries.
 TEST(InitialMotion, OfAMassOnAnElasticMemberIsADoubt) {
-  const std::vector<Doubt> doubts = doubts_of(read_scene(
-                                                  R"({"scene": {"bodies": {
+  const std::vector<Finding> findings = findings_of(read_scene(
+                                                        R"({"scene": {"bodies": {
             "arm": {"type": "beam", "from": [0, 0, 0], "to": [0.5, 0, 0], "material": "steel",
                     "section": {"type": "circle", "diameter": 0.02}, "elements": 2},
             "mass": {"type": "point-mass", "at": [0.5, 0, 0], "mass": 10, "velocity": [0, 0.1, 0]}},
           "joints": {"clamp": {"type": "fixed", "bodies": ["ground", "arm"], "at": [0, 0, 0]},
                      "tip": {"type": "spherical", "bodies": ["arm", "mass"], "at": [0.5, 0, 0]}}},
           "simulation": {"end_time": 0.01, "step": 0.001}})"),
-                                              doubt_initial_motion);
-  ASSERT_THAT(doubts, SizeIs(1));
-  EXPECT_THAT(doubts[0].text, HasSubstr("the initial velocity of \"mass\""));
+                                                    check_initial_motion);
+  ASSERT_THAT(findings, SizeIs(1));
+  EXPECT_THAT(findings[0].text, HasSubstr("the initial velocity of \"mass\""));
 }
 
 }  // namespace

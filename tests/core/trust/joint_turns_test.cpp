@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/core/trust/doubts_of.hpp"
+#include "tests/core/trust/findings_of.hpp"
 
 namespace pleuel::test::joint_turns_test {
 namespace {
@@ -28,22 +28,22 @@ ProblemFile spring_rotor(double speed, const std::string& effects) {
 
 TEST(JointTurns, AreADoubtBeyondHalfATurnInSpace) {
   const std::string space = R"({"spatial_motion": "on"})";
-  EXPECT_THAT(doubts_of(spring_rotor(30, space), doubt_joint_turns), IsEmpty());
-  const std::vector<Doubt> doubts = doubts_of(spring_rotor(33, space), doubt_joint_turns);
-  ASSERT_THAT(doubts, SizeIs(1));
-  EXPECT_TRUE(doubts[0].is_serious);
-  EXPECT_THAT(doubts[0].text, HasSubstr("the joint \"bearing\" turns by more than half a turn"));
-  EXPECT_THAT(doubts_of(spring_rotor(60, "{}"), doubt_joint_turns), IsEmpty()) << "counted";
+  EXPECT_THAT(findings_of(spring_rotor(30, space), check_joint_turns), IsEmpty());
+  const std::vector<Finding> findings = findings_of(spring_rotor(33, space), check_joint_turns);
+  ASSERT_THAT(findings, SizeIs(1));
+  EXPECT_TRUE(findings[0].is_serious);
+  EXPECT_THAT(findings[0].text, HasSubstr("the joint \"bearing\" turns by more than half a turn"));
+  EXPECT_THAT(findings_of(spring_rotor(60, "{}"), check_joint_turns), IsEmpty()) << "counted";
 }
 
 /// A damper does not ask how often it has turned.
 TEST(JointTurns, AreNoneOfADamper) {
   ProblemFile problem = spring_rotor(60, R"({"spatial_motion": "on"})");
-  EXPECT_THAT(doubts_of(problem, doubt_joint_turns), SizeIs(1));
+  EXPECT_THAT(findings_of(problem, check_joint_turns), SizeIs(1));
   auto& coil = std::get<JointForce>(problem.scene.loads[0].element);
   coil.stiffness = 0.0;
   coil.damping = 1e-3;
-  EXPECT_THAT(doubts_of(problem, doubt_joint_turns), IsEmpty());
+  EXPECT_THAT(findings_of(problem, check_joint_turns), IsEmpty());
 }
 
 /// What repeats with each turn does not ask either; what has another value after a turn jumps.
@@ -58,7 +58,7 @@ TEST(JointTurns, AreADoubtOfLawsThatDoNotRepeat) {
               "value": {{"type": "expression", "joint": "bearing", "value": "{}"}}}}}}}},
             "effects": {{"spatial_motion": "on"}}, "simulation": {{"end_time": 0.1, "step": 0.002}}}})",
         law));
-    EXPECT_THAT(doubts_of(problem, doubt_joint_turns), SizeIs(is_counted ? 1 : 0)) << law;
+    EXPECT_THAT(findings_of(problem, check_joint_turns), SizeIs(is_counted ? 1 : 0)) << law;
   }
 }
 

@@ -8,7 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "tests/core/trust/crank_rocker.hpp"
-#include "tests/core/trust/doubts_of.hpp"
+#include "tests/core/trust/findings_of.hpp"
 #include "tests/support/parameter_name.hpp"
 
 namespace pleuel::test::misaligned_joints_test {
@@ -55,17 +55,17 @@ TEST_P(NearlyAlignedHinges, Swing) {
   const auto analysis = analyze(problem, start_design(problem));
   EXPECT_THAT(analysis->model.mechanism.system->left_out(), SizeIs(5));
   EXPECT_LE(analysis->reductions[0].value, 3.0 * 10 * 9.81);
-  EXPECT_THAT(doubts_of(problem, doubt_misaligned_joints), IsEmpty());
+  EXPECT_THAT(findings_of(problem, check_misaligned_joints), IsEmpty());
   Monitors monitors = monitor(analysis->model, analysis->trajectory);
   EXPECT_LE(monitors.position_drift, 1e-9);  // of what is kept
 }
 
 TEST_P(SlightlyTiltedHinges, AreNamed) {
-  const std::vector<Doubt> doubts = doubts_of(read_scene(text_), doubt_misaligned_joints);
-  ASSERT_THAT(doubts, SizeIs(1));
-  EXPECT_TRUE(doubts[0].is_serious);
-  EXPECT_THAT(doubts[0].text, HasSubstr("\"low\", \"high\""));
-  EXPECT_THAT(doubts[0].text, HasSubstr("\"door\""));
+  const std::vector<Finding> findings = findings_of(read_scene(text_), check_misaligned_joints);
+  ASSERT_THAT(findings, SizeIs(1));
+  EXPECT_TRUE(findings[0].is_serious);
+  EXPECT_THAT(findings[0].text, HasSubstr("\"low\", \"high\""));
+  EXPECT_THAT(findings[0].text, HasSubstr("\"door\""));
 }
 
 const auto directions = testing::Values("x", "z");
@@ -82,8 +82,8 @@ INSTANTIATE_TEST_SUITE_P(Tilts, SlightlyTiltedHinges,
 /// The same door on a carriage that drives off with it: what it does against the carriage counts,
 /// not that it moves at all.
 TEST(MisalignedJoints, LockABodyAlsoWhereItIsCarriedAway) {
-  const auto doubts_with = [](double tilt) {
-    return doubts_of(
+  const auto findings_with = [](double tilt) {
+    return findings_of(
         read_scene(door(tilt),
                    {R"(/scene/bodies/carriage={"type": "rigid", "at": [0, 0, 0], "mass": 5,
                   "inertia": [1, 1, 1, 0, 0, 0]})",
@@ -92,13 +92,13 @@ TEST(MisalignedJoints, LockABodyAlsoWhereItIsCarriedAway) {
                   "drive": {"type": "polynomial", "coefficients": [0, 0, 20]}})",
                     R"(/scene/joints/low/bodies=["carriage", "door"])",
                     R"(/scene/joints/high/bodies=["carriage", "door"])"}),
-        doubt_misaligned_joints);
+        check_misaligned_joints);
   };
-  EXPECT_THAT(doubts_with(0.0), IsEmpty());
+  EXPECT_THAT(findings_with(0.0), IsEmpty());
   for (const double tilt : {1e-5, 5e-4, 5e-3, 2e-2}) {
-    const std::vector<Doubt> doubts = doubts_with(tilt);
-    ASSERT_THAT(doubts, SizeIs(1)) << tilt;
-    EXPECT_THAT(doubts[0].text, HasSubstr("\"low\", \"high\"")) << tilt;
+    const std::vector<Finding> findings = findings_with(tilt);
+    ASSERT_THAT(findings, SizeIs(1)) << tilt;
+    EXPECT_THAT(findings[0].text, HasSubstr("\"low\", \"high\"")) << tilt;
   }
 }
 
@@ -112,7 +112,7 @@ TEST(MisalignedJoints, AreNotTwoBallJointsThatMakeAHinge) {
                      "high": {"type": "point-on-line", "bodies": ["ground", "door"], "at": [0, 0, 0.01],
                               "axis": [0, 0, 1]}}},
           "simulation": {"end_time": 0.05, "step": 0.001}, "effects": {"spatial_motion": "on"}})");
-  EXPECT_THAT(doubts_of(problem, doubt_misaligned_joints), IsEmpty());
+  EXPECT_THAT(findings_of(problem, check_misaligned_joints), IsEmpty());
 }
 
 /// The problem says 1e-7 rad: three constraints of a planar loop in space follow from the others.

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "tests/core/trust/doubts_of.hpp"
+#include "tests/core/trust/findings_of.hpp"
 
 namespace pleuel::test::modal_damping_test {
 namespace {
@@ -48,14 +48,14 @@ const std::string by_stiffness = fmt::format(R"({{"stiffness": {}}})", 2.0 * rat
 /// At its resonance the tip goes as far as damping lets it: by what the two differ, damping by
 /// modes is too much. With a force of a tenth both are the same, and nothing is said.
 TEST(ModalDamping, OfABeamThatBendsFarIsTold) {
-  const std::vector<Doubt> found = doubts_of(shaken(8.0, by_modes), doubt_modal_damping);
+  const std::vector<Finding> found = findings_of(shaken(8.0, by_modes), check_modal_damping);
   ASSERT_THAT(found, SizeIs(1));
   EXPECT_THAT(found[0].text, HasSubstr("some 8 % too much"));
-  EXPECT_THAT(doubts_of(shaken(8.0, by_modes)),
-              Contains(Field(&Doubt::text, HasSubstr("some 8 % too much"))));
+  EXPECT_THAT(findings_of(shaken(8.0, by_modes)),
+              Contains(Field(&Finding::text, HasSubstr("some 8 % too much"))));
   EXPECT_NEAR(tip(shaken(8.0, by_stiffness)) / tip(shaken(8.0, by_modes)), 1.08, 0.01);
-  EXPECT_THAT(doubts_of(shaken(8.0, by_stiffness), doubt_modal_damping), IsEmpty());
-  EXPECT_THAT(doubts_of(shaken(0.8, by_modes), doubt_modal_damping), IsEmpty());
+  EXPECT_THAT(findings_of(shaken(8.0, by_stiffness), check_modal_damping), IsEmpty());
+  EXPECT_THAT(findings_of(shaken(0.8, by_modes), check_modal_damping), IsEmpty());
   EXPECT_NEAR(tip(shaken(0.8, by_stiffness)) / tip(shaken(0.8, by_modes)), 1.0, 2e-3);
 }
 

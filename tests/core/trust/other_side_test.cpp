@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/core/trust/doubts_of.hpp"
+#include "tests/core/trust/findings_of.hpp"
 
 namespace pleuel::test::other_side_test {
 namespace {
@@ -42,53 +42,57 @@ const std::string scene = R"({
   "objective": {"minimize": "mass"}
 })";
 
-std::vector<Doubt> doubts_with_limits(const std::string& limits) {
-  return doubts_of(read_scene(scene, {"/constraints=" + limits}), doubt_other_side);
+std::vector<Finding> findings_with_limits(const std::string& limits) {
+  return findings_of(read_scene(scene, {"/constraints=" + limits}), check_other_side);
 }
 
 TEST(OtherSide, IsNotLimitedByTheLargestValue) {
-  const auto doubts = doubts_with_limits(R"({"stiff": {"response": "sag", "upper": "1 mm"}})");
-  ASSERT_THAT(doubts, SizeIs(1));
-  EXPECT_THAT(doubts[0].text, HasSubstr("holds \"sag\" at 1 mm to one side only"));
-  EXPECT_THAT(doubts[0].text, HasSubstr("comes to -"));
-  EXPECT_FALSE(doubts[0].is_serious);
+  const auto findings = findings_with_limits(R"({"stiff": {"response": "sag", "upper": "1 mm"}})");
+  ASSERT_THAT(findings, SizeIs(1));
+  EXPECT_THAT(findings[0].text, HasSubstr("holds \"sag\" at 1 mm to one side only"));
+  EXPECT_THAT(findings[0].text, HasSubstr("comes to -"));
+  EXPECT_FALSE(findings[0].is_serious);
 }
 
 TEST(OtherSide, IsNoneWhereItIsLimitedToo) {
-  EXPECT_THAT(doubts_with_limits(R"({"stiff": {"response": "sag", "upper": "1 mm"},
+  EXPECT_THAT(findings_with_limits(R"({"stiff": {"response": "sag", "upper": "1 mm"},
                                      "other": {"response": "low", "lower": "-20 mm"}})"),
               IsEmpty());
-  EXPECT_THAT(doubts_with_limits(R"({"stiff": {"response": "sag", "upper": "1 mm"},
+  EXPECT_THAT(findings_with_limits(R"({"stiff": {"response": "sag", "upper": "1 mm"},
                                      "other": {"response": "far", "upper": "20 mm"}})"),
               IsEmpty());
-  EXPECT_THAT(doubts_with_limits(R"({"stiff": {"response": "far", "upper": "1 mm"}})"), IsEmpty());
-  EXPECT_THAT(doubts_with_limits(R"({"stiff": {"response": "sag", "upper": "1 mm"},
+  EXPECT_THAT(findings_with_limits(R"({"stiff": {"response": "far", "upper": "1 mm"}})"),
+              IsEmpty());
+  EXPECT_THAT(findings_with_limits(R"({"stiff": {"response": "sag", "upper": "1 mm"},
                                      "other": {"response": "= -low", "upper": "20 mm"}})"),
               IsEmpty());
 }
 
 TEST(OtherSide, IsLimitedByWhatLooksAtAllInstants) {
-  EXPECT_THAT(doubts_with_limits(R"({"stiff": {"response": "sag", "upper": "1 mm"},
+  EXPECT_THAT(findings_with_limits(R"({"stiff": {"response": "sag", "upper": "1 mm"},
                                      "other": {"response": "early", "upper": "20 mm"}})"),
               SizeIs(1));
 }
 
 TEST(OtherSide, IsThatOfMomentsButNotOfPress) {
-  EXPECT_THAT(doubts_with_limits(R"({"weak": {"response": "moment", "lower": "-1 N m"},
+  EXPECT_THAT(findings_with_limits(R"({"weak": {"response": "moment", "lower": "-1 N m"},
                                      "press": {"response": "axial", "upper": "1 N"}})"),
               SizeIs(1));
-  EXPECT_THAT(doubts_with_limits(R"({"press": {"response": "axial", "upper": "1 N"}})"), IsEmpty());
+  EXPECT_THAT(findings_with_limits(R"({"press": {"response": "axial", "upper": "1 N"}})"),
+              IsEmpty());
 }
 
 TEST(OtherSide, IsNoneWhereTheMotionKeepsTheLimitThere) {
-  EXPECT_THAT(doubts_with_limits(R"({"stiff": {"response": "sag", "upper": "200 mm"}})"),
+  EXPECT_THAT(findings_with_limits(R"({"stiff": {"response": "sag", "upper": "200 mm"}})"),
               IsEmpty());
-  EXPECT_THAT(doubts_with_limits(R"({"stiff": {"response": "low", "lower": "-1 mm"}})"), IsEmpty());
+  EXPECT_THAT(findings_with_limits(R"({"stiff": {"response": "low", "lower": "-1 mm"}})"),
+              IsEmpty());
 }
 
 /// Heights are from where the axes are.
 TEST(OtherSide, IsNoneOfPositions) {
-  EXPECT_THAT(doubts_with_limits(R"({"low": {"response": "height", "upper": "1 mm"}})"), IsEmpty());
+  EXPECT_THAT(findings_with_limits(R"({"low": {"response": "height", "upper": "1 mm"}})"),
+              IsEmpty());
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/core/trust/doubts_of.hpp"
+#include "tests/core/trust/findings_of.hpp"
 
 /// A hydraulic cylinder: a barrel and a rod of 0.5 m each, which slides in the barrel's end, held by a
 /// drive; pins at both ends, pressed by 1 kN.
@@ -73,23 +73,24 @@ TEST(PromisedBuckling, IsComparedWithThatOfACylinder) {
   EXPECT_NEAR(stepped_column(bending_stiffness(rod), bending_stiffness(rod)), own / 4, 1e-9 * own);
   for (const double barrel : {0.01, 0.014, 0.02}) {
     const double whole = stepped_column(bending_stiffness(rod), bending_stiffness(barrel));
-    const std::vector<Doubt> doubts =
-        doubts_of(cylinder(barrel, "off", 0.2), doubt_promised_buckling);
-    ASSERT_THAT(doubts, SizeIs(1));
-    EXPECT_FALSE(doubts[0].is_serious);
+    const std::vector<Finding> findings =
+        findings_of(cylinder(barrel, "off", 0.2), check_promised_buckling);
+    ASSERT_THAT(findings, SizeIs(1));
+    EXPECT_FALSE(findings[0].is_serious);
     EXPECT_THAT(
-        doubts[0].text,
+        findings[0].text,
         HasSubstr(fmt::format("it would buckle at {:.3g} times what presses it", own / press)));
-    EXPECT_THAT(doubts[0].text, HasSubstr(fmt::format("something buckles at {:.3g} times the loads",
-                                                      whole / press)));
-    EXPECT_THAT(doubts[0].text, HasSubstr(fmt::format("For 5 times limit \"own\" to some {:.2g}.",
-                                                      0.2 * whole / own)));
+    EXPECT_THAT(
+        findings[0].text,
+        HasSubstr(fmt::format("something buckles at {:.3g} times the loads", whole / press)));
+    EXPECT_THAT(findings[0].text, HasSubstr(fmt::format("For 5 times limit \"own\" to some {:.2g}.",
+                                                        0.2 * whole / own)));
   }
 }
 
 /// The whole buckles at 2.5 to 2.9 times.
 TEST(PromisedBuckling, IsKeptWhereTheLimitAllowsIt) {
-  EXPECT_THAT(doubts_of(cylinder(0.014, "off", 0.5), doubt_promised_buckling), IsEmpty());
+  EXPECT_THAT(findings_of(cylinder(0.014, "off", 0.5), check_promised_buckling), IsEmpty());
 }
 
 TEST(PromisedBuckling, IsTrueOfAMemberByItself) {
@@ -105,7 +106,7 @@ TEST(PromisedBuckling, IsTrueOfAMemberByItself) {
                           "direction": [-1, 0, 0], "value": 1500}}},
     "simulation": {"end_time": 0.01, "step": 0.005, "initial_state": "quasi-static"},
     "responses": {"own": {"type": "buckling", "body": "bar", "over_time": "max"}}})j";
-  EXPECT_THAT(doubts_of(read_scene(column), doubt_promised_buckling), IsEmpty());
+  EXPECT_THAT(findings_of(read_scene(column), check_promised_buckling), IsEmpty());
 }
 
 /// Without its load this beam would move in another set of constraints: a torque in a plane on a
@@ -121,7 +122,7 @@ TEST(PromisedBuckling, IsNotAskedWhereLoadsDecideWhatConstraintsThereAre) {
                          "value": {"type": "ramp", "to": 100, "end": 0.005}}}},
     "simulation": {"end_time": 0.005, "step": 0.0005},
     "responses": {"own": {"type": "buckling", "body": "bar", "over_time": "max"}}})j";
-  EXPECT_THAT(doubts_of(read_scene(sliding), doubt_promised_buckling), IsEmpty());
+  EXPECT_THAT(findings_of(read_scene(sliding), check_promised_buckling), IsEmpty());
 }
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "tests/core/trust/crank_rocker.hpp"
-#include "tests/core/trust/doubts_of.hpp"
+#include "tests/core/trust/findings_of.hpp"
 #include "tests/support/parameter_name.hpp"
 #include "tests/support/problem_runs.hpp"
 
@@ -29,10 +29,10 @@ class SizesOutOfProportion : public testing::TestWithParam<Slip> {};
 TEST_P(SizesOutOfProportion, AreNamedByTheirPlaceInTheFile) {
   const ProblemFile problem =
       sample_problem("slider_crank", {"/simulation/end_time=0.1 ms", GetParam().override_text});
-  const std::vector<Doubt> doubts = doubts_of(problem, doubt_proportions);
-  ASSERT_THAT(doubts, SizeIs(1));
-  EXPECT_FALSE(doubts[0].is_serious);
-  EXPECT_THAT(doubts[0].text, HasSubstr(GetParam().pointer));
+  const std::vector<Finding> findings = findings_of(problem, check_proportions);
+  ASSERT_THAT(findings, SizeIs(1));
+  EXPECT_FALSE(findings[0].is_serious);
+  EXPECT_THAT(findings[0].text, HasSubstr(GetParam().pointer));
 }
 INSTANTIATE_TEST_SUITE_P(
     Slips, SizesOutOfProportion,
@@ -57,7 +57,7 @@ TEST(SizesOutOfProportion, BeginWhereTheyAreSaidTo) {
                            Edge{"/scene/materials/steel/young", "0.99e18", "1.01e18"},
                            Edge{"/scene/gravity", "[0, 0.51, 0]", "[0, 0.49, 0]"},
                            Edge{"/scene/gravity", "[0, 249, 0]", "[0, 251, 0]"}}) {
-    // Rubber rods are for no motion: the doubt looks at numbers only.
+    // Rubber rods are for no motion: the finding looks at numbers only.
     ProblemFile problem = sample_problem("slider_crank", {"/simulation/end_time=0.1 ms"});
     const Eigen::VectorXd x = start_design(problem);
     const auto analysis = analyze(problem, x);
@@ -65,7 +65,7 @@ TEST(SizesOutOfProportion, BeginWhereTheyAreSaidTo) {
     const auto count = [&](const char* value) {
       problem.scene =
           sample_problem("slider_crank", {std::string(edge.pointer) + "=" + value}).scene;
-      return doubt_proportions(TrustedRun{problem, x, *analysis, monitors}).size();
+      return check_proportions(TrustedRun{problem, x, *analysis, monitors}).size();
     };
     EXPECT_EQ(count(edge.within), 0u) << edge.pointer << " " << edge.within;
     EXPECT_EQ(count(edge.beyond), 1u) << edge.pointer << " " << edge.beyond;
@@ -75,13 +75,13 @@ TEST(SizesOutOfProportion, BeginWhereTheyAreSaidTo) {
 /// Bodies that a massless rod holds: where they are, and what they weigh, are their own business.
 TEST(SizesOutOfProportion, ArePointsFarAwayAndInertiaOfOtherUnits) {
   const auto with = [](const std::string& body, const std::string& at) {
-    return doubts_of(
+    return findings_of(
         read_scene(
             crank_rocker(driven, closed),
             {"/scene/bodies/more=" + body,
              R"(/scene/joints/tie={"type": "distance", "bodies": ["ground", "more"], "at": [0.1, 0.1, 0], "to": )" +
                  at + "}"}),
-        doubt_proportions);
+        check_proportions);
   };
   const auto point = [&](const std::string& at) {
     return with(R"({"type": "point-mass", "mass": 1, "at": )" + at + "}", at);
@@ -114,13 +114,13 @@ TEST(SizesOutOfProportion, AreNoneWherePointsAreALittleApart) {
         "loads": {"push": {"type": "force", "body": "arm", "at": [0.4, 0, 0], "direction": [0, 1, 0], "value": 1}}},
       "simulation": {"end_time": 2e-3, "step": 1e-3},
       "responses": {"m": {"type": "mass"}}})");
-  EXPECT_THAT(doubts_of(lug, doubt_proportions), IsEmpty());
+  EXPECT_THAT(findings_of(lug, check_proportions), IsEmpty());
 }
 
 /// A radius of gyration of ten times the mechanism's size; a hundred times its size away.
 TEST(SizesOutOfProportion, BeginAtTenTimesTheInertiaAndAHundredTimesTheDistance) {
   // Bar of 1 m, and a wheel at its end: nothing else has a place.
-  const auto doubts = [](double inertia, double at) {
+  const auto findings = [](double inertia, double at) {
     ProblemFile problem = read_scene(crank_rocker(driven, closed));
     const Eigen::VectorXd x = start_design(problem);
     const auto analysis = analyze(problem, x);
@@ -132,19 +132,20 @@ TEST(SizesOutOfProportion, BeginAtTenTimesTheInertiaAndAHundredTimesTheDistance)
         {"three", PointMass{{0.5, 0.0, 0.0}, 1.0}},
         {"four", PointMass{{0.3, 0.0, 0.0}, 1.0}},
         {"wheel", RigidBody{{at, 0.0, 0.0}, 2.0, {inertia, 0.1, 0.1, 0.0, 0.0, 0.0}}}};
-    return doubt_proportions(TrustedRun{problem, x, *analysis, monitors}).size();
+    return check_proportions(TrustedRun{problem, x, *analysis, monitors}).size();
   };
-  EXPECT_EQ(doubts(2.0 * 9.9 * 9.9, 1.0), 0u);
-  EXPECT_EQ(doubts(2.0 * 10.1 * 10.1, 1.0), 1u);
-  EXPECT_EQ(doubts(1.0, 1.0 + 99.0), 0u);
-  EXPECT_EQ(doubts(1.0, 1.0 + 101.0), 1u);
+  EXPECT_EQ(findings(2.0 * 9.9 * 9.9, 1.0), 0u);
+  EXPECT_EQ(findings(2.0 * 10.1 * 10.1, 1.0), 1u);
+  EXPECT_EQ(findings(1.0, 1.0 + 99.0), 0u);
+  EXPECT_EQ(findings(1.0, 1.0 + 101.0), 1u);
 }
 
 TEST(SizesOutOfProportion, AreSectionsThatAreLargerThanTheBeamIsLong) {
   const auto with_diameter = [](double diameter) {
-    return doubts_of(read_scene(crank_rocker(driven, closed),
-                                {fmt::format("/scene/bodies/crank/section/diameter={}", diameter)}),
-                     doubt_proportions);
+    return findings_of(
+        read_scene(crank_rocker(driven, closed),
+                   {fmt::format("/scene/bodies/crank/section/diameter={}", diameter)}),
+        check_proportions);
   };
   EXPECT_THAT(with_diameter(0.02), IsEmpty());
   ASSERT_THAT(with_diameter(0.2), SizeIs(1));
@@ -157,9 +158,9 @@ TEST(SizesOutOfProportion, AreSectionsThatAreLargerThanTheBeamIsLong) {
 /// directions.
 TEST(SizesOutOfProportion, AreNotThinLeaves) {
   const auto with_section = [](const char* section) {
-    return doubts_of(read_scene(crank_rocker(driven, closed),
-                                {std::string("/scene/bodies/crank/section=") + section}),
-                     doubt_proportions);
+    return findings_of(read_scene(crank_rocker(driven, closed),
+                                  {std::string("/scene/bodies/crank/section=") + section}),
+                       check_proportions);
   };
   EXPECT_THAT(with_section(R"({"type": "rectangle", "width": 0.02, "height": 1e-5})"), IsEmpty());
   EXPECT_THAT(with_section(R"({"type": "rectangle", "width": 1e-5, "height": 0.02})"), IsEmpty());

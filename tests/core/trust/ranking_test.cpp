@@ -6,41 +6,41 @@
 namespace pleuel::test::ranking_test {
 namespace {
 
-Doubt doubt(const std::string& text, Cause cause, bool is_serious) {
-  Doubt one;
+Finding finding(const std::string& text, Cause cause, bool is_serious) {
+  Finding one;
   one.text = text;
   one.cause = cause;
   one.is_serious = is_serious;
   return one;
 }
 
-std::string order_of(const std::vector<Doubt>& doubts) {
+std::string order_of(const std::vector<Finding>& findings) {
   std::string order;
-  for (const Doubt& one : doubts) order += one.text;
+  for (const Finding& one : findings) order += one.text;
   return order;
 }
 
 /// The unit is told, what is wrong with it follows.
 TEST(Ranking, TellsTheCauseFirst) {
-  std::vector<Doubt> doubts = {
-      doubt("a", Cause::left_out, true), doubt("b", Cause::not_converged, false),
-      doubt("c", Cause::not_converged, true), doubt("d", Cause::unit, false)};
-  rank_doubts(doubts);
-  EXPECT_EQ(order_of(doubts), "dcba");
-  EXPECT_EQ(count_consequences(doubts), 3);
+  std::vector<Finding> findings = {
+      finding("a", Cause::left_out, true), finding("b", Cause::not_converged, false),
+      finding("c", Cause::not_converged, true), finding("d", Cause::unit, false)};
+  rank_findings(findings);
+  EXPECT_EQ(order_of(findings), "dcba");
+  EXPECT_EQ(count_consequences(findings), 3);
 }
 
 /// What only hangs there is no cause; it folds nothing.
 TEST(Ranking, FoldsNothingBehindWhatIsNotSerious) {
-  std::vector<Doubt> doubts = {doubt("a", Cause::left_out, true),
-                               doubt("b", Cause::mobility, false)};
-  rank_doubts(doubts);
-  EXPECT_EQ(order_of(doubts), "ba");
-  EXPECT_EQ(count_consequences(doubts), 0);
-  doubts.push_back(doubt("c", Cause::unstable, true));
-  rank_doubts(doubts);
-  EXPECT_EQ(order_of(doubts), "bca");
-  EXPECT_EQ(count_consequences(doubts), 1);
+  std::vector<Finding> findings = {finding("a", Cause::left_out, true),
+                                   finding("b", Cause::mobility, false)};
+  rank_findings(findings);
+  EXPECT_EQ(order_of(findings), "ba");
+  EXPECT_EQ(count_consequences(findings), 0);
+  findings.push_back(finding("c", Cause::unstable, true));
+  rank_findings(findings);
+  EXPECT_EQ(order_of(findings), "bca");
+  EXPECT_EQ(count_consequences(findings), 1);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@
 #include "core/integration/periodic_start.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/trust/energy_balance.hpp"
-#include "core/trust/nested_runs.hpp"
+#include "core/trust/refined_runs.hpp"
 #include "core/trust/round_off.hpp"
 #include "tests/support/problem_runs.hpp"
 
@@ -55,36 +55,36 @@ constexpr const char* cantilever = R"({
 const std::string sudden =
     R"(/scene/loads/push/value={"type": "harmonic", "amplitude": 500, "frequency": 1, "phase": 1.5})";
 
-std::vector<Doubt> doubts_about(const TrustedRun& run) {
-  return doubt_resolution(run, judge_resolution(run));
+std::vector<Finding> findings_about(const TrustedRun& run) {
+  return check_resolution(run, judge_resolution(run));
 }
 
-std::vector<Doubt> doubts_of(const std::vector<std::string>& overrides) {
+std::vector<Finding> findings_of(const std::vector<std::string>& overrides) {
   const ProblemFile problem =
       read_problem_text(cantilever, "cantilever.json", overrides).complete();
   const Eigen::VectorXd x = start_design(problem);
   const auto analysis = analyze(problem, x);
   const Monitors monitors = monitor(analysis->model, analysis->trajectory);
-  return doubts_about({problem, x, *analysis, monitors});
+  return findings_about({problem, x, *analysis, monitors});
 }
 
 TEST(Resolution, IsNotDoubtedWhereTheStepFollowsTheMotion) {
-  EXPECT_THAT(doubts_of({}), IsEmpty());
+  EXPECT_THAT(findings_of({}), IsEmpty());
 }
 
 /// With a step of 2 ms the vibration turns by 2.3 rad in each: it is not seen.
 TEST(Resolution, NamesWhatRingsUnseen) {
-  const std::vector<Doubt> doubts = doubts_of({sudden, "/simulation/step=2e-3"});
-  ASSERT_FALSE(doubts.empty());
-  EXPECT_THAT(doubts[0].responses, testing::ElementsAre("stress", "tip"));
-  EXPECT_THAT(doubts[0].text, testing::AllOf(HasSubstr("the steps leave \"stress\""),
-                                             HasSubstr("Try a /simulation/step of")));
+  const std::vector<Finding> findings = findings_of({sudden, "/simulation/step=2e-3"});
+  ASSERT_FALSE(findings.empty());
+  EXPECT_THAT(findings[0].responses, testing::ElementsAre("stress", "tip"));
+  EXPECT_THAT(findings[0].text, testing::AllOf(HasSubstr("the steps leave \"stress\""),
+                                               HasSubstr("Try a /simulation/step of")));
 }
 
 TEST(Resolution, AdvisesDampingWhereNothingDamps) {
   const auto advice = [](const char* damping) {
-    return doubts_of({sudden, "/simulation/step=2e-3",
-                      fmt::format(R"(/scene/bodies/b/damping={{"stiffness": {}}})", damping)})
+    return findings_of({sudden, "/simulation/step=2e-3",
+                        fmt::format(R"(/scene/bodies/b/damping={{"stiffness": {}}})", damping)})
         .at(0)
         .text;
   };
@@ -95,9 +95,9 @@ TEST(Resolution, AdvisesDampingWhereNothingDamps) {
 /// A minimized mass rests on nothing that moves; what nobody limits may be as wrong as it is.
 TEST(Resolution, IsSeriousForWhatIsMinimizedOrLimited) {
   const auto seriousness = [&](const char* limited) {
-    return doubts_of({sudden, "/simulation/step=2e-3",
-                      fmt::format(R"(/constraints={{"c": {{"response": "{}", "upper": 1e9}}}})",
-                                  limited)})[0]
+    return findings_of({sudden, "/simulation/step=2e-3",
+                        fmt::format(R"(/constraints={{"c": {{"response": "{}", "upper": 1e9}}}})",
+                                    limited)})[0]
         .is_serious;
   };
   EXPECT_TRUE(seriousness("stress"));
@@ -105,7 +105,7 @@ TEST(Resolution, IsSeriousForWhatIsMinimizedOrLimited) {
 }
 
 TEST(Resolution, IsLeftOutIfTheFileSaysSo) {
-  EXPECT_THAT(doubts_of({sudden, "/simulation/step=2e-3", "/simulation/resolution_check=false"}),
+  EXPECT_THAT(findings_of({sudden, "/simulation/step=2e-3", "/simulation/resolution_check=false"}),
               IsEmpty());
 }
 
@@ -116,13 +116,13 @@ TEST(Resolution, IsLeftOutIfTheFileSaysSo) {
 TEST(Resolution, NamesWhatOneElementCannotShow) {
   const std::string frequency =
       R"(/responses/second={"type": "frequency", "body": "b", "mode": 3})";
-  const std::vector<Doubt> doubts = doubts_of({frequency, "/scene/bodies/b/elements=1"});
-  ASSERT_EQ(doubts.size(), 1U);
-  EXPECT_THAT(doubts[0].text, HasSubstr("the elements leave \"second\" uncertain by 72 %"));
-  EXPECT_THAT(doubts_of({frequency}), IsEmpty());
+  const std::vector<Finding> findings = findings_of({frequency, "/scene/bodies/b/elements=1"});
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_THAT(findings[0].text, HasSubstr("the elements leave \"second\" uncertain by 72 %"));
+  EXPECT_THAT(findings_of({frequency}), IsEmpty());
 }
 
-/// A free block under F sin ωt goes to F/(mω) (t − sin ωt/ω). Its error is known: a doubt from one
+/// A free block under F sin ωt goes to F/(mω) (t − sin ωt/ω). Its error is known: a finding from one
 /// percent on, a serious one from ten on.
 TEST(Resolution, IsDoubtedFromOnePercentOfErrorAndSeriousFromTen) {
   constexpr double end = 0.1, omega = 60.0;
@@ -145,19 +145,19 @@ TEST(Resolution, IsDoubtedFromOnePercentOfErrorAndSeriousFromTen) {
     const Eigen::VectorXd x = start_design(problem);
     const auto analysis = analyze(problem, x);
     const Monitors monitors = monitor(analysis->model, analysis->trajectory);
-    const std::vector<Doubt> doubts = doubts_about({problem, x, *analysis, monitors});
+    const std::vector<Finding> findings = findings_about({problem, x, *analysis, monitors});
     const double error = std::abs(analysis->reductions[0].value / exact - 1.0);
     if (error < 0.009) {
-      EXPECT_TRUE(doubts.empty()) << error;
+      EXPECT_TRUE(findings.empty()) << error;
     }
     if (error > 0.011) {
-      EXPECT_EQ(doubts.size(), 1u) << error;
+      EXPECT_EQ(findings.size(), 1u) << error;
     }
     if (error > 0.011 && error < 0.085) {
-      EXPECT_FALSE(doubts.at(0).is_serious) << error;
+      EXPECT_FALSE(findings.at(0).is_serious) << error;
     }
     if (error > 0.12) {
-      EXPECT_TRUE(doubts.at(0).is_serious) << error;
+      EXPECT_TRUE(findings.at(0).is_serious) << error;
     }
     near[0] += error > 0.007 && error < 0.009;
     near[1] += error > 0.011 && error < 0.014;
@@ -189,12 +189,12 @@ TEST(Resolution, ProposesAStepThatIsFineEnoughAndNotMuchFiner) {
     const auto analysis = analyze(problem, x);
     const Monitors monitors = monitor(analysis->model, analysis->trajectory);
     return std::pair(std::abs(analysis->reductions[0].value / exact - 1.0),
-                     doubts_about({problem, x, *analysis, monitors}));
+                     findings_about({problem, x, *analysis, monitors}));
   };
   for (const double steps : {8.0, 10.0, 12.0}) {
-    const auto [error, doubts] = judged(steps);
-    ASSERT_EQ(doubts.size(), 1u) << error;
-    const std::string key = "Try a /simulation/step of ", &text = doubts[0].text;
+    const auto [error, findings] = judged(steps);
+    ASSERT_EQ(findings.size(), 1u) << error;
+    const std::string key = "Try a /simulation/step of ", &text = findings[0].text;
     ASSERT_THAT(text, HasSubstr(key));
     const double proposed = std::stod(text.substr(text.find(key) + key.size()));
     const auto [left, more] = judged(std::round(end / proposed));
@@ -213,7 +213,7 @@ TEST(Resolution, KnowsTheOrderOfTheScheme) {
   const auto analysis = analyze(problem, x);
   const Monitors monitors = monitor(analysis->model, analysis->trajectory);
   const Resolution resolution = judge_resolution({problem, x, *analysis, monitors});
-  const NestedRun fine = make_nested_run(problem, x, {1.0 / 16, 1.0});
+  const RefinedRun fine = make_refined_run(problem, x, {1.0 / 16, 1.0});
   for (std::size_t response = 1; response < resolution.bars.size(); ++response) {
     const auto i = static_cast<Eigen::Index>(response);
     const double error = std::abs(values_of(*analysis)(i) - fine.values(i));
@@ -275,11 +275,11 @@ TEST(Resolution, NamesWhatAReductionLeavesOut) {
         "/simulation/initial_state=quasi-static",
         R"(/constraints={"c": {"response": "stress", "upper": 1e9}})"};
   };
-  const std::vector<Doubt> doubts = doubts_of(weighing(0));
-  ASSERT_EQ(doubts.size(), 1U);
-  EXPECT_THAT(doubts[0].text, HasSubstr("the modes of a \"reduction\" leave \"stress\""));
-  EXPECT_TRUE(doubts[0].is_serious);
-  EXPECT_THAT(doubts_of(weighing(10)), IsEmpty());
+  const std::vector<Finding> findings = findings_of(weighing(0));
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_THAT(findings[0].text, HasSubstr("the modes of a \"reduction\" leave \"stress\""));
+  EXPECT_TRUE(findings[0].is_serious);
+  EXPECT_THAT(findings_of(weighing(10)), IsEmpty());
 }
 
 /// One element has no modes beside those of its ends, and more elements with only these bend as
@@ -322,7 +322,7 @@ TEST(Resolution, IsNotAskedOfRoundOff) {
   const Monitors monitors = monitor(analysis->model, analysis->trajectory);
   const TrustedRun run{problem, x, *analysis, monitors};
   EXPECT_THAT(find_round_off(run), testing::ElementsAre(false, false, true, true, false, false));
-  EXPECT_THAT(doubts_about(run), IsEmpty());
+  EXPECT_THAT(findings_about(run), IsEmpty());
 }
 
 /// A balanced rotor at constant speed needs no torque.
@@ -341,14 +341,14 @@ TEST(Resolution, IsNotAskedOfATorqueThatHoldsNothing) {
     const Eigen::VectorXd x = start_design(problem);
     const auto analysis = analyze(problem, x);
     const Monitors monitors = monitor(analysis->model, analysis->trajectory);
-    EXPECT_THAT(doubts_about({problem, x, *analysis, monitors}), IsEmpty()) << step;
+    EXPECT_THAT(findings_about({problem, x, *analysis, monitors}), IsEmpty()) << step;
   }
 }
 
 /// A first mode of 1166 rad/s does not ring in steps of 0.1 s: a sudden load then seems to bend the
 /// beam as a slow one, at any such step. The energy tells.
 TEST(EnergyBalance, IsSeriousWhereSuddenLoadsLookSlow) {
-  const auto doubts = [](const std::string& end, const std::string& step) {
+  const auto findings = [](const std::string& end, const std::string& step) {
     const ProblemFile problem =
         read_problem_text(cantilever, "cantilever.json",
                           {sudden, "/simulation/spectral_radius=0", "/simulation/end_time=" + end,
@@ -356,11 +356,11 @@ TEST(EnergyBalance, IsSeriousWhereSuddenLoadsLookSlow) {
             .complete();
     const Eigen::VectorXd x = start_design(problem);
     const auto analysis = analyze(problem, x);
-    return doubt_energy_balance(
+    return check_energy_balance(
         {problem, x, *analysis, monitor(analysis->model, analysis->trajectory)});
   };
-  EXPECT_THAT(doubts("0.01", "1e-5"), IsEmpty());
-  const std::vector<Doubt> coarse = doubts("1", "0.1");
+  EXPECT_THAT(findings("0.01", "1e-5"), IsEmpty());
+  const std::vector<Finding> coarse = findings("1", "0.1");
   ASSERT_EQ(coarse.size(), 1U);
   EXPECT_TRUE(coarse[0].is_serious);
 }

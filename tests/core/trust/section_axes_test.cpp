@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/core/trust/doubts_of.hpp"
+#include "tests/core/trust/findings_of.hpp"
 
 /// A post of 0.5 m along z whose tip a variable moves aside, pushed along y: 10 N · 0.5 m over W of 10 × 30 mm
 /// is 3.33 MPa about its strong axis and 10 MPa about the weak one.
@@ -38,20 +38,20 @@ TEST(SectionAxes, AreDoubtedWhereTheSectionTurnsWithTheDesign) {
   EXPECT_NEAR(stress(post(0.0)), 10 * 0.5 * 6 / (0.01 * 0.03 * 0.03), 1e3);
   EXPECT_NEAR(stress(post(1e-6)), 10 * 0.5 * 6 / (0.03 * 0.01 * 0.01), 1e3);
   for (const double aside : {0.0, 1e-6}) {
-    const std::vector<Doubt> doubts = doubts_of(post(aside), doubt_section_axes);
-    ASSERT_THAT(doubts, SizeIs(1));
-    EXPECT_TRUE(doubts[0].is_serious);
-    EXPECT_THAT(doubts[0].text, HasSubstr("the variable \"aside\" turns it"));
+    const std::vector<Finding> findings = findings_of(post(aside), check_section_axes);
+    ASSERT_THAT(findings, SizeIs(1));
+    EXPECT_TRUE(findings[0].is_serious);
+    EXPECT_THAT(findings[0].text, HasSubstr("the variable \"aside\" turns it"));
   }
 }
 
 TEST(SectionAxes, AreNotDoubtedWhereNothingTurns) {
-  EXPECT_THAT(doubts_of(post(0.05), doubt_section_axes), IsEmpty());
-  EXPECT_THAT(doubts_of(post(0.0, R"("reference": [0, 1, 0],)"), doubt_section_axes), IsEmpty());
-  EXPECT_THAT(doubts_of(post(0.0, "", 0.03), doubt_section_axes), IsEmpty());
+  EXPECT_THAT(findings_of(post(0.05), check_section_axes), IsEmpty());
+  EXPECT_THAT(findings_of(post(0.0, R"("reference": [0, 1, 0],)"), check_section_axes), IsEmpty());
+  EXPECT_THAT(findings_of(post(0.0, "", 0.03), check_section_axes), IsEmpty());
   ProblemFile fixed = post(0.0);
   fixed.variables[0].lower = fixed.variables[0].upper = 0.0;
-  EXPECT_THAT(doubts_of(fixed, doubt_section_axes), IsEmpty());
+  EXPECT_THAT(findings_of(fixed, check_section_axes), IsEmpty());
 }
 
 }  // namespace

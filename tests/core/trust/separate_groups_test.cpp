@@ -4,7 +4,7 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/trust/initial_motion.hpp"
-#include "tests/core/trust/doubts_of.hpp"
+#include "tests/core/trust/findings_of.hpp"
 
 /// What stands beside a mechanism, tied to the ground only, changes nothing of it.
 namespace pleuel::test::separate_groups_test {
@@ -85,24 +85,24 @@ TEST(SeparateGroups, ShareNoStart) {
 
 /// A blow on the hinge of a rod at rest turns it by m l v/(m l² + I) = 2.5 rad/s.
 TEST(OpenVelocities, AreDoubtedWhereASuddenStartWouldMakeThemOthers) {
-  const auto doubts =
-      doubts_of(read_scene(pendulum_on_carriage(0.0, sudden)), doubt_initial_motion);
-  ASSERT_THAT(doubts, SizeIs(1));
-  EXPECT_TRUE(doubts[0].is_serious);
-  EXPECT_THAT(doubts[0].text, AllOf(HasSubstr("angular velocity of \"arm\""),
-                                    HasSubstr("would make it 2.5 rad/s")));
+  const auto findings =
+      findings_of(read_scene(pendulum_on_carriage(0.0, sudden)), check_initial_motion);
+  ASSERT_THAT(findings, SizeIs(1));
+  EXPECT_TRUE(findings[0].is_serious);
+  EXPECT_THAT(findings[0].text, AllOf(HasSubstr("angular velocity of \"arm\""),
+                                      HasSubstr("would make it 2.5 rad/s")));
 }
 
 TEST(OpenVelocities, AreNoneThatTheFileGivesOrThatBeginAtRest) {
   EXPECT_THAT(
-      doubts_of(read_scene(pendulum_on_carriage(
-                    0.0, sudden, R"(, "velocity": [1, 0, 0], "angular_velocity": [0, 0, 0])")),
-                doubt_initial_motion),
+      findings_of(read_scene(pendulum_on_carriage(
+                      0.0, sudden, R"(, "velocity": [1, 0, 0], "angular_velocity": [0, 0, 0])")),
+                  check_initial_motion),
       IsEmpty());
-  EXPECT_THAT(doubts_of(read_scene(pendulum_on_carriage(
-                            0.0, R"({"type": "harmonic", "amplitude": 0.1, "frequency": "2 Hz",
+  EXPECT_THAT(findings_of(read_scene(pendulum_on_carriage(
+                              0.0, R"({"type": "harmonic", "amplitude": 0.1, "frequency": "2 Hz",
                                      "phase": "90 deg"})")),
-                        doubt_initial_motion),
+                          check_initial_motion),
               IsEmpty());
 }
 
@@ -126,9 +126,9 @@ TEST(SeparateGroups, ShareNoDoubtsOfShear) {
                              "over_time": "max"},
                   "of_block": {"type": "position", "body": "block", "at": 1, "direction": "y",
                                "over_time": "max"}}})");
-  const auto doubts = doubts_of(problem, doubt_variants);
-  ASSERT_THAT(doubts, SizeIs(1));
-  EXPECT_THAT(doubts[0].responses, testing::ElementsAre("of_block"));
+  const auto findings = findings_of(problem, check_variants);
+  ASSERT_THAT(findings, SizeIs(1));
+  EXPECT_THAT(findings[0].responses, testing::ElementsAre("of_block"));
 }
 
 }  // namespace

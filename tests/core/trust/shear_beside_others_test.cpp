@@ -19,8 +19,8 @@ using ::testing::HasSubstr;
 /// A cantilever of two beams that are welded in its middle, 200 mm long and 80 mm deep, and what a force
 /// at its tip moves with shear over that without: (h/L)² E/(4 κ G) = 0.12, half of it in each beam.
 TEST(ShearOfSeveralBeams, AddsUp) {
-  const auto doubts = [](const std::string& shear) {
-    return doubts_of(read_scene(fmt::format(R"j({{"scene": {{"bodies": {{
+  const auto findings = [](const std::string& shear) {
+    return findings_of(read_scene(fmt::format(R"j({{"scene": {{"bodies": {{
         "first": {{"type": "beam", "from": [0, 0, 0], "to": [0.1, 0, 0], "material": "steel", "elements": 2, {0},
                    "section": {{"type": "rectangle", "width": "20 mm", "height": "80 mm"}}}},
         "second": {{"type": "beam", "from": [0.1, 0, 0], "to": [0.2, 0, 0], "material": "steel", "elements": 2, {0},
@@ -32,15 +32,15 @@ TEST(ShearOfSeveralBeams, AddsUp) {
       "simulation": {{"end_time": 0.01, "step": 0.001}},
       "responses": {{"tip": {{"type": "position", "body": "second", "at": 1, "direction": "y",
                               "over_time": "min"}}}}}})j",
-                                            shear)),
-                     doubt_variants);
+                                              shear)),
+                       check_variants);
   };
-  const std::vector<Doubt> found = doubts(R"("shear": false)");
+  const std::vector<Finding> found = findings(R"("shear": false)");
   ASSERT_EQ(found.size(), 1U);
   EXPECT_TRUE(found[0].is_serious);
   EXPECT_THAT(found[0].text, HasSubstr(R"("second", "first" are stubby)"));
   EXPECT_THAT(found[0].text, HasSubstr(R"("tip" by 11 % (of)"));  // 0.12/(1 + 0.12)
-  EXPECT_TRUE(doubts(R"("shear": true)").empty());
+  EXPECT_TRUE(findings(R"("shear": true)").empty());
 }
 
 /// Two cantilevers, a block of 100 mm and a beam, share a load on the bar that ties their tips: the
@@ -75,20 +75,20 @@ TEST(ShearRange, OfABlockIsToldOfWhatStandsBesideIt) {
   const double block = 0.01 * 0.001 / 0.001, of_beam = 0.3 * 0.000125 / 0.125;
   const double with = of_beam / (of_beam + block / (1.0 + share)),
                without = of_beam / (of_beam + block);
-  const std::vector<Doubt> found = doubts_of(problem(false), doubt_variants);
+  const std::vector<Finding> found = findings_of(problem(false), check_variants);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_TRUE(found[0].is_serious);
   EXPECT_THAT(found[0].responses, testing::ElementsAre("stress", "of_bar"));
   EXPECT_THAT(found[0].text, HasSubstr("\"block\" is stubby"));
   EXPECT_NEAR(told_percent(found[0].text), 100.0 * (1.0 - without / with), 0.6);
-  EXPECT_TRUE(doubts_of(problem(true), doubt_variants).empty());
+  EXPECT_TRUE(findings_of(problem(true), check_variants).empty());
 }
 
 /// A spring at the tip of a stubby cantilever, as stiff as that without shear, takes half of the
 /// load, and 1/(1 + 1/(1 + s)) of it in truth.
 TEST(ShearRange, OfASpringIsThatOfItsLoad) {
   const double share = 0.5 * (1 + nu) / rectangle_shear_coefficient(nu);
-  const std::vector<Doubt> found = doubts_of(read_scene(R"({"scene": {
+  const std::vector<Finding> found = findings_of(read_scene(R"({"scene": {
         "materials": {"m": {"young": 2.1e11, "poisson": 0.3, "density": 7850}},
         "bodies": {"block": {"type": "beam", "from": [0, 0, 0], "to": [0.1, 0, 0], "material": "m",
                    "elements": 2, "section": {"type": "rectangle", "width": 0.01, "height": 0.1}}},
@@ -99,7 +99,7 @@ TEST(ShearRange, OfASpringIsThatOfItsLoad) {
                              "at": [[0.1, 0, 0], [0.1, -5, 0]], "stiffness": 5.25e8}}},
       "simulation": {"end_time": 0.002, "step": 0.001, "initial_state": "quasi-static"},
       "responses": {"force": {"type": "spring-force", "load": "spring", "over_time": "min"}}})"),
-                                             doubt_variants);
+                                                 check_variants);
   ASSERT_EQ(found.size(), 1u);
   const double with = (1.0 + share) / (2.0 + share);
   EXPECT_NEAR(told_percent(found[0].text), 100.0 * (1.0 - 0.5 / with), 0.6);
@@ -109,7 +109,7 @@ TEST(ShearRange, OfASpringIsThatOfItsLoad) {
 /// by far: its position is as wrong as how far it sags, 3EI/(κGAL²), and so is the difference to
 /// where it is drawn.
 TEST(ShearRange, OfAPositionIsThatOfItsOwnMotion) {
-  const std::vector<Doubt> found = doubts_of(read_scene(R"({"scene": {"gravity": [0, 0, 0],
+  const std::vector<Finding> found = findings_of(read_scene(R"({"scene": {"gravity": [0, 0, 0],
         "materials": {"m": {"young": 2.1e11, "poisson": 0.3, "density": 7850}},
         "bodies": {"block": {"type": "beam", "from": [0, 0.5, 0], "to": [0.1, 0.5, 0], "material": "m",
                    "elements": 2, "section": {"type": "rectangle", "width": 0.01, "height": 0.05}},
@@ -127,7 +127,7 @@ TEST(ShearRange, OfAPositionIsThatOfItsOwnMotion) {
         "sag": {"type": "expression", "value": "0.5 m - y"},
         "of_reed": {"type": "position", "body": "reed", "at": 1, "direction": "y",
                     "over_time": "min"}}})"),
-                                             doubt_variants);
+                                                 check_variants);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_THAT(found[0].responses, testing::ElementsAre("y", "sag"));
   const double share = 0.5 * (1 + nu) / rectangle_shear_coefficient(nu) * 0.25;
@@ -161,7 +161,7 @@ TEST(ShearRange, OfASmallDamageIsThatOfTheDamage) {
   const double with = values_of(*analyze(other, start_design(other)))(0);
   ASSERT_GT(with, 0.0);
   ASSERT_LT(with, 1e-3);
-  const std::vector<Doubt> found = doubts_of(problem, doubt_variants);
+  const std::vector<Finding> found = findings_of(problem, check_variants);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NEAR(told_percent(found[0].text), 100.0 * std::abs(without / with - 1.0),
               0.06 * 100.0 * std::abs(without / with - 1.0));

@@ -46,44 +46,44 @@ TEST(ShearShare, IsThatOfTimoshenkosClosedForm) {
 
 /// The case of h/L = 0.5 is 16 % too stiff; slender beams are left in peace.
 TEST(ShearRange, IsLeftByLoadedBeams) {
-  const std::vector<Doubt> doubts = ShearedBeam(LoadedBeam{rectangle(0.5)}).doubts();
-  ASSERT_EQ(doubts.size(), 1u);
-  EXPECT_THAT(doubts.front().text, HasSubstr("\"beam\" is stubby"));
-  EXPECT_THAT(doubts.front().text, HasSubstr("\"asked\" by 16 % (of what it is then)"));
-  EXPECT_EQ(doubts.front().responses, std::vector<std::string>{"asked"});
-  EXPECT_TRUE(doubts.front().is_serious);
-  EXPECT_TRUE(ShearedBeam(LoadedBeam{rectangle(0.05)}).doubts().empty());
+  const std::vector<Finding> findings = ShearedBeam(LoadedBeam{rectangle(0.5)}).findings();
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_THAT(findings.front().text, HasSubstr("\"beam\" is stubby"));
+  EXPECT_THAT(findings.front().text, HasSubstr("\"asked\" by 16 % (of what it is then)"));
+  EXPECT_EQ(findings.front().responses, std::vector<std::string>{"asked"});
+  EXPECT_TRUE(findings.front().is_serious);
+  EXPECT_TRUE(ShearedBeam(LoadedBeam{rectangle(0.05)}).findings().empty());
 }
 
 /// Timoshenko's share of the deflection s/(1 + s), s = 3EI/(κGAL²) = ½ (1 + ν)/κ (h/L)²: 1 % where
-/// there is a doubt, 10 % where it is serious.
+/// there is a finding, 10 % where it is serious.
 TEST(ShearRange, IsLeftAtOnePercentAndSeriousAtTen) {
   const double unit = 0.5 * (1 + nu) / rectangle_shear_coefficient(nu);
   const auto height_with = [&](double share) { return std::sqrt(share / (1 - share) / unit); };
-  const auto doubts = [&](double share) {
+  const auto findings = [&](double share) {
     return ShearedBeam(LoadedBeam{fmt::format(
                            R"({{"type": "rectangle", "width": 0.05, "height": {:.12g}}})",
                            height_with(share))})
-        .doubts();
+        .findings();
   };
-  EXPECT_TRUE(doubts(0.0097).empty());
-  ASSERT_EQ(doubts(0.0103).size(), 1u);
-  EXPECT_FALSE(doubts(0.0103)[0].is_serious);
-  EXPECT_FALSE(doubts(0.097)[0].is_serious);
-  EXPECT_TRUE(doubts(0.103)[0].is_serious);
+  EXPECT_TRUE(findings(0.0097).empty());
+  ASSERT_EQ(findings(0.0103).size(), 1u);
+  EXPECT_FALSE(findings(0.0103)[0].is_serious);
+  EXPECT_FALSE(findings(0.097)[0].is_serious);
+  EXPECT_TRUE(findings(0.103)[0].is_serious);
 }
 
 /// Stress of a cantilever does not depend on its stiffness; its frequencies and positions do.
 TEST(ShearRange, ConcernsWhatRestsOnStiffness) {
-  const auto doubts = [](const std::string& response) {
+  const auto findings = [](const std::string& response) {
     LoadedBeam beam{rectangle(0.5)};
     beam.response = response;
-    return ShearedBeam(beam).doubts().size();
+    return ShearedBeam(beam).findings().size();
   };
-  EXPECT_EQ(doubts(R"({"type": "stress", "body": "beam", "over_time": "max"})"), 0u);
-  EXPECT_EQ(doubts(R"({"type": "mass"})"), 0u);
-  EXPECT_EQ(doubts(R"({"type": "elastic-energy", "body": "beam", "over_time": "max"})"), 1u);
-  EXPECT_EQ(doubts(R"({"type": "elastic-energy", "over_time": "max"})"), 1u);
+  EXPECT_EQ(findings(R"({"type": "stress", "body": "beam", "over_time": "max"})"), 0u);
+  EXPECT_EQ(findings(R"({"type": "mass"})"), 0u);
+  EXPECT_EQ(findings(R"({"type": "elastic-energy", "body": "beam", "over_time": "max"})"), 1u);
+  EXPECT_EQ(findings(R"({"type": "elastic-energy", "over_time": "max"})"), 1u);
 }
 
 /// What a frequency of the plate loses where it has shear, over what it is then.
@@ -103,7 +103,7 @@ TEST(ShearRange, OfAFrequencyIsThatOfItsMode) {
       LoadedBeam beam{rectangle(0.5)};
       beam.response = R"({"type": "frequency")" + owner + direction + "}";
       std::vector<std::string> found;
-      for (const Doubt& doubt : ShearedBeam(beam).doubts()) found.push_back(doubt.text);
+      for (const Finding& finding : ShearedBeam(beam).findings()) found.push_back(finding.text);
       return found;
     };
     EXPECT_TRUE(texts("").empty());
@@ -138,7 +138,7 @@ TEST(ShearRange, OfAFrequencyCountsModesThatPassOthers) {
   const double with_shear = values_of(*analyze(sheared, x))(0);
   const double lost = values_of(*analysis)(0) / with_shear - 1.0;
   ASSERT_GT(lost, 0.1);
-  const std::vector<Doubt> found = doubt_variants({problem, x, *analysis, Monitors{}});
+  const std::vector<Finding> found = check_variants({problem, x, *analysis, Monitors{}});
   ASSERT_EQ(found.size(), 1u);
   EXPECT_TRUE(found[0].is_serious);
   EXPECT_NEAR(told_percent(found[0].text), 100.0 * lost, 0.6);
@@ -153,7 +153,7 @@ TEST(ShearRange, IsSeenWithOneElementAFrame) {
   const double share = ShearedBeam(beam).share();
   beam.elements = 4;
   EXPECT_NEAR(ShearedBeam(beam).share(), share, 0.05 * share);
-  EXPECT_EQ(ShearedBeam(beam).doubts().size(), 1u);
+  EXPECT_EQ(ShearedBeam(beam).findings().size(), 1u);
 }
 
 /// Shear lowers Euler's load P to P/(1 + s), s = P/(κGA) (Timoshenko & Gere, Theory of Elastic
@@ -163,11 +163,11 @@ TEST(ShearRange, OfBucklingIsThatOfEulersLoad) {
   LoadedBeam beam{R"({"type": "circle", "diameter": 0.5})"};
   beam.direction = "[-1, 0, 0]";
   beam.response = R"({"type": "buckling", "body": "beam", "over_time": "max"})";
-  const std::vector<Doubt> doubts = ShearedBeam(beam).doubts();
-  ASSERT_EQ(doubts.size(), 1u);
+  const std::vector<Finding> findings = ShearedBeam(beam).findings();
+  ASSERT_EQ(findings.size(), 1u);
   const double kappa = 6 * (1 + nu) / (7 + 6 * nu);
   const double share = std::numbers::pi * std::numbers::pi * 2 * (1 + nu) / kappa * 0.25 / 16;
-  EXPECT_THAT(doubts[0].text, HasSubstr(fmt::format(" {:.2g} %", 100 * share / (1 + share))));
+  EXPECT_THAT(findings[0].text, HasSubstr(fmt::format(" {:.2g} %", 100 * share / (1 + share))));
 }
 
 /// A plate of 50 by 500 mm buckles about its weak axis, about which it is slender.
@@ -175,13 +175,13 @@ TEST(ShearRange, OfBucklingIsThatOfThePlaneThatBucklesFirst) {
   LoadedBeam beam{rectangle(0.5)};
   beam.direction = "[-1, 0, 0]";
   beam.response = R"({"type": "buckling", "body": "beam", "over_time": "max"})";
-  EXPECT_TRUE(ShearedBeam(beam).doubts().empty());
+  EXPECT_TRUE(ShearedBeam(beam).findings().empty());
   beam.section = R"({"type": "rectangle", "width": 0.4, "height": 0.5})";
-  const std::vector<Doubt> doubts = ShearedBeam(beam).doubts();
-  ASSERT_EQ(doubts.size(), 1u);
+  const std::vector<Finding> findings = ShearedBeam(beam).findings();
+  ASSERT_EQ(findings.size(), 1u);
   const double share = std::numbers::pi * std::numbers::pi * 2 * (1 + nu) * 0.16 / 12 /
                        rectangle_shear_coefficient(nu);
-  EXPECT_THAT(doubts[0].text, HasSubstr(fmt::format(" {:.2g} %", 100 * share / (1 + share))));
+  EXPECT_THAT(findings[0].text, HasSubstr(fmt::format(" {:.2g} %", 100 * share / (1 + share))));
 }
 
 /// A slider-crank of stubby members in space: its three revolute joints hold the loop three times
@@ -192,18 +192,18 @@ TEST(ShearRange, DoesNotConcernTheForcesOfAPlanarLoopInSpace) {
                        "/simulation/end_time=60 ms", "/simulation/resolution_check=false"});
   const Eigen::VectorXd x = start_design(problem);
   const auto analysis = analyze(problem, x);
-  const std::vector<Doubt> found = doubt_variants({problem, x, *analysis, Monitors{}});
+  const std::vector<Finding> found = check_variants({problem, x, *analysis, Monitors{}});
   ASSERT_FALSE(found.empty());
-  for (const Doubt& doubt : found) {
-    EXPECT_THAT(doubt.responses, testing::Not(testing::Contains("torque_peak"))) << doubt.text;
-    EXPECT_THAT(doubt.text, testing::Not(HasSubstr("stress"))) << doubt.text;
+  for (const Finding& finding : found) {
+    EXPECT_THAT(finding.responses, testing::Not(testing::Contains("torque_peak"))) << finding.text;
+    EXPECT_THAT(finding.text, testing::Not(HasSubstr("stress"))) << finding.text;
   }
 }
 
 /// A beam clamped at one end whose other end is moved sideways without turning takes
 /// 12EI/L³ / (1 + 12EI/(κGAL²)) a metre: forces and stresses are as wrong as its stiffness.
 TEST(ShearRange, ConcernsTheForcesOfWhatIsHeldMoreThanItNeeds) {
-  const auto doubts = [](const std::string& response) {
+  const auto findings = [](const std::string& response) {
     const ProblemFile problem =
         read_problem_text(
             R"({"scene": {"materials": {"m": {"young": 2.1e11, "poisson": 0.3, "density": 7850}},
@@ -219,21 +219,21 @@ TEST(ShearRange, ConcernsTheForcesOfWhatIsHeldMoreThanItNeeds) {
             .complete();
     const Eigen::VectorXd x = start_design(problem);
     const auto analysis = analyze(problem, x);
-    return doubt_variants({problem, x, *analysis, Monitors{}});
+    return check_variants({problem, x, *analysis, Monitors{}});
   };
   const double phi = 12 * 2.6 * 0.25 / 12 / rectangle_shear_coefficient(nu);
   for (const char* response : {R"({"type": "stress", "body": "b", "over_time": "max"})",
                                R"({"type": "drive-force", "joint": "ram", "over_time": "max"})",
                                R"({"type": "reaction-moment", "joint": "clamp", "direction": "z",
              "over_time": "max-abs"})"}) {
-    const std::vector<Doubt> found = doubts(response);
+    const std::vector<Finding> found = findings(response);
     ASSERT_EQ(found.size(), 1u) << response;
     EXPECT_TRUE(found[0].is_serious);
     EXPECT_NEAR(told_percent(found[0].text), 100 * phi, 0.6);
   }
 }
 
-/// Timoshenko's tip, P L³/3EI + P L/κGA, of all sections in modes and frames, and no doubt of it.
+/// Timoshenko's tip, P L³/3EI + P L/κGA, of all sections in modes and frames, and no finding of it.
 TEST(ShearRange, DoesNotConcernBeamsThatHaveShear) {
   const double kappa = 10.0 * (1.0 + nu) / (12.0 + 11.0 * nu), area = 0.05 * 0.5;
   const double bending = 1.0 / (3 * 2.1e11 * area * 0.25 / 12);
@@ -246,7 +246,7 @@ TEST(ShearRange, DoesNotConcernBeamsThatHaveShear) {
     beam.more = more;
     const ShearedBeam run(beam);
     EXPECT_NEAR(run.analysis->reductions[0].value, expected, 1e-6 * expected) << frames << more;
-    EXPECT_TRUE(run.doubts().empty()) << frames << more;
+    EXPECT_TRUE(run.findings().empty()) << frames << more;
   }
   const auto records =
       ShearedBeam(LoadedBeam{.section = rectangle(0.5), .more = R"(, "shear": true)"})
@@ -259,12 +259,12 @@ TEST(ShearRange, DoesNotConcernBeamsThatHaveShear) {
 /// What can be done is said.
 TEST(ShearRange, SaysWhatHelps) {
   LoadedBeam beam{rectangle(0.5)};
-  EXPECT_THAT(ShearedBeam(beam).doubts()[0].text,
+  EXPECT_THAT(ShearedBeam(beam).findings()[0].text,
               HasSubstr("by 16 % (of what it is then). Do not trust that: set "
                         "/scene/bodies/beam/shear to true."));
   beam.section = R"({"type": "general", "area": 0.025, "inertia_y": 5e-6, "inertia_z": 5e-4,
                      "torsion": 2e-5, "points": [{"y": 0.25, "z": 0, "shear": 0}]})";
-  EXPECT_THAT(ShearedBeam(beam).doubts()[0].text,
+  EXPECT_THAT(ShearedBeam(beam).findings()[0].text,
               HasSubstr("true, and give the section of \"beam\" \"shear_area_y\" and"));
 }
 
@@ -286,7 +286,7 @@ TEST(ShearRange, AgainstTheChordIsThatAgainstTheChord) {
     return at(0.9) - 0.9 * at(1.0);
   };
   const double expected = against_chord(sheared) / against_chord(0.0);
-  const std::vector<Doubt> found = ShearedBeam(beam).doubts();
+  const std::vector<Finding> found = ShearedBeam(beam).findings();
   ASSERT_EQ(found.size(), 1u);
   EXPECT_NEAR(told_percent(found[0].text), 100.0 * std::abs(1.0 / expected - 1.0), 0.6);
 }
@@ -300,10 +300,10 @@ TEST(ShearRange, IsSeriousBesideLimitsOnly) {
     limit.name = limit.response = "asked";
     limit.upper = times * values_of(*analyze(problem, start_design(problem)))(0);
     problem.constraints.push_back(limit);
-    return doubts_of(problem, doubt_variants);
+    return findings_of(problem, check_variants);
   };
   for (const auto& [times, is_serious] : {std::pair(1.5, true), std::pair(1000.0, false)}) {
-    const std::vector<Doubt> found = with_limit(times);
+    const std::vector<Finding> found = with_limit(times);
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].is_serious, is_serious) << times;
     EXPECT_THAT(found[0].text, HasSubstr("by 16 % (of"));
@@ -314,7 +314,7 @@ TEST(ShearRange, IsSeriousBesideLimitsOnly) {
 TEST(ShearRange, IsNotAskedWithoutResponses) {
   ProblemFile problem = LoadedBeam{rectangle(0.5)}.problem();
   problem.responses.clear();
-  EXPECT_TRUE(doubts_of(problem, doubt_variants).empty());
+  EXPECT_TRUE(findings_of(problem, check_variants).empty());
 }
 
 /// A column that stands, and does not bend, has no deflection that shear could change.
@@ -323,7 +323,7 @@ TEST(ShearRange, IsNotLeftByWhatDoesNotBend) {
   beam.direction = "[-1, 0, 0]";
   beam.response = R"({"type": "position", "body": "beam", "at": 1, "direction": "y",
                       "over_time": "max-abs"})";
-  EXPECT_TRUE(ShearedBeam(beam).doubts().empty());
+  EXPECT_TRUE(ShearedBeam(beam).findings().empty());
 }
 
 }  // namespace

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "core/trust/stubby_beams.hpp"
-#include "tests/core/trust/doubts_of.hpp"
+#include "core/trust/low_slenderness.hpp"
+#include "tests/core/trust/findings_of.hpp"
 #include "tests/support/bent_cantilever.hpp"
 #include "tests/support/problem_runs.hpp"
 
@@ -57,7 +57,7 @@ struct ShearedBeam : StartRun {
     analysis->trajectory.states->load(0, state);
     return shear_share(problem, x, analysis->model, "beam", state);
   }
-  std::vector<Doubt> doubts() const { return doubt_variants(run()); }
+  std::vector<Finding> findings() const { return check_variants(run()); }
 };
 
 inline std::string rectangle(double height) {

@@ -10,13 +10,13 @@
 #include "core/base/error.hpp"
 #include "core/response/analysis.hpp"
 #include "core/scene/problem_reader.hpp"
-#include "tests/core/trust/buckling_doubts.hpp"
+#include "tests/core/trust/buckling_findings.hpp"
 
 namespace pleuel::test::sideways_buckling_test {
 namespace {
 
-using test::buckling_doubts_of;
-using test::doubts_of;
+using test::buckling_findings_of;
+using test::findings_of;
 using test::read_scene;
 
 constexpr double young = 2.1e11, shear = 8.0e10;
@@ -51,19 +51,19 @@ TEST(SidewaysBuckling, IsToldNearTheCriticalLoadInThePlaneAndInSpace) {
   for (const char* effects : {"{}", R"({"spatial_motion": "on"})"}) {
     for (const char* body : {"", R"(, "reduction": {"modes": 2})"}) {
       EXPECT_TRUE(
-          doubts_of(read_scene(cantilever(0.5 * critical_force(), thin, effects, body))).empty());
+          findings_of(read_scene(cantilever(0.5 * critical_force(), thin, effects, body))).empty());
       // From three quarters on.
-      EXPECT_TRUE(
-          doubts_of(read_scene(cantilever(0.73 * critical_force(), thin, effects, body))).empty());
+      EXPECT_TRUE(findings_of(read_scene(cantilever(0.73 * critical_force(), thin, effects, body)))
+                      .empty());
       EXPECT_EQ(
-          doubts_of(read_scene(cantilever(0.77 * critical_force(), thin, effects, body))).size(),
+          findings_of(read_scene(cantilever(0.77 * critical_force(), thin, effects, body))).size(),
           1u);
       const auto near =
-          doubts_of(read_scene(cantilever(0.9 * critical_force(), thin, effects, body)));
+          findings_of(read_scene(cantilever(0.9 * critical_force(), thin, effects, body)));
       ASSERT_EQ(near.size(), 1u) << effects << body;
       EXPECT_FALSE(near[0].is_serious);
       const auto beyond =
-          doubts_of(read_scene(cantilever(1.1 * critical_force(), thin, effects, body)));
+          findings_of(read_scene(cantilever(1.1 * critical_force(), thin, effects, body)));
       ASSERT_EQ(beyond.size(), 1u) << effects << body;
       EXPECT_TRUE(beyond[0].is_serious);
       EXPECT_NE(beyond[0].text.find("\"arm\" buckles out of the plane"), std::string::npos);
@@ -74,11 +74,12 @@ TEST(SidewaysBuckling, IsToldNearTheCriticalLoadInThePlaneAndInSpace) {
 
 /// Bent about its weak axis, or round, a beam stays in its plane.
 TEST(SidewaysBuckling, DoesNotThreatenABeamThatIsStifferSideways) {
-  EXPECT_TRUE(doubts_of(read_scene(cantilever(
-                            3.0, R"({"type": "rectangle", "width": 0.04, "height": 0.006})", "{}")))
-                  .empty());
   EXPECT_TRUE(
-      doubts_of(read_scene(cantilever(3.0, R"({"type": "circle", "diameter": 0.01})", "{}")))
+      findings_of(read_scene(cantilever(
+                      3.0, R"({"type": "rectangle", "width": 0.04, "height": 0.006})", "{}")))
+          .empty());
+  EXPECT_TRUE(
+      findings_of(read_scene(cantilever(3.0, R"({"type": "circle", "diameter": 0.01})", "{}")))
           .empty());
 }
 
@@ -88,15 +89,15 @@ TEST(SidewaysBuckling, OfAColumnOutOfThePlaneOfMotionIsSerious) {
   const auto pressed = [&](double share) {
     std::string text = cantilever(share * critical, thin, "{}");
     text.replace(text.find("[0, -1, 0]"), 10, "[-1, 0, 0]");
-    // A little weight tells in which plane it moves; so little that there is a doubt about it.
+    // A little weight tells in which plane it moves; so little that there is a finding about it.
     text.replace(text.find("\"scene\": {"), 10, "\"scene\": {\"gravity\": [0, -1e-3, 0],");
-    return buckling_doubts_of(text);
+    return buckling_findings_of(text);
   };
   EXPECT_TRUE(pressed(0.7).empty());
-  const std::vector<Doubt> doubts = pressed(1.05);
-  ASSERT_EQ(doubts.size(), 1u);
-  EXPECT_TRUE(doubts[0].is_serious);
-  EXPECT_NE(doubts[0].text.find("buckles"), std::string::npos) << doubts[0].text;
+  const std::vector<Finding> findings = pressed(1.05);
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_TRUE(findings[0].is_serious);
+  EXPECT_NE(findings[0].text.find("buckles"), std::string::npos) << findings[0].text;
 }
 
 /// The same column with its end in a slide along it, which neither turns nor goes sideways:
@@ -111,7 +112,7 @@ TEST(SidewaysBuckling, OfAColumnInASlideIsThatOfTwoClampedEnds) {
     text.insert(text.find(joints) + joints.size(),
                 R"("slide": {"type": "prismatic", "bodies": ["ground", "arm"], "at": [1.2, 0, 0],
                              "axis": [1, 0, 0]},)");
-    return buckling_doubts_of(text).size();
+    return buckling_findings_of(text).size();
   };
   EXPECT_EQ(pressed(0.5), 0u);
   EXPECT_EQ(pressed(0.98), 0u);
@@ -139,9 +140,9 @@ TEST(SidewaysBuckling, IsLookedForAtEveryInstant) {
                                   0.9 * moment));
   // So slow that the arm follows: its first frequency across is 1.1 Hz.
   put("\"end_time\": 0.002, \"step\": 0.001", "\"end_time\": 2, \"step\": 0.01");
-  const std::vector<Doubt> doubts = buckling_doubts_of(text);
-  ASSERT_EQ(doubts.size(), 1u);
-  EXPECT_NE(doubts[0].text.find("at t = 2 s"), std::string::npos) << doubts[0].text;
+  const std::vector<Finding> findings = buckling_findings_of(text);
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_NE(findings[0].text.find("at t = 2 s"), std::string::npos) << findings[0].text;
 }
 
 /// A square bar between hinges is a column on two pins in the plane of motion, where it stays
@@ -163,13 +164,13 @@ TEST(SidewaysBuckling, OfAStraightStrutInThePlaneOfItsHingesIsTold) {
                    "axis": [0, 0, 1]},
              "l": {"type": "point-on-line", "bodies": ["ground", "arm"], "at": [1.2, 0, 0],
                    "axis": [1, 0, 0]})");
-      return buckling_doubts_of(text);
+      return buckling_findings_of(text);
     };
     EXPECT_TRUE(pressed(0.4).empty()) << effects;
-    const std::vector<Doubt> doubts = pressed(1.2);
-    ASSERT_EQ(doubts.size(), 1u) << effects;
-    EXPECT_TRUE(doubts[0].is_serious);
-    EXPECT_NE(doubts[0].text.find("buckles"), std::string::npos) << doubts[0].text;
+    const std::vector<Finding> findings = pressed(1.2);
+    ASSERT_EQ(findings.size(), 1u) << effects;
+    EXPECT_TRUE(findings[0].is_serious);
+    EXPECT_NE(findings[0].text.find("buckles"), std::string::npos) << findings[0].text;
   }
 }
 
@@ -191,9 +192,9 @@ TEST(SidewaysBuckling, OfAStraightMemberIsToldThoughItBendsLater) {
                                       2.5 * critical, across));
     put(R"("initial_state": "quasi-static")", R"("initial_state": "consistent")");
     put("\"end_time\": 0.002, \"step\": 0.001", "\"end_time\": 0.06, \"step\": 0.001");
-    return buckling_doubts_of(text);
+    return buckling_findings_of(text);
   };
-  const std::vector<Doubt> alone = told(0.0), later = told(1.0);
+  const std::vector<Finding> alone = told(0.0), later = told(1.0);
   ASSERT_EQ(alone.size(), 1u);
   ASSERT_EQ(later.size(), 1u);
   EXPECT_FALSE(later[0].is_serious) << "the pulse is short";
@@ -216,7 +217,7 @@ TEST(SidewaysBuckling, OfAColumnUnderAHighBodyIsTold) {
       "at": [1.2, 0, 0]},)");
     put(R"("body": "arm", "at": [1.2, 0, 0], "direction": [0, -1, 0])",
         R"("body": "top", "at": [13.2, 0, 0], "direction": [-1, 0, 0])");
-    return buckling_doubts_of(text);
+    return buckling_findings_of(text);
   };
   EXPECT_TRUE(pressed(0.98).empty());
   EXPECT_THROW(pressed(1.02), SimulationError);
@@ -225,12 +226,12 @@ TEST(SidewaysBuckling, OfAColumnUnderAHighBodyIsTold) {
 /// However many frames it has, and whether their stretches share its elements or divide them.
 TEST(SidewaysBuckling, OfADividedBeamIsThatOfTheWhole) {
   for (const char* frames : {R"(, "frames": 2)", R"(, "frames": 12)"}) {
-    const auto doubts = [&](double share) {
-      return buckling_doubts_of(cantilever(share * critical_force(), thin, "{}", frames));
+    const auto findings = [&](double share) {
+      return buckling_findings_of(cantilever(share * critical_force(), thin, "{}", frames));
     };
-    EXPECT_TRUE(doubts(0.7).empty()) << frames;
-    EXPECT_EQ(doubts(0.9).size(), 1u) << frames;
-    const std::vector<Doubt> beyond = doubts(2.0);
+    EXPECT_TRUE(findings(0.7).empty()) << frames;
+    EXPECT_EQ(findings(0.9).size(), 1u) << frames;
+    const std::vector<Finding> beyond = findings(2.0);
     ASSERT_GE(beyond.size(), 1u) << frames;  // in space frames that turn have some of it, too
     EXPECT_NE(beyond[0].text.find("\"arm\" buckles out of the plane"), std::string::npos);
     EXPECT_NE(beyond[0].text.find("the critical load is 0.5"), std::string::npos) << beyond[0].text;
@@ -239,22 +240,22 @@ TEST(SidewaysBuckling, OfADividedBeamIsThatOfTheWhole) {
 
 /// Held sideways all along, a beam cannot leave its plane; at its middle, it can in two halves.
 TEST(SidewaysBuckling, IsNoDangerWhereTheFileSaysThatTheBeamIsHeld) {
-  const auto doubts = [](const std::string& held) {
-    return buckling_doubts_of(cantilever(1.3 * critical_force(), thin, "{}", held));
+  const auto findings = [](const std::string& held) {
+    return buckling_findings_of(cantilever(1.3 * critical_force(), thin, "{}", held));
   };
-  ASSERT_EQ(doubts("").size(), 1u);
-  EXPECT_TRUE(doubts("")[0].is_serious);
+  ASSERT_EQ(findings("").size(), 1u);
+  EXPECT_TRUE(findings("")[0].is_serious);
   for (const char* places : {"", R"(, "at": 1)", R"(, "at": [0.5, "100 %"])"}) {
-    const std::vector<Doubt> held =
-        doubts(fmt::format(R"(, "held": {{"direction": [0, 0, 1]{}}})", places));
+    const std::vector<Finding> held =
+        findings(fmt::format(R"(, "held": {{"direction": [0, 0, 1]{}}})", places));
     ASSERT_EQ(held.size(), 1u) << places;
     EXPECT_FALSE(held[0].is_serious) << held[0].text;
     EXPECT_NE(held[0].text.find("Without what holds it"), std::string::npos) << held[0].text;
   }
-  const std::vector<Doubt> in_plane = doubts(R"(, "held": {"direction": [0, 1, 0]})");
+  const std::vector<Finding> in_plane = findings(R"(, "held": {"direction": [0, 1, 0]})");
   ASSERT_EQ(in_plane.size(), 1u);
   EXPECT_FALSE(in_plane[0].is_serious) << "what cannot twist does not buckle sideways";
-  const std::vector<Doubt> at_foot = doubts(R"(, "held": {"direction": [0, 1, 0], "at": 0})");
+  const std::vector<Finding> at_foot = findings(R"(, "held": {"direction": [0, 1, 0], "at": 0})");
   ASSERT_EQ(at_foot.size(), 2u);
   EXPECT_TRUE(at_foot[0].is_serious);
 }
@@ -266,13 +267,13 @@ TEST(SidewaysBuckling, OfAColumnThatIsHeldIsThatOfItsParts) {
     std::string text = cantilever(share * euler, thin, "{}", held);
     text.replace(text.find("[0, -1, 0]"), 10, "[-1, 0, 0]");
     text.replace(text.find("\"scene\": {"), 10, "\"scene\": {\"gravity\": [0, -1e-3, 0],");
-    return buckling_doubts_of(text);
+    return buckling_findings_of(text);
   };
   EXPECT_EQ(pressed(1.05, "").size(), 1u);
   const std::string tip = R"(, "held": {"direction": [0, 0, 1], "at": 1})";
   // Clamped and pinned: 20.19 EI/L² in place of 2.467.
   EXPECT_TRUE(pressed(0.97 * 20.19 / 2.467, tip).empty());
-  const std::vector<Doubt> beyond = pressed(1.03 * 20.19 / 2.467, tip);
+  const std::vector<Finding> beyond = pressed(1.03 * 20.19 / 2.467, tip);
   ASSERT_EQ(beyond.size(), 1u);
   EXPECT_TRUE(beyond[0].is_serious) << beyond[0].text;
 }

@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/core/trust/doubts_of.hpp"
+#include "tests/core/trust/findings_of.hpp"
 
 namespace pleuel::test::sliding_contact_test {
 namespace {
@@ -50,7 +50,7 @@ TEST(SlidingContact, IsNoneWhereTheLineBelongsToTheOtherBody) {
                      "slot": {"type": "point-on-line", "bodies": ["carriage", "arm"],
                               "at": [1, 0, 0], "axis": [1, 0, 0]}}},
           "simulation": {"end_time": 0.2, "step": 0.01}})");
-  EXPECT_THAT(doubts_of(problem, doubt_sliding_contacts), IsEmpty());
+  EXPECT_THAT(findings_of(problem, check_sliding_contacts), IsEmpty());
 }
 
 /// What moves has no bar then; the mass has.
@@ -69,14 +69,16 @@ TEST(SlidingContact, LeavesNumbersWithoutABar) {
 }
 
 TEST(SlidingContact, IsADoubtWhereItTravelsOverAnElasticBeam) {
-  const std::vector<Doubt> doubts = doubts_of(trolley(0.2, 0.6, ""), doubt_sliding_contacts);
-  ASSERT_THAT(doubts, SizeIs(1));
-  EXPECT_TRUE(doubts[0].is_serious);
-  EXPECT_THAT(doubts[0].text, HasSubstr("\"trolley\" slides 0.6 m along the elastic beam \"arm\""));
-  EXPECT_THAT(doubts_of(trolley(0.2, 0.6, R"(, "frames": 2)"), doubt_sliding_contacts), SizeIs(1));
-  EXPECT_THAT(doubts_of(trolley(0.2, 0.01, ""), doubt_sliding_contacts), IsEmpty());
-  EXPECT_THAT(doubts_of(trolley(1.0, 0.6, ""), doubt_sliding_contacts), IsEmpty());
-  EXPECT_THAT(doubts_of(trolley(0.2, 0.6, R"(, "rigid": true)"), doubt_sliding_contacts),
+  const std::vector<Finding> findings = findings_of(trolley(0.2, 0.6, ""), check_sliding_contacts);
+  ASSERT_THAT(findings, SizeIs(1));
+  EXPECT_TRUE(findings[0].is_serious);
+  EXPECT_THAT(findings[0].text,
+              HasSubstr("\"trolley\" slides 0.6 m along the elastic beam \"arm\""));
+  EXPECT_THAT(findings_of(trolley(0.2, 0.6, R"(, "frames": 2)"), check_sliding_contacts),
+              SizeIs(1));
+  EXPECT_THAT(findings_of(trolley(0.2, 0.01, ""), check_sliding_contacts), IsEmpty());
+  EXPECT_THAT(findings_of(trolley(1.0, 0.6, ""), check_sliding_contacts), IsEmpty());
+  EXPECT_THAT(findings_of(trolley(0.2, 0.6, R"(, "rigid": true)"), check_sliding_contacts),
               IsEmpty());
 }
 

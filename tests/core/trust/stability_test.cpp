@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/trust/sideways_buckling.hpp"
-#include "tests/core/trust/doubts_of.hpp"
+#include "tests/core/trust/findings_of.hpp"
 
 /// A square column of 1 m × 10 mm, pressed slowly: EI = 175 N m².
 namespace pleuel::test::stability_test {
@@ -16,11 +16,11 @@ namespace {
 
 constexpr double stiffness = 2.1e11 * 1e-8 / 12;
 
-std::vector<Doubt> doubts_of_column(const std::string& bodies, const std::string& joints,
-                                    const std::string& loaded, double at, double force,
-                                    const std::string& springs = "",
-                                    const std::string& spatial_motion = "on",
-                                    FindDoubts find = doubt_stability, double end_time = 0.1) {
+std::vector<Finding> findings_of_column(const std::string& bodies, const std::string& joints,
+                                        const std::string& loaded, double at, double force,
+                                        const std::string& springs = "",
+                                        const std::string& spatial_motion = "on",
+                                        FindChecks find = check_stability, double end_time = 0.1) {
   const std::string text = fmt::format(
       R"j({{"scene": {{
         "materials": {{"light": {{"young": 2.1e11, "poisson": 0.3, "density": 1}}}},
@@ -35,7 +35,7 @@ std::vector<Doubt> doubts_of_column(const std::string& bodies, const std::string
       "simulation": {{"end_time": {}, "step": 0.0025}},
       "responses": {{"mass": {{"type": "mass"}}}}}})j",
       bodies, joints, springs, loaded, at, force, spatial_motion, end_time);
-  return doubts_of(read_scene(text), find);
+  return findings_of(read_scene(text), find);
 }
 
 std::string rigid(const std::string& name, double at) {
@@ -54,15 +54,15 @@ double root(double right) {
   return low;
 }
 
-/// One doubt, serious, at 1.02 of a critical load; none at 0.98 of it.
-template <class DoubtsAt>
-void expect_critical(double load, const DoubtsAt& doubts_at) {
-  EXPECT_TRUE(doubts_at(0.98 * load).empty());
-  const std::vector<Doubt> doubts = doubts_at(1.02 * load);
-  ASSERT_EQ(doubts.size(), 1);
-  EXPECT_TRUE(doubts[0].is_serious);
-  EXPECT_NE(doubts[0].text.find("\"bar\""), std::string::npos) << doubts[0].text;
-  EXPECT_NE(doubts[0].text.find("buckles"), std::string::npos) << doubts[0].text;
+/// One finding, serious, at 1.02 of a critical load; none at 0.98 of it.
+template <class FindingsAt>
+void expect_critical(double load, const FindingsAt& findings_at) {
+  EXPECT_TRUE(findings_at(0.98 * load).empty());
+  const std::vector<Finding> findings = findings_at(1.02 * load);
+  ASSERT_EQ(findings.size(), 1);
+  EXPECT_TRUE(findings[0].is_serious);
+  EXPECT_NE(findings[0].text.find("\"bar\""), std::string::npos) << findings[0].text;
+  EXPECT_NE(findings[0].text.find("buckles"), std::string::npos) << findings[0].text;
 }
 
 const std::string clamp =
@@ -70,7 +70,8 @@ const std::string clamp =
 
 TEST(Stability, AreToldFromTheEulerLoadOfACantileverOn) {
   const double euler = std::numbers::pi * std::numbers::pi * stiffness / 4;
-  expect_critical(euler, [](double force) { return doubts_of_column("", clamp, "bar", 1, force); });
+  expect_critical(euler,
+                  [](double force) { return findings_of_column("", clamp, "bar", 1, force); });
 }
 
 const std::string hinge =
@@ -83,15 +84,15 @@ TEST(Stability, BuckleWithTheSpringThatTheyStandOn) {
     for (const double ratio : {0.3, 3.0, 30.0}) {
       SCOPED_TRACE(fmt::format("space {}, k L/EI = {}", spatial_motion, ratio));
       const double u = root(ratio);
-      const auto doubts_at = [&](double force) {
-        return doubts_of_column("", hinge, "bar", 1, force,
-                                fmt::format(R"("foot_spring": {{"type": "joint", "joint": "foot",
+      const auto findings_at = [&](double force) {
+        return findings_of_column("", hinge, "bar", 1, force,
+                                  fmt::format(R"("foot_spring": {{"type": "joint", "joint": "foot",
                                                "stiffness": {}}}, )",
-                                            ratio * stiffness),
-                                spatial_motion);
+                                              ratio * stiffness),
+                                  spatial_motion);
       };
-      expect_critical(u * u * stiffness, doubts_at);
-      EXPECT_EQ(doubts_at(1.3 * std::max(u * u, ratio) * stiffness).size(), 1);
+      expect_critical(u * u * stiffness, findings_at);
+      EXPECT_EQ(findings_at(1.3 * std::max(u * u, ratio) * stiffness).size(), 1);
     }
   }
 }
@@ -105,15 +106,15 @@ TEST(Stability, BuckleBesideWhatTurns) {
   for (const char* spatial_motion : {"off", "on"}) {
     SCOPED_TRACE(spatial_motion);
     const double u = root(3.0);
-    const auto doubts_at = [&](double force) {
-      return doubts_of_column(wheel, hinge + shaft, "bar", 1, force,
-                              fmt::format(R"("foot_spring": {{"type": "joint", "joint": "foot",
+    const auto findings_at = [&](double force) {
+      return findings_of_column(wheel, hinge + shaft, "bar", 1, force,
+                                fmt::format(R"("foot_spring": {{"type": "joint", "joint": "foot",
                                              "stiffness": {}}}, )",
-                                          3.0 * stiffness),
-                              spatial_motion);
+                                            3.0 * stiffness),
+                                spatial_motion);
     };
-    expect_critical(u * u * stiffness, doubts_at);
-    EXPECT_EQ(doubts_at(4.0 * stiffness).size(), 1);
+    expect_critical(u * u * stiffness, findings_at);
+    EXPECT_EQ(findings_at(4.0 * stiffness).size(), 1);
   }
 }
 
@@ -127,17 +128,17 @@ TEST(Stability, BuckleBetweenSpringsThatHoldTheTip) {
             "stiffness": 1e7}, )";
   const double critical = 20.1907 * stiffness;
   expect_critical(critical, [&](double force) {
-    return doubts_of_column("", clamp, "bar", 1, force, springs);
+    return findings_of_column("", clamp, "bar", 1, force, springs);
   });
   const auto by_itself = [&](const std::string& held, const std::string& spatial_motion) {
-    return doubts_of_column("", clamp, "bar", 1, 0.5 * critical, held, spatial_motion,
-                            doubt_sideways_buckling);
+    return findings_of_column("", clamp, "bar", 1, 0.5 * critical, held, spatial_motion,
+                              check_sideways_buckling);
   };
   EXPECT_TRUE(by_itself(springs, "on").empty());
   // In a plane only out of it, where nothing holds the tip.
   const std::string in_plane = springs.substr(0, springs.find("\"z\""));
-  for (const Doubt& doubt : by_itself(in_plane, "auto")) {
-    EXPECT_EQ(doubt.text.find("in the plane of motion"), std::string::npos) << doubt.text;
+  for (const Finding& finding : by_itself(in_plane, "auto")) {
+    EXPECT_EQ(finding.text.find("in the plane of motion"), std::string::npos) << finding.text;
   }
 }
 
@@ -147,10 +148,10 @@ TEST(Stability, IncludeTheWayOfALoadAboveTheTip) {
   for (const double height : {1.0, 10.0}) {
     const double u = root(1.0 / height);
     expect_critical(stiffness * u * u, [height](double force) {
-      return doubts_of_column(rigid("mast", 1 + height),
-                              clamp + R"(, "weld": {"type": "fixed", "bodies": ["bar", "mast"],
+      return findings_of_column(rigid("mast", 1 + height),
+                                clamp + R"(, "weld": {"type": "fixed", "bodies": ["bar", "mast"],
                                                 "at": [1, 0, 0]})",
-                              "mast", 1 + height, force, "", "on", doubt_stability, 0.4);
+                                "mast", 1 + height, force, "", "on", check_stability, 0.4);
     });
   }
 }
@@ -159,14 +160,14 @@ TEST(Stability, IncludeTheWayOfALoadAboveTheTip) {
 TEST(Stability, IncludeTheTurningOfEndFittings) {
   const double u = root(0.5 / 0.12);
   expect_critical(4 * stiffness * u * u, [](double force) {
-    return doubts_of_column(rigid("left", -0.12) + rigid("right", 1.12),
-                            R"("a": {"type": "fixed", "bodies": ["bar", "left"], "at": [0, 0, 0]},
+    return findings_of_column(rigid("left", -0.12) + rigid("right", 1.12),
+                              R"("a": {"type": "fixed", "bodies": ["bar", "left"], "at": [0, 0, 0]},
            "b": {"type": "fixed", "bodies": ["bar", "right"], "at": [1, 0, 0]},
            "pin": {"type": "universal", "bodies": ["ground", "left"], "at": [-0.12, 0, 0],
                    "axis": [0, 1, 0], "second_axis": [0, 0, 1]},
            "line": {"type": "point-on-line", "bodies": ["ground", "right"], "at": [1.12, 0, 0],
                     "axis": [1, 0, 0]})",
-                            "right", 1.12, force);
+                              "right", 1.12, force);
   });
 }
 
@@ -187,7 +188,7 @@ std::string disk(double mass, double speed) {
 const std::string weld =
     R"(, "weld": {"type": "fixed", "bodies": ["bar", "disk"], "at": [0.5, 0, 0]})";
 
-std::vector<Doubt> doubts_of_shaft(const Shaft& shaft) {
+std::vector<Finding> findings_of_shaft(const Shaft& shaft) {
   const double wave = std::numbers::pi * std::numbers::pi;
   const double speed = shaft.speed * wave * std::sqrt(7e10 / 2700 / 12) * 0.01;
   const std::string text = fmt::format(
@@ -208,17 +209,17 @@ std::vector<Doubt> doubts_of_shaft(const Shaft& shaft) {
       -shaft.gravity, speed, shaft.damping, shaft.height,
       shaft.disk > 0.0 ? disk(shaft.disk, speed) : "", shaft.disk > 0.0 ? weld : "",
       shaft.press * wave * 7e10 * shaft.height * 1e-6 / 12);
-  return doubts_of(read_scene(text), doubt_stability);
+  return findings_of(read_scene(text), check_stability);
 }
 
 /// A shaft that is as stiff in both planes is held by gyroscopic forces beyond its critical speeds,
 /// however its weight or a sudden press makes it vibrate: (s² + K)² + 4Ω²s² has imaginary roots.
 TEST(Stability, AreNoShaftsBeyondTheirCriticalSpeeds) {
   for (const double speed : {0.5, 1.5, 2.5, 3.5}) {
-    EXPECT_TRUE(doubts_of_shaft({0.01, speed, 0.2, 9.81}).empty()) << speed;
+    EXPECT_TRUE(findings_of_shaft({0.01, speed, 0.2, 9.81}).empty()) << speed;
     for (const double mass : {0.1, 1.0}) {
-      EXPECT_TRUE(doubts_of_shaft({0.01, speed, 0.2, 9.81, 0.0, mass}).empty()) << speed;
-      EXPECT_TRUE(doubts_of_shaft({0.01, speed, 0.2, 0.0, 0.0, mass}).empty()) << speed;
+      EXPECT_TRUE(findings_of_shaft({0.01, speed, 0.2, 9.81, 0.0, mass}).empty()) << speed;
+      EXPECT_TRUE(findings_of_shaft({0.01, speed, 0.2, 0.0, 0.0, mass}).empty()) << speed;
     }
   }
 }
@@ -226,24 +227,24 @@ TEST(Stability, AreNoShaftsBeyondTheirCriticalSpeeds) {
 /// A flat shaft of ratio 2 grows between its critical speeds 1 and 2, pressed or not.
 TEST(Stability, AreFlatShaftsBetweenTheirCriticalSpeeds) {
   for (const double press : {0.0, 0.02, 0.1}) {
-    EXPECT_TRUE(doubts_of_shaft({0.02, 0.9, press}).empty()) << press;
-    EXPECT_TRUE(doubts_of_shaft({0.02, 2.5, press}).empty()) << press;
+    EXPECT_TRUE(findings_of_shaft({0.02, 0.9, press}).empty()) << press;
+    EXPECT_TRUE(findings_of_shaft({0.02, 2.5, press}).empty()) << press;
     for (const double speed : {1.1, 1.5, 1.9}) {
-      const std::vector<Doubt> doubts = doubts_of_shaft({0.02, speed, press});
-      ASSERT_EQ(doubts.size(), 1) << press << " " << speed;
-      EXPECT_TRUE(doubts[0].is_serious);
-      EXPECT_NE(doubts[0].text.find("\"bar\""), std::string::npos) << doubts[0].text;
-      EXPECT_NE(doubts[0].text.find("buckles"), std::string::npos) << doubts[0].text;
+      const std::vector<Finding> findings = findings_of_shaft({0.02, speed, press});
+      ASSERT_EQ(findings.size(), 1) << press << " " << speed;
+      EXPECT_TRUE(findings[0].is_serious);
+      EXPECT_NE(findings[0].text.find("\"bar\""), std::string::npos) << findings[0].text;
+      EXPECT_NE(findings[0].text.find("buckles"), std::string::npos) << findings[0].text;
     }
   }
 }
 
 /// Damping that turns with a shaft makes it whirl beyond its first critical speed.
 TEST(Stability, AreShaftsThatDampThemselves) {
-  EXPECT_TRUE(doubts_of_shaft({0.01, 0.9, 0.0, 0.0, 1e-4}).empty());
-  const std::vector<Doubt> doubts = doubts_of_shaft({0.01, 1.5, 0.0, 0.0, 1e-4});
-  ASSERT_EQ(doubts.size(), 1);
-  EXPECT_NE(doubts[0].text.find("\"bar\" whirls"), std::string::npos) << doubts[0].text;
+  EXPECT_TRUE(findings_of_shaft({0.01, 0.9, 0.0, 0.0, 1e-4}).empty());
+  const std::vector<Finding> findings = findings_of_shaft({0.01, 1.5, 0.0, 0.0, 1e-4});
+  ASSERT_EQ(findings.size(), 1);
+  EXPECT_NE(findings[0].text.find("\"bar\" whirls"), std::string::npos) << findings[0].text;
 }
 
 /// A clamped column under a force that follows its tip (Beck 1952): stable up to 20.05 EI/L², though dead
@@ -256,11 +257,11 @@ struct FollowedColumn {
   std::string bodies = "", joints = "", loads = "";  ///< beside it
 };
 
-std::vector<Doubt> doubts_of_followed(const FollowedColumn& column) {
+std::vector<Finding> findings_of_followed(const FollowedColumn& column) {
   constexpr double bending = 7e10 * 0.03 * 1e-6 / 12;
   const std::string value =
       fmt::format(fmt::runtime(column.value), column.press * bending, column.press * bending);
-  return doubts_of(read_scene(fmt::format(R"({{"scene": {{"gravity": [0, 0, 0],
+  return findings_of(read_scene(fmt::format(R"({{"scene": {{"gravity": [0, 0, 0],
       "materials": {{"m": {{"young": 7e10, "poisson": 0.3, "density": 2700}}}},
       "bodies": {{"c": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "m",
         "section": {{"type": "rectangle", "width": 0.03, "height": 0.01}}, "elements": 8,
@@ -270,15 +271,15 @@ std::vector<Doubt> doubts_of_followed(const FollowedColumn& column) {
         "follows": true, "value": {}}}{}}}}},
     "simulation": {{"end_time": {}, "step": 1e-3}},
     "responses": {{"mass": {{"type": "mass"}}}}}})",
-                                          column.damping, column.bodies, column.joints, value,
-                                          column.loads, column.end_time)),
-                   doubt_stability);
+                                            column.damping, column.bodies, column.joints, value,
+                                            column.loads, column.end_time)),
+                     check_stability);
 }
 
 TEST(Stability, OfBecksColumnIsLostByFlutterOnly) {
-  EXPECT_TRUE(doubts_of_followed({5.0}).empty());
-  EXPECT_TRUE(doubts_of_followed({19.0}).empty());
-  const std::vector<Doubt> beyond = doubts_of_followed({22.0});
+  EXPECT_TRUE(findings_of_followed({5.0}).empty());
+  EXPECT_TRUE(findings_of_followed({19.0}).empty());
+  const std::vector<Finding> beyond = findings_of_followed({22.0});
   ASSERT_EQ(beyond.size(), 1u);
   EXPECT_TRUE(beyond[0].is_serious);
   EXPECT_NE(beyond[0].text.find("flutter"), std::string::npos) << beyond[0].text;
@@ -288,7 +289,7 @@ TEST(Stability, OfBecksColumnIsLostByFlutterOnly) {
 /// exp(√(F/mL) t) = exp(32 t), faster than the column flutters, and is no matter of elasticity.
 TEST(Stability, OfBecksColumnIsLostBesideWhatFallsFaster) {
   const auto beside_pendulum = [](double press) {
-    return doubts_of_followed(
+    return findings_of_followed(
         {.press = press,
          .bodies = R"(, "p": {"type": "rigid", "at": [5, 0.1, 0], "mass": 1,
                      "inertia": [1e-4, 1e-4, 1e-4, 0, 0, 0]})",
@@ -299,10 +300,10 @@ TEST(Stability, OfBecksColumnIsLostBesideWhatFallsFaster) {
                                 "at": [[6, 0.1, 0], [5, 0.1, 0]], "stiffness": 1,
                                 "free_length": 1})"});
   };
-  const std::vector<Doubt> before = beside_pendulum(15.0);
+  const std::vector<Finding> before = beside_pendulum(15.0);
   ASSERT_EQ(before.size(), 1u);
   EXPECT_EQ(before[0].text.find("\"c\""), std::string::npos) << before[0].text;
-  const std::vector<Doubt> beyond = beside_pendulum(22.0);
+  const std::vector<Finding> beyond = beside_pendulum(22.0);
   ASSERT_EQ(beyond.size(), 1u);
   EXPECT_TRUE(beyond[0].is_serious);
   EXPECT_NE(beyond[0].text.find("\"c\""), std::string::npos) << beyond[0].text;
@@ -314,20 +315,20 @@ TEST(Stability, OfBecksColumnIsLostWhenItsLoadComesLate) {
   const std::string late =
       R"({{"type": "table", "interpolation": "monotone", "times": [0, 0.2, 0.3, 9],
                                "values": [0, 0, {}, {}]}})";
-  EXPECT_TRUE(doubts_of_followed({9.0, 1e-3, late, 1.8}).empty());
-  const std::vector<Doubt> doubts = doubts_of_followed({16.0, 1e-3, late, 1.8});
-  ASSERT_EQ(doubts.size(), 1u);
-  EXPECT_TRUE(doubts[0].is_serious);
-  EXPECT_NE(doubts[0].text.find("flutter"), std::string::npos) << doubts[0].text;
+  EXPECT_TRUE(findings_of_followed({9.0, 1e-3, late, 1.8}).empty());
+  const std::vector<Finding> findings = findings_of_followed({16.0, 1e-3, late, 1.8});
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_TRUE(findings[0].is_serious);
+  EXPECT_NE(findings[0].text.find("flutter"), std::string::npos) << findings[0].text;
 }
 
 /// A strut on pins under a force P sin(νt): its deflection follows q̈ + ω² (1 − P/P_E sin νt) q = 0
 /// (Mathieu), which grows for ν = 2ω as exp(ω P/(4 P_E) t) and not for ν = 2.6ω, while the strut stays
 /// straight in its own motion (Bolotin, The Dynamic Stability of Elastic Systems, 1964).
-std::vector<Doubt> doubts_of_pulsating(double share, double speed) {
+std::vector<Finding> findings_of_pulsating(double share, double speed) {
   constexpr double bending = 7e10 * 0.01 * 1e-6 / 12, wave = 9.869604401089358;
   const double frequency = wave * std::sqrt(bending / (2700 * 1e-4));
-  return doubts_of(read_scene(fmt::format(R"({{"scene": {{"gravity": [0, 0, 0],
+  return findings_of(read_scene(fmt::format(R"({{"scene": {{"gravity": [0, 0, 0],
       "materials": {{"m": {{"young": 7e10, "poisson": 0.3, "density": 2700}}}},
       "bodies": {{"c": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "m",
         "section": {{"type": "rectangle", "width": 0.01, "height": 0.01}}, "elements": 6,
@@ -339,15 +340,15 @@ std::vector<Doubt> doubts_of_pulsating(double share, double speed) {
         "value": {{"type": "harmonic", "amplitude": {}, "frequency": {}}}}}}}}},
     "simulation": {{"end_time": 0.5, "step": 5e-4}},
     "responses": {{"mass": {{"type": "mass"}}}}}})",
-                                          share * wave * bending, speed * frequency)),
-                   doubt_stability);
+                                            share * wave * bending, speed * frequency)),
+                     check_stability);
 }
 
 TEST(Stability, OfAStrutIsLostInParametricResonance) {
-  const std::vector<Doubt> doubts = doubts_of_pulsating(0.6, 2.0);
-  ASSERT_EQ(doubts.size(), 1u);
-  EXPECT_TRUE(doubts[0].is_serious) << doubts[0].text;
-  EXPECT_TRUE(doubts_of_pulsating(0.6, 2.6).empty());
+  const std::vector<Finding> findings = findings_of_pulsating(0.6, 2.0);
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_TRUE(findings[0].is_serious) << findings[0].text;
+  EXPECT_TRUE(findings_of_pulsating(0.6, 2.6).empty());
 }
 
 /// Beyond the load of buckling, but for a twentieth of a period only.
@@ -365,33 +366,33 @@ TEST(Stability, IsMentionedWhereItIsLostForTooShortATimeToHarm) {
     "simulation": {{"end_time": 0.02, "step": 1e-4}},
     "responses": {{"mass": {{"type": "mass"}}}}}})",
                                  clamp, pulse);
-  const std::vector<Doubt> doubts = doubts_of(read_scene(text), doubt_stability);
-  ASSERT_EQ(doubts.size(), 1u);
-  EXPECT_FALSE(doubts[0].is_serious) << doubts[0].text;
+  const std::vector<Finding> findings = findings_of(read_scene(text), check_stability);
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_FALSE(findings[0].is_serious) << findings[0].text;
 }
 
-std::vector<Doubt> doubts_of_pendulum(double tip, const std::string& start) {
-  return doubts_of(read_scene(fmt::format(R"({{"scene": {{"gravity": [0, -9.81, 0],
+std::vector<Finding> findings_of_pendulum(double tip, const std::string& start) {
+  return findings_of(read_scene(fmt::format(R"({{"scene": {{"gravity": [0, -9.81, 0],
       "bodies": {{"rod": {{"type": "beam", "from": [0, 0, 0], "to": [0, {}, 0], "elements": 3,
         "material": "steel", "section": {{"type": "circle", "diameter": 0.02}}}}}},
       "joints": {{"p": {{"type": "revolute", "bodies": ["ground", "rod"], "at": [0, 0, 0]}}}}}},
     "simulation": {{"end_time": 0.1, "step": 0.01, "initial_state": "{}"}},
     "responses": {{"mass": {{"type": "mass"}}}}}})",
-                                          tip, start)),
-                   doubt_stability);
+                                            tip, start)),
+                     check_stability);
 }
 
 /// Upside down it falls as exp(√(3g/2L) t), which its motion, exactly upright, does not show. Who does
 /// not ask for an equilibrium may let it fall.
 TEST(Stability, OfAPendulumThatIsSaidToBeInEquilibriumIsAsked) {
-  const std::vector<Doubt> upright = doubts_of_pendulum(1.0, "quasi-static");
+  const std::vector<Finding> upright = findings_of_pendulum(1.0, "quasi-static");
   ASSERT_EQ(upright.size(), 1u);
   EXPECT_TRUE(upright[0].is_serious);
   EXPECT_NE(upright[0].text.find(fmt::format("exp({:.4g}", std::sqrt(1.5 * 9.81))),
             std::string::npos)
       << upright[0].text;
-  EXPECT_TRUE(doubts_of_pendulum(-1.0, "quasi-static").empty());
-  EXPECT_TRUE(doubts_of_pendulum(1.0, "consistent").empty());
+  EXPECT_TRUE(findings_of_pendulum(-1.0, "quasi-static").empty());
+  EXPECT_TRUE(findings_of_pendulum(1.0, "consistent").empty());
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include "tests/core/trust/doubts_of.hpp"
+#include "tests/core/trust/findings_of.hpp"
 
 namespace pleuel::test::undetermined_reactions_test {
 namespace {
@@ -13,7 +13,7 @@ using testing::SizeIs;
 using testing::UnorderedElementsAre;
 
 /// A shaft along x in two bearings, 100 mm apart, with a pull along y beyond the second one.
-std::vector<Doubt> doubts(const std::string& first, const std::string& second) {
+std::vector<Finding> findings(const std::string& first, const std::string& second) {
   const ProblemFile shaft = read_scene(fmt::format(
       R"({{"scene": {{"gravity": [0, 0, 0], "bodies": {{
             "shaft": {{"type": "rigid", "at": [0.05, 0, 0], "mass": 1,
@@ -30,7 +30,7 @@ std::vector<Doubt> doubts(const std::string& first, const std::string& second) {
             "speed": {{"type": "angular-velocity", "body": "shaft", "direction": "x",
                        "over_time": "max-abs"}}}}}})",
       first, second));
-  return doubts_of(shaft, doubt_undetermined_reactions);
+  return findings_of(shaft, check_undetermined_reactions);
 }
 
 std::string bearing(const std::string& type, double at) {
@@ -42,16 +42,16 @@ std::string bearing(const std::string& type, double at) {
 /// Two hinges hold the tilt of the shaft twice: 650 and −150 N follow only where each holds forces
 /// alone.
 TEST(UndeterminedReactions, OfTwoHingesAreTold) {
-  const std::vector<Doubt> found = doubts(bearing("revolute", 0.1), bearing("revolute", 0.0));
+  const std::vector<Finding> found = findings(bearing("revolute", 0.1), bearing("revolute", 0.0));
   ASSERT_THAT(found, SizeIs(1));
   EXPECT_THAT(found[0].responses, UnorderedElementsAre("one", "other"));
   EXPECT_FALSE(found[0].is_serious);
   // Nor where only one of them holds the tilt, and the other one the way of its end.
-  EXPECT_THAT(doubts(bearing("revolute", 0.1), bearing("spherical", 0.0)), SizeIs(1));
+  EXPECT_THAT(findings(bearing("revolute", 0.1), bearing("spherical", 0.0)), SizeIs(1));
 }
 
 TEST(UndeterminedReactions, AreNoneOfBearingsThatHoldForces) {
-  EXPECT_THAT(doubts(bearing("point-on-line", 0.1), bearing("spherical", 0.0)), IsEmpty());
+  EXPECT_THAT(findings(bearing("point-on-line", 0.1), bearing("spherical", 0.0)), IsEmpty());
 }
 
 }  // namespace

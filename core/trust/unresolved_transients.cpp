@@ -1,4 +1,4 @@
-#include "core/trust/unseen_overshoot.hpp"
+#include "core/trust/unresolved_transients.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,7 @@
 #include "core/integration/fast_vibration.hpp"
 #include "core/response/fatigue.hpp"
 #include "core/trust/asked_responses.hpp"
-#include "core/trust/nested_runs.hpp"
+#include "core/trust/refined_runs.hpp"
 #include "core/trust/round_off.hpp"
 #include "core/trust/shorter_steps.hpp"
 #include "core/trust/sudden_jumps.hpp"
@@ -62,9 +62,9 @@ struct Unseen {
   bool is_predicted;  ///< as if nothing damped it; else of a run with short steps there
 };
 
-class UnseenOvershoots {
+class UnresolvedTransients {
  public:
-  explicit UnseenOvershoots(const TrustedRun& run)
+  explicit UnresolvedTransients(const TrustedRun& run)
       : run_(run), mechanism_(run.analysis.model.mechanism), trajectory_(run.analysis.trajectory) {
     for (const std::size_t i : asked_parts(run.problem)) {
       if (is_judged(run.analysis.responses[i])) judged_.push_back(i);
@@ -82,7 +82,7 @@ class UnseenOvershoots {
     if (suspects_.empty()) return {};
     std::stable_sort(suspects_.begin(), suspects_.end(),
                      [](const Suspect& a, const Suspect& b) { return a.share > b.share; });
-    const std::optional<NestedRun> fine = simulate_swings();
+    const std::optional<RefinedRun> fine = simulate_swings();
     if (fine) run_.shared->with_short_steps = fine->values;
     const std::vector<bool> is_round_off = find_round_off(run_);
     std::vector<Unseen> found;
@@ -273,20 +273,20 @@ class UnseenOvershoots {
 
   /// What the run would have seen with short steps there; nothing if there is no room for them, or
   /// no step converges.
-  std::optional<NestedRun> simulate_swings() {
+  std::optional<RefinedRun> simulate_swings() {
     ProblemFile fine = run_.problem;
     fine.simulation.instants = refined_instants();
     if (fine.simulation.instants.empty()) return std::nullopt;
     // Whose multipliers have no transient where the size of steps changes.
     ConstraintForm& form = fine.simulation.formulation.constraints;
     if (form == ConstraintForm::index_3) form = ConstraintForm::stabilized_index_2;
-    NestedRun run = make_nested_run(fine, run_.x, {}, &trajectory_);
+    RefinedRun run = make_refined_run(fine, run_.x, {}, &trajectory_);
     if (run.has_failed()) return std::nullopt;
     return run;
   }
 
   std::optional<Unseen> unseen_of(std::size_t response,
-                                  const std::optional<NestedRun>& fine) const {
+                                  const std::optional<RefinedRun>& fine) const {
     const Suspect& suspect = suspect_of(response, fine.has_value());
     const auto known = suspect.predicted.find(response);
     if (known == suspect.predicted.end()) return std::nullopt;
@@ -347,32 +347,32 @@ std::string remedy_of(const TrustedRun& run, int step) {
 
 }  // namespace
 
-std::vector<Doubt> doubt_unseen_overshoot(const TrustedRun& run) {
+std::vector<Finding> check_unresolved_transients(const TrustedRun& run) {
   if (!run.problem.simulation.checks_resolution) return {};
-  const std::vector<Unseen> found = UnseenOvershoots(run).find();
+  const std::vector<Unseen> found = UnresolvedTransients(run).find();
   if (found.empty()) return {};
   const Unseen& worst = found.front();
   const Trajectory& trajectory = run.analysis.trajectory;
-  Doubt doubt;
-  doubt.is_serious = true;
+  Finding finding;
+  finding.is_serious = true;
   double period = worst.suspect.main;
   for (const Unseen& one : found) {
-    doubt.responses.push_back(run.analysis.responses[one.response].name);
+    finding.responses.push_back(run.analysis.responses[one.response].name);
     period = std::min(period, one.suspect.main);
   }
   const std::size_t others = found.size() - 1;
   const int step = worst.suspect.step;
-  doubt.text = fmt::format(
+  finding.text = fmt::format(
       "the steps do not see how far \"{}\"{}: {}, and what is elastic swings beyond its new "
       "equilibrium with a period of {:.2g} s, in steps of {:.2g} s. {} would be {}. Try a "
       "/simulation/step of {:.1g} s{}.",
-      doubt.responses.front(),
+      finding.responses.front(),
       others == 0 ? " swings"
                   : fmt::format(" and {} other response{} swing", others, others == 1 ? "" : "s"),
       cause_of(run, step), worst.suspect.main, trajectory.step_size(step + 1),
       worst.is_predicted ? "Without damping the peak" : "The peak", times_as_large(worst.factor),
       period / good_steps, remedy_of(run, step));
-  return {doubt};
+  return {finding};
 }
 
 }  // namespace pleuel

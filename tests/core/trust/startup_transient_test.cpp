@@ -1,14 +1,14 @@
 /// Peaks that the start decides.
 
-#include "core/trust/sudden_start.hpp"
+#include "core/trust/startup_transient.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/core/trust/doubts_of.hpp"
+#include "tests/core/trust/findings_of.hpp"
 
-namespace pleuel::test::sudden_start_test {
+namespace pleuel::test::startup_transient_test {
 namespace {
 
 using testing::ElementsAre;
@@ -38,14 +38,14 @@ ProblemFile pushed_cantilever(const std::string& push,
       changes);
 }
 
-std::vector<Doubt> doubts(const ProblemFile& problem) {
-  return doubts_of(problem, doubt_sudden_start);
+std::vector<Finding> findings(const ProblemFile& problem) {
+  return findings_of(problem, check_startup_transient);
 }
 
 /// Without damping a load that is there at once deflects twice as far as at rest (the second and
 /// further modes, 3 % of the deflection, take their share at other times).
 TEST(SuddenStart, OfAConstantLoadIsToldByHowMuch) {
-  const std::vector<Doubt> found = doubts(pushed_cantilever("20"));
+  const std::vector<Finding> found = findings(pushed_cantilever("20"));
   ASSERT_THAT(found, SizeIs(1));
   EXPECT_FALSE(found[0].is_serious);
   EXPECT_THAT(found[0].responses, ElementsAre("tip"));
@@ -56,33 +56,33 @@ TEST(SuddenStart, OfAConstantLoadIsToldByHowMuch) {
 /// Laws that begin with a jump say so themselves; such that begin at zero shake nothing.
 TEST(SuddenStart, IsNotToldOfLawsThatJumpOrBeginAtZero) {
   EXPECT_THAT(
-      doubts(pushed_cantilever(R"({"type": "step", "from": 0, "to": 20, "time": 0, "rise": 0})")),
+      findings(pushed_cantilever(R"({"type": "step", "from": 0, "to": 20, "time": 0, "rise": 0})")),
       IsEmpty());
-  EXPECT_THAT(doubts(pushed_cantilever(
+  EXPECT_THAT(findings(pushed_cantilever(
                   R"({"type": "table", "times": [0, 0.1, 1], "values": [0, 20, 20]})")),
               IsEmpty());
 }
 
 TEST(SuddenStart, IsNoneFromEquilibriumOrWithDeflectionsThatAreGiven) {
-  EXPECT_THAT(doubts(pushed_cantilever("20", {"/simulation/initial_state=\"quasi-static\""})),
+  EXPECT_THAT(findings(pushed_cantilever("20", {"/simulation/initial_state=\"quasi-static\""})),
               IsEmpty());
   EXPECT_THAT(
-      doubts(pushed_cantilever("20", {R"(/scene/bodies/beam/initial_deflections=[{"at": [1, 0, 0],
+      findings(pushed_cantilever("20", {R"(/scene/bodies/beam/initial_deflections=[{"at": [1, 0, 0],
                          "direction": [0, 1, 0], "displacement": 0.001}])"})),
       IsEmpty());
 }
 
 /// No comparison run where the file asks for none.
 TEST(SuddenStart, IsNotLookedForWithoutChecks) {
-  EXPECT_THAT(doubts(pushed_cantilever("20", {"/simulation/resolution_check=false"})), IsEmpty());
+  EXPECT_THAT(findings(pushed_cantilever("20", {"/simulation/resolution_check=false"})), IsEmpty());
 }
 
 /// What has come to rest before the window begins is not of the start.
 TEST(SuddenStart, ThatHasDiedOutIsNotTold) {
   const std::vector<std::string> damped = {R"(/scene/bodies/beam/damping={"mass": 80})",
                                            "/responses/tip/from=0.15"};
-  EXPECT_THAT(doubts(pushed_cantilever("20", damped)), IsEmpty());
-  EXPECT_THAT(doubts(pushed_cantilever("20", {damped[0]})), SizeIs(1));
+  EXPECT_THAT(findings(pushed_cantilever("20", damped)), IsEmpty());
+  EXPECT_THAT(findings(pushed_cantilever("20", {damped[0]})), SizeIs(1));
 }
 
 /// A crank that turns at full speed from the first instant, with and without a run-up.
@@ -99,9 +99,9 @@ TEST(SuddenStart, OfADriveIsToldAndNotOfARunUp) {
             "responses": {{"bend": {{"type": "stress", "body": "arm", "over_time": "max"}}}}}})",
         drive));
   };
-  EXPECT_THAT(doubts(crank(R"({"type": "constant-speed", "speed": 60})")), SizeIs(1));
-  EXPECT_THAT(doubts(crank(R"({"type": "ramp-to-speed", "speed": 60, "ramp": 0.2})")), IsEmpty());
+  EXPECT_THAT(findings(crank(R"({"type": "constant-speed", "speed": 60})")), SizeIs(1));
+  EXPECT_THAT(findings(crank(R"({"type": "ramp-to-speed", "speed": 60, "ramp": 0.2})")), IsEmpty());
 }
 
 }  // namespace
-}  // namespace pleuel::test::sudden_start_test
+}  // namespace pleuel::test::startup_transient_test

@@ -1,6 +1,6 @@
 /// Stiffening that goes with axial elasticity, and buckling of what a tolerance makes rigid.
 
-#include "core/trust/left_out_effects.hpp"
+#include "core/trust/neglected_effects.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +11,9 @@
 #include <gtest/gtest.h>
 
 #include "core/response/effect_measurement.hpp"
-#include "tests/core/trust/doubts_of.hpp"
+#include "tests/core/trust/findings_of.hpp"
 
-namespace pleuel::test::left_out_effects_test {
+namespace pleuel::test::neglected_effects_test {
 namespace {
 
 using testing::HasSubstr;
@@ -34,16 +34,16 @@ TEST(LostStiffening, IsADoubtWhereAxialForcesAreLarge) {
           "simulation": {{"end_time": 0.01, "step": 0.001}}}})",
         force));
   };
-  EXPECT_THAT(doubts_of(problem_with(1.0), doubt_lost_stiffening), IsEmpty());
+  EXPECT_THAT(findings_of(problem_with(1.0), check_lost_stiffening), IsEmpty());
   // From one percent on.
   const double pi = 3.14159265358979, radius = 0.0025;
   const double euler = pi * pi * 2.1e11 * pi / 4 * std::pow(radius, 4) / (0.3 * 0.3);
-  EXPECT_THAT(doubts_of(problem_with(0.0098 * euler), doubt_lost_stiffening), IsEmpty());
-  EXPECT_THAT(doubts_of(problem_with(0.0102 * euler), doubt_lost_stiffening), SizeIs(1));
-  const std::vector<Doubt> doubts = doubts_of(problem_with(200.0), doubt_lost_stiffening);
-  ASSERT_THAT(doubts, SizeIs(1));
-  EXPECT_TRUE(doubts[0].is_serious);
-  EXPECT_THAT(doubts[0].text, HasSubstr("0.28 of its Euler load"));
+  EXPECT_THAT(findings_of(problem_with(0.0098 * euler), check_lost_stiffening), IsEmpty());
+  EXPECT_THAT(findings_of(problem_with(0.0102 * euler), check_lost_stiffening), SizeIs(1));
+  const std::vector<Finding> findings = findings_of(problem_with(200.0), check_lost_stiffening);
+  ASSERT_THAT(findings, SizeIs(1));
+  EXPECT_TRUE(findings[0].is_serious);
+  EXPECT_THAT(findings[0].text, HasSubstr("0.28 of its Euler load"));
 }
 
 /// A square column of 1 m × 10 mm, clamped, pressed slowly at its tip, which moves by less than 1e-3 of
@@ -70,8 +70,8 @@ ProblemFile pressed_column(double force, const char* spatial_motion, double tole
 
 /// What is said of buckling, without how far disturbances grow: what is left out is looked for at twice
 /// the step, which damps them less.
-std::vector<std::string> buckling_of(const std::vector<Doubt>& doubts) {
-  std::vector<std::string> texts = texts_of(doubts);
+std::vector<std::string> buckling_of(const std::vector<Finding>& findings) {
+  std::vector<std::string> texts = texts_of(findings);
   std::erase_if(texts,
                 [](const std::string& text) { return text.find("buckle") == std::string::npos; });
   for (std::string& text : texts) text.resize(std::min(text.size(), text.find(" In this motion")));
@@ -87,13 +87,13 @@ TEST(BucklingOfWhatIsLeftOut, IsThatOfTheCompleteMechanism) {
       const auto analysis = analyze(lean, start_design(lean));
       EXPECT_FALSE(analysis->model.bodies[0].is_elastic);
       const std::vector<std::string> told =
-          buckling_of(find_doubts(lean, start_design(lean), *analysis));
+          buckling_of(check_run(lean, start_design(lean), *analysis));
       EXPECT_EQ(told,
-                buckling_of(doubts_of(pressed_column(share * critical, spatial_motion, 0.0))));
+                buckling_of(findings_of(pressed_column(share * critical, spatial_motion, 0.0))));
       EXPECT_EQ(told.empty(), share < 1.0) << spatial_motion << " " << share;
     }
   }
 }
 
 }  // namespace
-}  // namespace pleuel::test::left_out_effects_test
+}  // namespace pleuel::test::neglected_effects_test

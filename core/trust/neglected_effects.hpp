@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "core/trust/doubt.hpp"
+#include "core/trust/finding.hpp"
 #include "core/trust/trusted_run.hpp"
 
 namespace pleuel {
@@ -20,14 +20,14 @@ std::optional<CompleteRun> simulate_completely(const TrustedRun& run);
 
 /// Effects that were left out because little changed without them at the start design, and change
 /// more at this one.
-std::vector<Doubt> doubt_left_out_effects(const TrustedRun& run, const CompleteRun& complete);
+std::vector<Finding> check_neglected_effects(const TrustedRun& run, const CompleteRun& complete);
 
 /// Geometric stiffening that the file does not forbid, but is not there because axial elasticity
 /// is switched off: judged by the estimate of the axial force against Euler's load.
-std::vector<Doubt> doubt_lost_stiffening(const TrustedRun& run);
+std::vector<Finding> check_lost_stiffening(const TrustedRun& run);
 
 /// Adds to the error of each response what the effects change that are left out by a tolerance.
-void add_left_out_effects(const TrustedRun& run, const CompleteRun& complete,
-                          std::vector<std::optional<ErrorBar>>& errors);
+void add_neglected_effects(const TrustedRun& run, const CompleteRun& complete,
+                           std::vector<std::optional<ErrorBar>>& errors);
 
 }  // namespace pleuel

@@ -1,6 +1,6 @@
 /// DegreesOfFreedom that nothing moves, and bodies that nothing holds.
 
-#include "core/trust/idle_freedoms.hpp"
+#include "core/trust/unactuated_freedoms.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -10,10 +10,10 @@
 #include "core/trust/misaligned_joints.hpp"
 #include "core/trust/proportions.hpp"
 #include "tests/core/trust/crank_rocker.hpp"
-#include "tests/core/trust/doubts_of.hpp"
+#include "tests/core/trust/findings_of.hpp"
 #include "tests/support/problem_runs.hpp"
 
-namespace pleuel::test::idle_freedoms_test {
+namespace pleuel::test::unactuated_freedoms_test {
 namespace {
 
 using testing::HasSubstr;
@@ -21,48 +21,50 @@ using testing::IsEmpty;
 using testing::SizeIs;
 
 TEST(IdleFreedoms, AreNotInADrivenMechanism) {
-  EXPECT_THAT(doubts_of(read_scene(crank_rocker(driven, closed)), doubt_idle_freedoms), IsEmpty());
+  EXPECT_THAT(findings_of(read_scene(crank_rocker(driven, closed)), check_unactuated_freedoms),
+              IsEmpty());
 }
 
 TEST(IdleFreedoms, OfAForgottenDriveAreNamedByBody) {
-  const std::vector<Doubt> doubts =
-      doubts_of(read_scene(crank_rocker("", closed)), doubt_idle_freedoms);
-  ASSERT_THAT(doubts, SizeIs(1));
-  EXPECT_TRUE(doubts[0].is_serious);
-  EXPECT_THAT(doubts[0].text,
+  const std::vector<Finding> findings =
+      findings_of(read_scene(crank_rocker("", closed)), check_unactuated_freedoms);
+  ASSERT_THAT(findings, SizeIs(1));
+  EXPECT_TRUE(findings[0].is_serious);
+  EXPECT_THAT(findings[0].text,
               HasSubstr("\"crank\", \"coupler\", \"rocker\" can move freely (one free motion)"));
-  EXPECT_THAT(doubts[0].text, HasSubstr("nothing moves there"));
-  EXPECT_THAT(doubts[0].responses, testing::ElementsAre("v"));
+  EXPECT_THAT(findings[0].text, HasSubstr("nothing moves there"));
+  EXPECT_THAT(findings[0].responses, testing::ElementsAre("v"));
 }
 
 TEST(IdleFreedoms, OfAForgottenJointAreNamedByBody) {
-  const std::vector<Doubt> doubts =
-      doubts_of(read_scene(crank_rocker(driven, "")), doubt_idle_freedoms);
-  ASSERT_THAT(doubts, SizeIs(1));
-  EXPECT_TRUE(doubts[0].is_serious);
-  EXPECT_THAT(doubts[0].text,
+  const std::vector<Finding> findings =
+      findings_of(read_scene(crank_rocker(driven, "")), check_unactuated_freedoms);
+  ASSERT_THAT(findings, SizeIs(1));
+  EXPECT_TRUE(findings[0].is_serious);
+  EXPECT_THAT(findings[0].text,
               HasSubstr("\"coupler\", \"rocker\" can move freely (2 free motions)"));
-  EXPECT_THAT(doubts[0].text, HasSubstr("only the inertia"));
+  EXPECT_THAT(findings[0].text, HasSubstr("only the inertia"));
 }
 
 /// With weight what a forgotten joint leaves hangs on the crank, which may be meant; with friction it is.
 TEST(IdleFreedoms, ThatHangBesideADriveAreMentioned) {
   const std::string weight = "[0, -9.81, 0]";
-  const std::vector<Doubt> doubts =
-      doubts_of(read_scene(crank_rocker(driven, "", weight)), doubt_idle_freedoms);
-  ASSERT_THAT(doubts, SizeIs(1));
-  EXPECT_FALSE(doubts[0].is_serious);
-  EXPECT_THAT(doubts[0].text,
+  const std::vector<Finding> findings =
+      findings_of(read_scene(crank_rocker(driven, "", weight)), check_unactuated_freedoms);
+  ASSERT_THAT(findings, SizeIs(1));
+  EXPECT_FALSE(findings[0].is_serious);
+  EXPECT_THAT(findings[0].text,
               HasSubstr("beside the drives \"coupler\", \"rocker\" can move freely (2 "
                         "free motions), with nothing but weight that acts on them"));
-  EXPECT_THAT(doubts_of(read_scene(crank_rocker(driven, closed, weight)), doubt_idle_freedoms),
-              IsEmpty());
+  EXPECT_THAT(
+      findings_of(read_scene(crank_rocker(driven, closed, weight)), check_unactuated_freedoms),
+      IsEmpty());
   const std::string friction =
       R"(/scene/loads={"b": {"type": "joint", "joint": "B", "damping": 0.1},
                        "c": {"type": "joint", "joint": "C", "damping": 0.1}})";
-  EXPECT_THAT(
-      doubts_of(read_scene(crank_rocker(driven, "", weight), {friction}), doubt_idle_freedoms),
-      IsEmpty());
+  EXPECT_THAT(findings_of(read_scene(crank_rocker(driven, "", weight), {friction}),
+                          check_unactuated_freedoms),
+              IsEmpty());
 }
 
 /// Weight, a spring, a damper or a motor, a push, a start that moves: all of these are meant.
@@ -79,9 +81,9 @@ TEST(IdleFreedoms, AreNotWhereSomethingActs) {
                  "value": {"type": "table", "times": [0, 0.01, 0.02], "values": [0, 1, 0]}})"),
        load(R"({"type": "spring", "bodies": ["ground", "rocker"],
                  "at": [[0.5, 0.2, 0], [0.4, 0.2, 0]], "stiffness": 100})")}) {
-    EXPECT_THAT(
-        doubts_of(read_scene(crank_rocker("", closed), {override_text}), doubt_idle_freedoms),
-        IsEmpty())
+    EXPECT_THAT(findings_of(read_scene(crank_rocker("", closed), {override_text}),
+                            check_unactuated_freedoms),
+                IsEmpty())
         << override_text;
   }
 }
@@ -112,10 +114,10 @@ TEST(IdleFreedoms, OfALongChainAreCounted) {
               bodies, joints),
           "chain.json")
           .complete();
-  const std::vector<Doubt> doubts = doubts_of(problem, doubt_idle_freedoms);
-  ASSERT_THAT(doubts, SizeIs(1));
-  EXPECT_THAT(doubts[0].text, HasSubstr("(120 free motions)"));
-  EXPECT_THAT(doubts[0].bodies, SizeIs(links));
+  const std::vector<Finding> findings = findings_of(problem, check_unactuated_freedoms);
+  ASSERT_THAT(findings, SizeIs(1));
+  EXPECT_THAT(findings[0].text, HasSubstr("(120 free motions)"));
+  EXPECT_THAT(findings[0].bodies, SizeIs(links));
 }
 
 TEST(IdleFreedoms, AreNotInTheProblemsOfTheHouse) {
@@ -125,9 +127,9 @@ TEST(IdleFreedoms, AreNotInTheProblemsOfTheHouse) {
     ProblemFile problem = sample_problem(name);
     problem.simulation.end_time = 2.0 * problem.simulation.step;
     problem.responses.clear();
-    for (const FindDoubts find : {doubt_idle_freedoms, doubt_unconnected_bodies, doubt_proportions,
-                                  doubt_misaligned_joints}) {
-      EXPECT_THAT(doubts_of(problem, find), IsEmpty()) << name;
+    for (const FindChecks find : {check_unactuated_freedoms, check_unconnected_bodies,
+                                  check_proportions, check_misaligned_joints}) {
+      EXPECT_THAT(findings_of(problem, find), IsEmpty()) << name;
     }
   }
 }
@@ -138,7 +140,7 @@ TEST(IdleFreedoms, AreNotTheSpinOfARodBetweenBallJoints) {
   for (Joint& joint : problem.scene.joints) {
     if (joint.name == "slider_pin") joint.type = JointType::spherical;
   }
-  EXPECT_THAT(doubts_of(problem, doubt_idle_freedoms), IsEmpty());
+  EXPECT_THAT(findings_of(problem, check_unactuated_freedoms), IsEmpty());
 }
 
 TEST(UnconnectedBodies, AreNamed) {
@@ -151,23 +153,23 @@ TEST(UnconnectedBodies, AreNamed) {
       R"(/scene/bodies/other={"type": "point-mass", "at": [0.3, 0.3, 0], "mass": 1})";
   const std::string tie =
       R"(/scene/joints/tie={"type": "distance", "bodies": ["stray", "other"], "at": [0.2, 0.3, 0], "to": [0.3, 0.3, 0]})";
-  const std::vector<Doubt> still = doubts_of(
-      read_scene(crank_rocker(driven, closed), {stray, other, tie}), doubt_unconnected_bodies);
+  const std::vector<Finding> still = findings_of(
+      read_scene(crank_rocker(driven, closed), {stray, other, tie}), check_unconnected_bodies);
   ASSERT_THAT(still, SizeIs(1));
   EXPECT_THAT(still[0].text, HasSubstr("connects \"stray\", \"other\" with the ground"));
   EXPECT_FALSE(still[0].is_serious) << "no response looks at it";
-  const std::vector<Doubt> falling =
-      doubts_of(read_scene(crank_rocker(driven, closed, "[0, -9.81, 0]"),
-                           {stray, other, tie, R"(/responses/y={"type": "position", "body": "stray",
+  const std::vector<Finding> falling = findings_of(
+      read_scene(crank_rocker(driven, closed, "[0, -9.81, 0]"),
+                 {stray, other, tie, R"(/responses/y={"type": "position", "body": "stray",
                                  "direction": "y", "over_time": "final"})"}),
-                doubt_unconnected_bodies);
+      check_unconnected_bodies);
   ASSERT_THAT(falling, SizeIs(1));
   EXPECT_TRUE(falling[0].is_serious);
-  EXPECT_THAT(doubts_of(read_scene(crank_rocker(driven, closed),
-                                   {stray_with(R"(, "velocity": [1, 2, 0])"), other, tie}),
-                        doubt_unconnected_bodies),
+  EXPECT_THAT(findings_of(read_scene(crank_rocker(driven, closed),
+                                     {stray_with(R"(, "velocity": [1, 2, 0])"), other, tie}),
+                          check_unconnected_bodies),
               IsEmpty());
 }
 
 }  // namespace
-}  // namespace pleuel::test::idle_freedoms_test
+}  // namespace pleuel::test::unactuated_freedoms_test

@@ -27,7 +27,7 @@ inline constexpr int judging_modes = 2;
 inline constexpr double judging_newton = 1e-3, small_newton_tolerance = 1e-8;
 
 /// What is compared of a run.
-struct NestedRun {
+struct RefinedRun {
   std::string failure;  ///< empty: it succeeded; else nothing below is known
   Eigen::VectorXd values;
   Eigen::VectorXd time;
@@ -42,16 +42,16 @@ struct NestedRun {
 ProblemFile refined(ProblemFile problem, const Refinement& refinement);
 
 /// @param similar  see analyze()
-NestedRun make_nested_run(const ProblemFile& problem, const Eigen::VectorXd& x,
-                          const Refinement& refinement, const Trajectory* similar = nullptr);
+RefinedRun make_refined_run(const ProblemFile& problem, const Eigen::VectorXd& x,
+                            const Refinement& refinement, const Trajectory* similar = nullptr);
 
 /// What was simulated already.
-NestedRun nested_run_of(const Analysis& analysis);
+RefinedRun refined_run_of(const Analysis& analysis);
 
 /// The same of several refinements, on the threads of the machine.
-std::vector<NestedRun> make_nested_runs(const ProblemFile& problem, const Eigen::VectorXd& x,
-                                        const std::vector<Refinement>& refinements,
-                                        const Trajectory* similar = nullptr);
+std::vector<RefinedRun> make_refined_runs(const ProblemFile& problem, const Eigen::VectorXd& x,
+                                          const std::vector<Refinement>& refinements,
+                                          const Trajectory* similar = nullptr);
 
 /// Whether an elastic beam is reduced to modes.
 bool has_reduced_beams(const Model& model, const ProblemFile& problem);

@@ -1,4 +1,4 @@
-#include "core/trust/taut_members.hpp"
+#include "core/trust/tension_layers.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -7,10 +7,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/core/trust/doubts_of.hpp"
+#include "tests/core/trust/findings_of.hpp"
 
 /// A wire of 2 mm, clamped at one end, pulled and pushed across at the other.
-namespace pleuel::test::taut_members_test {
+namespace pleuel::test::tension_layers_test {
 namespace {
 
 using testing::ElementsAre;
@@ -44,19 +44,20 @@ TEST(TautMembers, AreDoubtedWhereElementsAreLongerThanBendingReaches) {
   const ProblemFile coarse = wire(1000.0, 20.0, 4);
   const auto analysis = analyze(coarse, start_design(coarse));
   EXPECT_LT(analysis->reductions[0].value, 0.6 * stress);
-  const std::vector<Doubt> doubts = doubts_of(coarse, doubt_taut_members);
-  ASSERT_THAT(doubts, SizeIs(1));
-  EXPECT_TRUE(doubts[0].is_serious);
-  EXPECT_THAT(doubts[0].text, HasSubstr("under a pull of 1e+03 N it bends within some 0.013 m"));
-  EXPECT_THAT(doubts[0].responses, ElementsAre("s"));
-  EXPECT_THAT(doubts_of(wire(1000.0, 20.0, 80), doubt_taut_members), IsEmpty());
+  const std::vector<Finding> findings = findings_of(coarse, check_tension_layers);
+  ASSERT_THAT(findings, SizeIs(1));
+  EXPECT_TRUE(findings[0].is_serious);
+  EXPECT_THAT(findings[0].text, HasSubstr("under a pull of 1e+03 N it bends within some 0.013 m"));
+  EXPECT_THAT(findings[0].responses, ElementsAre("s"));
+  EXPECT_THAT(findings_of(wire(1000.0, 20.0, 80), check_tension_layers), IsEmpty());
 }
 
 TEST(TautMembers, AreNotDoubtedWhereBendingDoesNotCount) {
-  EXPECT_THAT(doubts_of(wire(1000.0, 0.0, 4), doubt_taut_members), IsEmpty());
-  EXPECT_THAT(doubts_of(wire(-0.1, 0.01, 4), doubt_taut_members), IsEmpty());
-  EXPECT_THAT(doubts_of(wire(1000.0, 20.0, 4, "elastic-energy"), doubt_taut_members), IsEmpty());
+  EXPECT_THAT(findings_of(wire(1000.0, 0.0, 4), check_tension_layers), IsEmpty());
+  EXPECT_THAT(findings_of(wire(-0.1, 0.01, 4), check_tension_layers), IsEmpty());
+  EXPECT_THAT(findings_of(wire(1000.0, 20.0, 4, "elastic-energy"), check_tension_layers),
+              IsEmpty());
 }
 
 }  // namespace
-}  // namespace pleuel::test::taut_members_test
+}  // namespace pleuel::test::tension_layers_test

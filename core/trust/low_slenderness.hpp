@@ -15,7 +15,7 @@ namespace pleuel {
 /// its tip, 12EI/(κ G A L²) of a beam on two pins with one in the middle. κ is that of the
 /// sections, or of a rectangle where they do not say.
 /// @returns the largest share first, which is the indicator [–]
-std::vector<ConcernedBeam> find_stubby_beams(const TrustedRun& run);
+std::vector<ConcernedBeam> find_slenderness(const TrustedRun& run);
 
 /// The share of one beam in a state, of the plane in which it is larger. [–]
 /// @param x  design variables [SI]

@@ -1,4 +1,4 @@
-#include "core/trust/doubts.hpp"
+#include "core/trust/checks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "core/scene/load_cases.hpp"
 #include "core/scene/response_parts.hpp"
 #include "core/trust/blocked_drives.hpp"
-#include "core/trust/case_doubts.hpp"
+#include "core/trust/case_findings.hpp"
 #include "core/trust/energy_balance.hpp"
 #include "core/trust/extrapolation.hpp"
 #include "core/trust/far_bending.hpp"
@@ -16,16 +16,15 @@
 #include "core/trust/fast_laws.hpp"
 #include "core/trust/fast_turning.hpp"
 #include "core/trust/frequency_meaning.hpp"
-#include "core/trust/idle_freedoms.hpp"
 #include "core/trust/initial_motion.hpp"
 #include "core/trust/jerk_at_corners.hpp"
 #include "core/trust/joint_turns.hpp"
 #include "core/trust/laws_over_coordinates.hpp"
-#include "core/trust/left_out_effects.hpp"
 #include "core/trust/lost_places.hpp"
 #include "core/trust/misaligned_joints.hpp"
 #include "core/trust/modal_damping.hpp"
 #include "core/trust/model_variants.hpp"
+#include "core/trust/neglected_effects.hpp"
 #include "core/trust/open_positions.hpp"
 #include "core/trust/other_side.hpp"
 #include "core/trust/promised_buckling.hpp"
@@ -36,20 +35,21 @@
 #include "core/trust/sideways_buckling.hpp"
 #include "core/trust/sliding_contact.hpp"
 #include "core/trust/stability.hpp"
-#include "core/trust/sudden_start.hpp"
-#include "core/trust/taut_members.hpp"
+#include "core/trust/startup_transient.hpp"
+#include "core/trust/tension_layers.hpp"
+#include "core/trust/unactuated_freedoms.hpp"
 #include "core/trust/undetermined_reactions.hpp"
-#include "core/trust/unseen_overshoot.hpp"
+#include "core/trust/unresolved_transients.hpp"
 
 namespace pleuel {
 
-std::vector<Doubt> find_doubts_before(const ProblemFile& problem) {
-  std::vector<std::vector<Doubt>> doubts;
+std::vector<Finding> check_before(const ProblemFile& problem) {
+  std::vector<std::vector<Finding>> findings;
   for (const ProblemFile* one : simulated_problems(problem)) {
-    doubts.push_back(doubt_fast_laws_before(*one));
+    findings.push_back(check_fast_laws_before(*one));
   }
-  std::vector<Doubt> joined = joined_doubts(problem, doubts);
-  const std::vector<Doubt> of_variables = doubt_far_bounds(problem);
+  std::vector<Finding> joined = joined_findings(problem, findings);
+  const std::vector<Finding> of_variables = check_far_bounds(problem);
   joined.insert(joined.end(), of_variables.begin(), of_variables.end());
   return joined;
 }
@@ -57,25 +57,25 @@ std::vector<Doubt> find_doubts_before(const ProblemFile& problem) {
 namespace {
 
 /// What changes faster than the steps can follow.
-std::vector<Doubt> doubt_all_too_fast(const TrustedRun& run) {
-  std::vector<Doubt> doubts = doubt_fast_laws(run);
-  if (doubts.empty()) doubts = doubt_fast_turning(run);
+std::vector<Finding> check_all_too_fast(const TrustedRun& run) {
+  std::vector<Finding> findings = check_fast_laws(run);
+  if (findings.empty()) findings = check_fast_turning(run);
   for (const auto find :
-       {doubt_laws_over_coordinates, doubt_jerks_at_corners, doubt_unseen_overshoot}) {
-    const std::vector<Doubt> more = find(run);
-    doubts.insert(doubts.end(), more.begin(), more.end());
+       {check_laws_over_coordinates, check_jerks_at_corners, check_unresolved_transients}) {
+    const std::vector<Finding> more = find(run);
+    findings.insert(findings.end(), more.begin(), more.end());
   }
-  return doubts;
+  return findings;
 }
 
-/// Whether a doubt is about a response, or about what its formula is made from.
-bool concerns(const Doubt& doubt, const ProblemFile& problem, std::size_t response) {
+/// Whether a finding is about a response, or about what its formula is made from.
+bool concerns(const Finding& finding, const ProblemFile& problem, std::size_t response) {
   const auto is_named = [&](std::size_t i) {
-    const std::vector<std::string>& named = doubt.responses;
+    const std::vector<std::string>& named = finding.responses;
     return std::find(named.begin(), named.end(), problem.responses[i].name) != named.end();
   };
   const std::vector<std::size_t> parts = parts_of(problem, response);
-  return doubt.responses.empty() || is_named(response) ||
+  return finding.responses.empty() || is_named(response) ||
          std::any_of(parts.begin(), parts.end(), is_named);
 }
 
@@ -87,12 +87,12 @@ bool moves(const TrustedRun& run, std::size_t response) {
 }
 
 /// What happens between two instants is seen by no run with larger steps, which judge the error.
-void leave_steps_unresolved(const TrustedRun& run, const std::vector<Doubt>& doubts,
+void leave_steps_unresolved(const TrustedRun& run, const std::vector<Finding>& findings,
                             std::vector<std::optional<ErrorBar>>& errors) {
   for (std::size_t i = 0; i < errors.size(); ++i) {
     if (!errors[i] || !moves(run, i)) continue;
-    if (std::any_of(doubts.begin(), doubts.end(),
-                    [&](const Doubt& doubt) { return concerns(doubt, run.problem, i); })) {
+    if (std::any_of(findings.begin(), findings.end(),
+                    [&](const Finding& finding) { return concerns(finding, run.problem, i); })) {
       errors[i]->step.is_resolved = false;
     }
   }
@@ -113,12 +113,12 @@ void widen_to_short_steps(const TrustedRun& run, std::vector<std::optional<Error
 }
 
 /// No bar knows how far numbers are off that leave what the equations are for.
-void leave_unmodelled(const TrustedRun& run, const std::vector<Doubt>& doubts,
+void leave_unmodelled(const TrustedRun& run, const std::vector<Finding>& findings,
                       std::vector<std::optional<ErrorBar>>& errors) {
-  for (const Doubt& doubt : doubts) {
-    if (doubt.cause != Cause::not_modelled || !doubt.is_serious) continue;
+  for (const Finding& finding : findings) {
+    if (finding.cause != Cause::not_modelled || !finding.is_serious) continue;
     for (std::size_t i = 0; i < errors.size(); ++i) {
-      if (errors[i] && moves(run, i) && concerns(doubt, run.problem, i)) {
+      if (errors[i] && moves(run, i) && concerns(finding, run.problem, i)) {
         errors[i]->is_modelled = false;
       }
     }
@@ -136,49 +136,49 @@ void add_left_out(const LeftOut& left_out, std::vector<std::optional<ErrorBar>>&
 
 /// Members that buckle leave no trace in a motion without their elasticity: what a tolerance leaves
 /// out takes part here.
-std::vector<Doubt> doubt_buckling(const TrustedRun& run,
-                                  const std::optional<CompleteRun>& complete) {
-  const auto doubts_of = [](const TrustedRun& pressed) {
-    std::vector<Doubt> doubts = doubt_sideways_buckling(pressed);
-    const std::vector<Doubt> others = doubt_stability(pressed);
-    doubts.insert(doubts.end(), others.begin(), others.end());
-    return doubts;
+std::vector<Finding> check_buckling(const TrustedRun& run,
+                                    const std::optional<CompleteRun>& complete) {
+  const auto findings_of = [](const TrustedRun& pressed) {
+    std::vector<Finding> findings = check_sideways_buckling(pressed);
+    const std::vector<Finding> others = check_stability(pressed);
+    findings.insert(findings.end(), others.begin(), others.end());
+    return findings;
   };
-  if (!complete || !complete->analysis) return doubts_of(run);
+  if (!complete || !complete->analysis) return findings_of(run);
   const Monitors monitors = monitor(complete->analysis->model, complete->analysis->trajectory);
-  return doubts_of({complete->problem, run.x, *complete->analysis, monitors});
+  return findings_of({complete->problem, run.x, *complete->analysis, monitors});
 }
 
 struct Judge {
   Cause cause;
-  std::vector<Doubt> (*find)(const TrustedRun&);
+  std::vector<Finding> (*find)(const TrustedRun&);
 };
 
 constexpr Judge judges[] = {
-    {Cause::unit, doubt_proportions},
-    {Cause::limit, doubt_far_limits},
-    {Cause::mobility, doubt_blocked_drives},
-    {Cause::mobility, doubt_idle_freedoms},
-    {Cause::mobility, doubt_initial_motion},
-    {Cause::mobility, doubt_joint_turns},
-    {Cause::mobility, doubt_misaligned_joints},
-    {Cause::mobility, doubt_open_positions},
-    {Cause::mobility, doubt_rest},
-    {Cause::mobility, doubt_unconnected_bodies},
-    {Cause::mobility, doubt_undetermined_reactions},
-    {Cause::not_modelled, doubt_extrapolation},
-    {Cause::not_modelled, doubt_linear_elasticity},
-    {Cause::not_modelled, doubt_lost_places},
-    {Cause::not_modelled, doubt_sliding_contacts},
-    {Cause::unstable, doubt_frequencies},
-    {Cause::unstable, doubt_promised_buckling},
-    {Cause::not_converged, doubt_energy_balance},
-    {Cause::left_out, doubt_lost_stiffening},
-    {Cause::left_out, doubt_modal_damping},
-    {Cause::left_out, doubt_other_side},
-    {Cause::left_out, doubt_section_axes},
-    {Cause::left_out, doubt_sudden_start},
-    {Cause::left_out, doubt_taut_members},
+    {Cause::unit, check_proportions},
+    {Cause::limit, check_far_limits},
+    {Cause::mobility, check_blocked_drives},
+    {Cause::mobility, check_unactuated_freedoms},
+    {Cause::mobility, check_initial_motion},
+    {Cause::mobility, check_joint_turns},
+    {Cause::mobility, check_misaligned_joints},
+    {Cause::mobility, check_open_positions},
+    {Cause::mobility, check_rest},
+    {Cause::mobility, check_unconnected_bodies},
+    {Cause::mobility, check_undetermined_reactions},
+    {Cause::not_modelled, check_extrapolation},
+    {Cause::not_modelled, check_linear_elasticity},
+    {Cause::not_modelled, check_lost_places},
+    {Cause::not_modelled, check_sliding_contacts},
+    {Cause::unstable, check_frequencies},
+    {Cause::unstable, check_promised_buckling},
+    {Cause::not_converged, check_energy_balance},
+    {Cause::left_out, check_lost_stiffening},
+    {Cause::left_out, check_modal_damping},
+    {Cause::left_out, check_other_side},
+    {Cause::left_out, check_section_axes},
+    {Cause::left_out, check_startup_transient},
+    {Cause::left_out, check_tension_layers},
 };
 
 }  // namespace
@@ -186,58 +186,58 @@ constexpr Judge judges[] = {
 Trust judge_run(const TrustedRun& run) {
   Trust trust;
   if (run.scrutiny == Scrutiny::none) {
-    trust.doubts = {{"what speaks against these numbers was not looked for (--no-checks)"}};
+    trust.findings = {{"what speaks against these numbers was not looked for (--no-checks)"}};
     return trust;
   }
-  std::vector<Doubt>& doubts = trust.doubts;
-  const auto add = [&](Cause cause, const std::vector<Doubt>& found) {
-    for (const Doubt& doubt : found) {
-      doubts.push_back(doubt);
-      doubts.back().cause = cause;
+  std::vector<Finding>& findings = trust.findings;
+  const auto add = [&](Cause cause, const std::vector<Finding>& found) {
+    for (const Finding& finding : found) {
+      findings.push_back(finding);
+      findings.back().cause = cause;
     }
   };
   for (const auto& [cause, find] : judges) add(cause, find(run));
-  const std::vector<Doubt> too_fast = doubt_all_too_fast(run);
+  const std::vector<Finding> too_fast = check_all_too_fast(run);
   add(Cause::not_converged, too_fast);
   const std::optional<CompleteRun> complete = simulate_completely(run);
-  if (complete) add(Cause::left_out, doubt_left_out_effects(run, *complete));
-  add(Cause::unstable, doubt_buckling(run, complete));
+  if (complete) add(Cause::left_out, check_neglected_effects(run, *complete));
+  add(Cause::unstable, check_buckling(run, complete));
   Resolution resolution = judge_resolution(run);
-  add(Cause::not_converged, doubt_resolution(run, resolution));
+  add(Cause::not_converged, check_resolution(run, resolution));
   trust.errors = std::move(resolution.bars);
   trust.evidence = std::move(resolution.evidence);
   trust.bands = std::move(resolution.bands);
   trust.failed_run = std::move(resolution.failure);
   leave_steps_unresolved(run, too_fast, trust.errors);
   widen_to_short_steps(run, trust.errors);
-  leave_unmodelled(run, doubts, trust.errors);
+  leave_unmodelled(run, findings, trust.errors);
   const LeftOut left_out = compare_variants(run);
-  doubts.insert(doubts.end(), left_out.doubts.begin(), left_out.doubts.end());
+  findings.insert(findings.end(), left_out.findings.begin(), left_out.findings.end());
   add_left_out(left_out, trust.errors);
-  if (complete) add_left_out_effects(run, *complete, trust.errors);
-  rank_doubts(doubts);
+  if (complete) add_neglected_effects(run, *complete, trust.errors);
+  rank_findings(findings);
   return trust;
 }
 
-std::vector<Doubt> find_doubts(const TrustedRun& run) {
-  return judge_run(run).doubts;
+std::vector<Finding> check_run(const TrustedRun& run) {
+  return judge_run(run).findings;
 }
 
-std::vector<Doubt> find_doubts(const ProblemFile& problem, const Eigen::VectorXd& x,
+std::vector<Finding> check_run(const ProblemFile& problem, const Eigen::VectorXd& x,
                                const Analysis& analysis) {
   const Monitors monitors = monitor(analysis.model, analysis.trajectory);
-  return find_doubts(TrustedRun{problem, x, analysis, monitors});
+  return check_run(TrustedRun{problem, x, analysis, monitors});
 }
 
-std::vector<std::string> texts_of(const std::vector<Doubt>& doubts) {
+std::vector<std::string> texts_of(const std::vector<Finding>& findings) {
   std::vector<std::string> texts;
-  for (const Doubt& doubt : doubts) texts.push_back(doubt.text);
+  for (const Finding& finding : findings) texts.push_back(finding.text);
   return texts;
 }
 
-bool has_serious(const std::vector<Doubt>& doubts) {
-  return std::any_of(doubts.begin(), doubts.end(),
-                     [](const Doubt& doubt) { return doubt.is_serious; });
+bool has_serious(const std::vector<Finding>& findings) {
+  return std::any_of(findings.begin(), findings.end(),
+                     [](const Finding& finding) { return finding.is_serious; });
 }
 
 }  // namespace pleuel

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/trust/doubt.hpp"
+#include "core/trust/finding.hpp"
 #include "core/trust/trusted_run.hpp"
 
 namespace pleuel {
@@ -10,6 +10,6 @@ namespace pleuel {
 /// nothing of it. Serious for what is made from the bending moment, where that counts. By the
 /// moment of a pulled cantilever, M = F √(EI/N) tanh(ℓ √(N/EI)): elements of length ℓ ≫ √(EI/N)
 /// see about the part √(EI/N)/ℓ of it.
-std::vector<Doubt> doubt_taut_members(const TrustedRun& run);
+std::vector<Finding> check_tension_layers(const TrustedRun& run);
 
 }  // namespace pleuel

@@ -1,4 +1,4 @@
-#include "optimization/design/margin_doubts.hpp"
+#include "optimization/design/margin_check.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -106,15 +106,15 @@ void look_beside(DesignProblem& design, const Eigen::VectorXd& x,
 
 }  // namespace
 
-std::vector<Doubt> doubt_margins(DesignProblem& design, const Eigen::VectorXd& x) {
+std::vector<Finding> check_margins(DesignProblem& design, const Eigen::VectorXd& x) {
   std::vector<Margin> margins = margins_of(design, x);
   if (margins.empty() || !design.file().uncertainty) return {};
-  std::vector<Doubt> doubts;
+  std::vector<Finding> findings;
   const auto refuse = [&](const UncertainParameter& parameter, const std::string& why) {
-    doubts.push_back({fmt::format("at the deviations of \"{}\" that limits ask for the mechanism "
-                                  "cannot be simulated: {}",
-                                  name_of(design, parameter), why),
-                      true});
+    findings.push_back({fmt::format("at the deviations of \"{}\" that limits ask for the mechanism "
+                                    "cannot be simulated: {}",
+                                    name_of(design, parameter), why),
+                        true});
   };
   for (const UncertainParameter& parameter : design.file().uncertainty->parameters) {
     try {
@@ -127,7 +127,7 @@ std::vector<Doubt> doubt_margins(DesignProblem& design, const Eigen::VectorXd& x
   }
   for (const Margin& margin : margins) {
     if (!margin.kink.empty() && margin.limit() != 0.0) {
-      doubts.push_back(
+      findings.push_back(
           {fmt::format(
                "the margin of the limit \"{}\" is made from a mean of two slopes: \"{}\" "
                "changes with \"{}\" to one side only, as where two frequencies or peaks "
@@ -140,7 +140,7 @@ std::vector<Doubt> doubt_margins(DesignProblem& design, const Eigen::VectorXd& x
       continue;
     }
     if (margin.missed <= worth_a_word || margin.limit() == 0.0) continue;
-    doubts.push_back(
+    findings.push_back(
         {fmt::format(
              "the margin of the limit \"{}\" is that of first order: {:g} deviations of "
              "\"{}\" to either side bring {} of the limit besides. See `pleuel uncertainty` "
@@ -150,7 +150,7 @@ std::vector<Doubt> doubt_margins(DesignProblem& design, const Eigen::VectorXd& x
          margin.missed > serious,
          {margin.constraint->response}});
   }
-  return doubts;
+  return findings;
 }
 
 }  // namespace pleuel

@@ -1,4 +1,4 @@
-#include "core/trust/sudden_start.hpp"
+#include "core/trust/startup_transient.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -70,12 +70,12 @@ bool is_compared(const Response& response) {
 
 }  // namespace
 
-std::vector<Doubt> doubt_sudden_start(const TrustedRun& run) {
+std::vector<Finding> check_startup_transient(const TrustedRun& run) {
   if (!can_be_sudden(run) || !begins_with_a_shock(run.analysis)) return {};
   const std::unique_ptr<Analysis> settled = from_equilibrium(run);
   if (!settled) return {};
   const Analysis& sudden = basis_of_variants(run);
-  Doubt doubt;
+  Finding finding;
   double worst = 0.0, worst_value = 0.0;
   const std::vector<bool> is_round_off = find_round_off(run);
   for (const std::size_t i : asked_responses(run.problem)) {
@@ -84,24 +84,24 @@ std::vector<Doubt> doubt_sudden_start(const TrustedRun& run) {
     const double change = std::abs(value - other);
     if (!is_compared(response) || is_round_off[i]) continue;
     if (!(change > small_addition * std::max(std::abs(value), std::abs(other)))) continue;
-    doubt.responses.push_back(response.name);
+    finding.responses.push_back(response.name);
     const double share = change / std::max(std::abs(other), small_addition * std::abs(value));
     if (share <= worst) continue;
     worst = share;
     worst_value = other / value;
-    doubt.text = response.name;
+    finding.text = response.name;
   }
-  if (doubt.responses.empty()) return {};
-  const std::size_t others = doubt.responses.size() - 1;
-  doubt.text = fmt::format(
+  if (finding.responses.empty()) return {};
+  const std::size_t others = finding.responses.size() - 1;
+  finding.text = fmt::format(
       "the start decides \"{}\"{}: elastic bodies begin undeformed under loads and speeds that are "
       "there at once, and vibrate. From their equilibrium it would be {}: "
       "\"initial_state\": \"quasi-static\", or \"periodic\" for a machine that has been running. "
       "Where the sudden start is meant, nothing is to be done.",
-      doubt.text,
+      finding.text,
       others == 0 ? "" : fmt::format(" and {} other response{}", others, others == 1 ? "" : "s"),
       times_as_large(worst_value));
-  return {doubt};
+  return {finding};
 }
 
 }  // namespace pleuel

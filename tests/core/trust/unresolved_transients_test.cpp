@@ -1,7 +1,7 @@
 /// Swings that the steps pass over. A steel rod of 1 m and 400 mm² is clamped at one end and has a
 /// mass at the other: its first axial vibration is far faster than steps of 5 ms.
 
-#include "core/trust/unseen_overshoot.hpp"
+#include "core/trust/unresolved_transients.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -12,12 +12,12 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/integration/fast_vibration.hpp"
-#include "core/trust/doubts.hpp"
-#include "tests/core/trust/doubts_of.hpp"
+#include "core/trust/checks.hpp"
+#include "tests/core/trust/findings_of.hpp"
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/source_folder.hpp"
 
-namespace pleuel::test::unseen_overshoot_test {
+namespace pleuel::test::unresolved_transients_test {
 namespace {
 
 using testing::HasSubstr;
@@ -65,12 +65,12 @@ double analyze_pull(const ProblemFile& problem) {
 
 const std::string jump = R"({"type": "step", "to": 8000, "time": "20 ms"})";
 
-std::vector<Doubt> doubts(const ProblemFile& problem) {
-  return doubts_of(problem, doubt_unseen_overshoot);
+std::vector<Finding> findings(const ProblemFile& problem) {
+  return findings_of(problem, check_unresolved_transients);
 }
 
 /// By how much the peak of a message would be larger.
-double told_factor(const std::vector<Doubt>& found) {
+double told_factor(const std::vector<Finding>& found) {
   const std::string words = "The peak would be ";
   const std::string& text = found.at(0).text;
   return std::stod(text.substr(text.find(words) + words.size()));
@@ -125,7 +125,7 @@ double true_factor(const ProblemFile& problem) {
 }
 
 void expect_true_factor(const ProblemFile& problem) {
-  const std::vector<Doubt> found = doubts(problem);
+  const std::vector<Finding> found = findings(problem);
   ASSERT_THAT(found, SizeIs(1));
   EXPECT_NEAR(told_factor(found), true_factor(problem), 0.07 * true_factor(problem));
 }
@@ -205,14 +205,14 @@ TEST(FastVibration, SwingsAsFarAgain) {
 /// is pressed, too; the position of the tip moves by 0.01 % only. With steps of a 170th of the
 /// period all is there, and nothing is said.
 TEST(UnseenOvershoot, OfALoadThatJumpsIsTold) {
-  const std::vector<Doubt> found = doubts(pulled_rod(jump));
+  const std::vector<Finding> found = findings(pulled_rod(jump));
   ASSERT_THAT(found, SizeIs(1));
   EXPECT_TRUE(found[0].is_serious);
   EXPECT_THAT(found[0].responses, UnorderedElementsAre("pull", "press", "hold"));
   EXPECT_THAT(found[0].text, HasSubstr("jumps at t = 0.02 s"));
   EXPECT_THAT(found[0].text, HasSubstr("period of 0.0017 s"));
   const ProblemFile fine = pulled_rod(jump, {"/simulation/step=1e-5"});
-  EXPECT_THAT(doubts(fine), IsEmpty());
+  EXPECT_THAT(findings(fine), IsEmpty());
   const double coarse_pull = analyze_pull(pulled_rod(jump)), fine_pull = analyze_pull(fine);
   EXPECT_NEAR(fine_pull / coarse_pull, told_factor(found), 0.05);
 }
@@ -220,10 +220,10 @@ TEST(UnseenOvershoot, OfALoadThatJumpsIsTold) {
 /// The rod that is let go is pressed as much as it was pulled. What is missing of the pull is close
 /// to the tenth from which it is told.
 TEST(UnseenOvershoot, OfALoadThatIsLetGoIsToldOfTheLeast) {
-  const std::vector<Doubt> found =
-      doubts(pulled_rod(R"({"type": "table", "times": [0, 0.02], "values": [8000, 0],
+  const std::vector<Finding> found =
+      findings(pulled_rod(R"({"type": "table", "times": [0, 0.02], "values": [8000, 0],
                             "interpolation": "step"})",
-                        {R"(/simulation/initial_state="quasi-static")"}));
+                          {R"(/simulation/initial_state="quasi-static")"}));
   ASSERT_THAT(found, SizeIs(1));
   EXPECT_THAT(found[0].responses, IsSupersetOf({"press", "hold"}));
   EXPECT_THAT(found[0].text, HasSubstr("larger by far"));
@@ -232,17 +232,17 @@ TEST(UnseenOvershoot, OfALoadThatIsLetGoIsToldOfTheLeast) {
 /// Which the implicit Euler method loses.
 TEST(UnseenOvershoot, OfASuddenStartIsTold) {
   const std::string euler = R"(/simulation/scheme="implicit-euler")";
-  const std::vector<Doubt> found = doubts(pulled_rod("8000", {euler}));
+  const std::vector<Finding> found = findings(pulled_rod("8000", {euler}));
   ASSERT_THAT(found, SizeIs(1));
   EXPECT_THAT(found[0].responses, IsSupersetOf({"pull", "hold"}));
   EXPECT_THAT(found[0].text, HasSubstr("begin undeformed"));
-  EXPECT_THAT(doubts(pulled_rod("8000", {euler, R"(/simulation/initial_state="quasi-static")"})),
+  EXPECT_THAT(findings(pulled_rod("8000", {euler, R"(/simulation/initial_state="quasi-static")"})),
               IsEmpty());
 }
 
 /// Inertia forces jump with the acceleration: twice (M + ρ A L) a.
 TEST(UnseenOvershoot, OfADriveWhoseAccelerationJumpsIsTold) {
-  const std::vector<Doubt> found = doubts(pulled_rod(
+  const std::vector<Finding> found = findings(pulled_rod(
       "0", {R"(/scene/joints/clamp={"type": "prismatic", "bodies": ["ground", "rod"],
                "at": [0, 0, 0], "axis": [1, 0, 0],
                "drive": {"type": "expression", "value": "= 400 m/s^2 * max(0 s, t - 20 ms)^2"}})",
@@ -265,7 +265,7 @@ TEST(UnseenOvershoot, IsThatOfFormulasCyclesAndLaterWindows) {
       R"(/scene/bodies/rod/section/width={"variable": "width"})",
       R"(/variables={"width": {"start": 0.02, "lower": 0.01, "upper": 0.05}})"};
   const ProblemFile problem = pulled_rod(jump, limits);
-  const std::vector<Doubt> found = doubts(problem);
+  const std::vector<Finding> found = findings(problem);
   ASSERT_THAT(found, SizeIs(1));
   EXPECT_THAT(found[0].responses, UnorderedElementsAre("pull", "late"));
   const Eigen::VectorXd x = start_design(problem);
@@ -283,12 +283,12 @@ TEST(UnseenOvershoot, IsThatOfFormulasCyclesAndLaterWindows) {
 /// A ramp far slower than the vibration, damping without a swing, a window that ends before.
 TEST(UnseenOvershoot, IsNotToldWhereThereIsNone) {
   EXPECT_THAT(
-      doubts(pulled_rod(R"({"type": "table", "times": [0.02, 0.06], "values": [0, 8000]})")),
+      findings(pulled_rod(R"({"type": "table", "times": [0.02, 0.06], "values": [0, 8000]})")),
       IsEmpty());
-  EXPECT_THAT(doubts(pulled_rod(jump, {R"(/scene/bodies/rod/damping={"stiffness": 1e-3})"})),
+  EXPECT_THAT(findings(pulled_rod(jump, {R"(/scene/bodies/rod/damping={"stiffness": 1e-3})"})),
               IsEmpty());
-  EXPECT_THAT(doubts(pulled_rod(jump, {"/responses/pull/to=0.015", "/responses/hold/to=0.015",
-                                       "/responses/press/to=0.015"})),
+  EXPECT_THAT(findings(pulled_rod(jump, {"/responses/pull/to=0.015", "/responses/hold/to=0.015",
+                                         "/responses/press/to=0.015"})),
               IsEmpty());
 }
 
@@ -322,7 +322,7 @@ TEST(UnseenOvershoot, IsMostOfThatOfHardeningSprings) {
   const ProblemFile problem = sprung_mass(
       push_at_once,
       {R"(/scene/loads/spring/resistance={"type": "expression", "value": "= 1e15 N/m^3 * elongation^3"})"});
-  const std::vector<Doubt> found = doubts(problem);
+  const std::vector<Finding> found = findings(problem);
   ASSERT_THAT(found, SizeIs(1));
   EXPECT_NEAR(told_factor(found), true_factor(problem), 0.18 * true_factor(problem));
 }
@@ -337,7 +337,7 @@ TEST(UnseenOvershoot, IsHeldByDryFriction) {
         value);
   };
   const std::string undamped = "/scene/loads/spring/damping=0";
-  EXPECT_THAT(doubts(sprung_mass(push, {undamped, friction(1100)})), IsEmpty());
+  EXPECT_THAT(findings(sprung_mass(push, {undamped, friction(1100)})), IsEmpty());
   expect_true_factor(sprung_mass(push, {undamped, friction(300)}));
 }
 
@@ -373,7 +373,7 @@ TEST(UnseenOvershoot, OfAMotionThatRepeatsItselfIsToldWhereverTheLoadJumps) {
         sprung_mass(steps_of_load(fmt::format("[0, {}, {}, 0.4]", on, on + 0.08), "[0, 100, 0, 0]",
                                   R"(, "period": 0.4)"),
                     {periodic});
-    const std::vector<Doubt> found = doubts(problem);
+    const std::vector<Finding> found = findings(problem);
     ASSERT_THAT(found, SizeIs(1)) << on;
     EXPECT_NEAR(told_factor(found), true_factor(problem), 0.1 * true_factor(problem)) << on;
     EXPECT_THAT(found[0].text, Not(HasSubstr("quasi-static"))) << on;
@@ -395,16 +395,16 @@ TEST(UnseenOvershoot, OfForcesOfAFastMechanismIsNoTransientOfTheSteps) {
            "over_time": "max-abs"})",
            R"(/constraints/pin={"response": "pin", "upper": "1 MN"})"})
           .complete();
-  EXPECT_THAT(doubts(coarse), IsEmpty());
+  EXPECT_THAT(findings(coarse), IsEmpty());
 }
 
 /// A swing that is over long before its window begins is none: 5 % of damping, 60 and 1500 periods.
 TEST(UnseenOvershoot, IsOverInWindowsFarBehind) {
   for (const double end : {0.6, 10.0}) {
     EXPECT_THAT(
-        doubts(sprung_mass(push_at_once, {fmt::format("/simulation/end_time={}", end),
-                                          "/scene/loads/spring/damping=100",
-                                          fmt::format("/responses/hold/from={}", end - 0.1)})),
+        findings(sprung_mass(push_at_once, {fmt::format("/simulation/end_time={}", end),
+                                            "/scene/loads/spring/damping=100",
+                                            fmt::format("/responses/hold/from={}", end - 0.1)})),
         IsEmpty())
         << end;
   }
@@ -416,7 +416,7 @@ TEST(UnseenOvershoot, GoesOnInTheNextPeriod) {
       sprung_mass(steps_of_load("[0, 0.39, 0.4]", "[0, 100, 0]", R"(, "period": 0.4)"),
                   {R"(/simulation/initial_state={"type": "periodic", "period": 0.4})",
                    "/responses/hold/to=0.08"});
-  const std::vector<Doubt> found = doubts(problem);
+  const std::vector<Finding> found = findings(problem);
   ASSERT_THAT(found, SizeIs(1));
   EXPECT_NEAR(told_factor(found), true_factor(problem), 0.1 * true_factor(problem));
 }
@@ -440,4 +440,4 @@ TEST(UnseenOvershoot, IsInTheBarsOfWhatHasNoWarning) {
 }
 
 }  // namespace
-}  // namespace pleuel::test::unseen_overshoot_test
+}  // namespace pleuel::test::unresolved_transients_test

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/trust/doubt.hpp"
+#include "core/trust/finding.hpp"
 #include "optimization/design/design_problem.hpp"
 
 namespace pleuel {
@@ -14,6 +14,6 @@ namespace pleuel {
 /// towards the limit; of an interval no further than its ends. Told from a hundredth of the limit
 /// on, serious from a twentieth. Told, too, where a value changes to one side only: at frequencies
 /// or peaks that coincide the gradient is a mean.
-std::vector<Doubt> doubt_margins(DesignProblem& design, const Eigen::VectorXd& x);
+std::vector<Finding> check_margins(DesignProblem& design, const Eigen::VectorXd& x);
 
 }  // namespace pleuel

@@ -1,4 +1,4 @@
-#include "core/trust/idle_freedoms.hpp"
+#include "core/trust/unactuated_freedoms.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -55,7 +55,7 @@ class IdleFreedoms {
   explicit IdleFreedoms(const TrustedRun& run)
       : run_(run), model_(run.analysis.model), design_(run.x.begin(), run.x.end()) {}
 
-  std::vector<Doubt> find() {
+  std::vector<Finding> find() {
     if (looks_at_no_motion()) return {};
     state_ = least_free_state(run_.analysis);
     if (rigid_degrees_of_freedom(model_.mechanism, state_).free() <= 0) return {};
@@ -258,7 +258,7 @@ class IdleFreedoms {
   }
 
   /// A payload that swings is meant, a linkage that lacks a joint is not.
-  Doubt describe_hanging(const std::vector<int>& hanging) const {
+  Finding describe_hanging(const std::vector<int>& hanging) const {
     const std::vector<std::string> names = names_of(hanging);
     return {fmt::format("beside the drives {} can move freely ({}), with nothing but weight that "
                         "acts on {}. Is a joint missing?",
@@ -266,23 +266,23 @@ class IdleFreedoms {
             false, concerned(names), names};
   }
 
-  Doubt describe(const std::vector<int>& idle) const {
+  Finding describe(const std::vector<int>& idle) const {
     const std::vector<std::string> names = names_of(idle);
     const bool is_moved =
         std::any_of(model_.bodies.begin(), model_.bodies.end(), [&](const BodyModel& body) {
           return std::find(names.begin(), names.end(), body.name) != names.end() && moves(body);
         });
-    Doubt doubt;
-    doubt.text = fmt::format(
+    Finding finding;
+    finding.text = fmt::format(
         "{} can move freely ({}), and no drive, load, spring, damper, weight or initial velocity "
         "acts on {}: {}. Is a joint or a drive missing? If it is meant, put a damper, however "
         "weak, into the joint that is free.",
         quoted(names), count_text(idle), names.size() == 1 ? "it" : "them",
         is_moved ? "only the inertia of the rest moves what is free" : "nothing moves there");
-    doubt.responses = concerned(names);
-    doubt.bodies = names;
-    doubt.is_serious = !doubt.responses.empty();
-    return doubt;
+    finding.responses = concerned(names);
+    finding.bodies = names;
+    finding.is_serious = !finding.responses.empty();
+    return finding;
   }
 
   /// Responses of the bodies, of their joints, and of the whole mechanism.
@@ -325,11 +325,11 @@ class IdleFreedoms {
 
 }  // namespace
 
-std::vector<Doubt> doubt_idle_freedoms(const TrustedRun& run) {
+std::vector<Finding> check_unactuated_freedoms(const TrustedRun& run) {
   return IdleFreedoms(run).find();
 }
 
-std::vector<Doubt> doubt_unconnected_bodies(const TrustedRun& run) {
+std::vector<Finding> check_unconnected_bodies(const TrustedRun& run) {
   const Scene& scene = run.problem.scene;
   const std::set<std::string> grounded = grounded_bodies(scene);
   if (grounded.empty()) return {};
@@ -342,8 +342,8 @@ std::vector<Doubt> doubt_unconnected_bodies(const TrustedRun& run) {
     names.push_back(body.name);
   }
   if (names.empty()) return {};
-  Doubt doubt;
-  doubt.text = fmt::format(
+  Finding finding;
+  finding.text = fmt::format(
       "no joint or spring connects {} with the ground, directly or by way of other bodies, and no "
       "load or initial velocity is given: {}. Is a joint missing?",
       quoted(names), run.analysis.model.gravity.isZero(0.0) ? "nothing moves there" : "falls");
@@ -353,12 +353,12 @@ std::vector<Doubt> doubt_unconnected_bodies(const TrustedRun& run) {
           return std::find(names.begin(), names.end(), name) != names.end();
         });
     if (looks_there && response.type != ResponseType::mass) {
-      doubt.responses.push_back(response.name);
+      finding.responses.push_back(response.name);
     }
   }
-  doubt.is_serious = !doubt.responses.empty();
-  doubt.bodies = names;
-  return {doubt};
+  finding.is_serious = !finding.responses.empty();
+  finding.bodies = names;
+  return {finding};
 }
 
 }  // namespace pleuel

@@ -1,4 +1,4 @@
-#include "core/trust/taut_members.hpp"
+#include "core/trust/tension_layers.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -89,8 +89,8 @@ std::vector<std::string> bent_responses(const ProblemFile& problem, const std::s
 
 }  // namespace
 
-std::vector<Doubt> doubt_taut_members(const TrustedRun& run) {
-  std::vector<Doubt> doubts;
+std::vector<Finding> check_tension_layers(const TrustedRun& run) {
+  std::vector<Finding> findings;
   const Trajectory& trajectory = run.analysis.trajectory;
   const Eigen::Index stride = 1 + trajectory.time.size() / most_instants;
   for (const Body& body : run.problem.scene.bodies) {
@@ -113,7 +113,7 @@ std::vector<Doubt> doubt_taut_members(const TrustedRun& run) {
       if (one && (!worst || one->missed > worst->missed)) worst = one;
     }
     if (!worst) continue;
-    doubts.push_back(
+    findings.push_back(
         {fmt::format("\"{}\" is taut: under a pull of {:.3g} N it bends within some {:.2g} "
                      "m of where it is held or loaded across, which an element of {:.2g} "
                      "m does not see; stress there may be larger by far. Divide it by "
@@ -121,7 +121,7 @@ std::vector<Doubt> doubt_taut_members(const TrustedRun& run) {
                      body.name, worst->pull, worst->reach, worst->length),
          true, responses});
   }
-  return doubts;
+  return findings;
 }
 
 }  // namespace pleuel

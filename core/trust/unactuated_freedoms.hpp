@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/trust/doubt.hpp"
+#include "core/trust/finding.hpp"
 #include "core/trust/trusted_run.hpp"
 
 namespace pleuel {
@@ -17,10 +17,10 @@ namespace pleuel {
 /// Not idle: a mechanism that touches the ground nowhere but moves; the spin of a body about an
 /// axis through its centre of mass, where its joints are points or the body moves otherwise (a rod
 /// between ball joints, a roller).
-std::vector<Doubt> doubt_idle_freedoms(const TrustedRun& run);
+std::vector<Finding> check_unactuated_freedoms(const TrustedRun& run);
 
 /// Bodies without a way of joints and springs to the ground, where others have one, that nobody has
 /// given a velocity or a load.
-std::vector<Doubt> doubt_unconnected_bodies(const TrustedRun& run);
+std::vector<Finding> check_unconnected_bodies(const TrustedRun& run);
 
 }  // namespace pleuel

@@ -1,4 +1,4 @@
-#include "core/trust/stubby_beams.hpp"
+#include "core/trust/low_slenderness.hpp"
 
 #include <algorithm>
 #include <array>
@@ -125,7 +125,7 @@ double shear_share(const ProblemFile& problem, const Eigen::VectorXd& x, const M
   return largest;
 }
 
-std::vector<ConcernedBeam> find_stubby_beams(const TrustedRun& run) {
+std::vector<ConcernedBeam> find_slenderness(const TrustedRun& run) {
   const Model& model = run.analysis.model;
   const int half_waves = most_half_waves(run.problem);
   const auto& largest = largest_deformations(run);

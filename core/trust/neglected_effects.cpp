@@ -1,4 +1,4 @@
-#include "core/trust/left_out_effects.hpp"
+#include "core/trust/neglected_effects.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +36,7 @@ std::optional<CompleteRun> simulate_completely(const TrustedRun& run) {
   return complete;
 }
 
-std::vector<Doubt> doubt_left_out_effects(const TrustedRun& run, const CompleteRun& complete) {
+std::vector<Finding> check_neglected_effects(const TrustedRun& run, const CompleteRun& complete) {
   if (!complete.analysis) {
     return {{fmt::format("with the effects that were left out at the start design this one cannot "
                          "be simulated: {}",
@@ -55,7 +55,7 @@ std::vector<Doubt> doubt_left_out_effects(const TrustedRun& run, const CompleteR
            {change.response}}};
 }
 
-std::vector<Doubt> doubt_lost_stiffening(const TrustedRun& run) {
+std::vector<Finding> check_lost_stiffening(const TrustedRun& run) {
   const EffectSettings& asked = run.problem.effects;
   if (asked.axial_elasticity != EffectChoice::off || asked.elasticity == EffectChoice::off ||
       asked.geometric_stiffening == EffectChoice::off) {
@@ -64,21 +64,21 @@ std::vector<Doubt> doubt_lost_stiffening(const TrustedRun& run) {
   ProblemFile estimated = starting_at(with_all_effects(run.problem), run.x);
   estimated.effects.axial_elasticity = EffectChoice::automatic;
   estimated.effects.tolerance = small_axial_force;
-  std::vector<Doubt> doubts;
+  std::vector<Finding> findings;
   for (const auto& [body, estimates] : estimate_effects(estimated)) {
     if (estimates.geometric_stiffening <= small_axial_force) continue;
-    doubts.push_back(
+    findings.push_back(
         {fmt::format("\"{}\" carries an axial force of about {:.2g} of its Euler load, which "
                      "stiffens or softens it, but has no geometric stiffening because "
                      "/effects/axial_elasticity is \"off\". Leave that out of the file.",
                      body, estimates.geometric_stiffening),
          true});
   }
-  return doubts;
+  return findings;
 }
 
-void add_left_out_effects(const TrustedRun& run, const CompleteRun& complete,
-                          std::vector<std::optional<ErrorBar>>& errors) {
+void add_neglected_effects(const TrustedRun& run, const CompleteRun& complete,
+                           std::vector<std::optional<ErrorBar>>& errors) {
   for (std::size_t i = 0; i < errors.size(); ++i) {
     if (!errors[i]) continue;
     ErrorPart& effects = errors[i]->effects;

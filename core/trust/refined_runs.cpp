@@ -1,4 +1,4 @@
-#include "core/trust/nested_runs.hpp"
+#include "core/trust/refined_runs.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -93,17 +93,17 @@ int beam_elements(const ProblemFile& problem) {
   return count;
 }
 
-NestedRun nested_run_of(const Analysis& analysis) {
+RefinedRun refined_run_of(const Analysis& analysis) {
   return {{}, values_of(analysis), analysis.trajectory.time, analysis.histories};
 }
 
-NestedRun make_nested_run(const ProblemFile& problem, const Eigen::VectorXd& x,
-                          const Refinement& refinement, const Trajectory* similar) {
-  NestedRun run;
+RefinedRun make_refined_run(const ProblemFile& problem, const Eigen::VectorXd& x,
+                            const Refinement& refinement, const Trajectory* similar) {
+  RefinedRun run;
   try {
     ProblemFile finer = refined(problem, refinement);
     finer.simulation.moves_by_bending = true;  // whether it moves at all was asked before
-    run = nested_run_of(*analyze(finer, x, similar));
+    run = refined_run_of(*analyze(finer, x, similar));
   } catch (const SimulationError& error) {
     run.failure = error.what();
   } catch (const InputError& error) {  // a window without steps, more modes than coordinates …
@@ -112,12 +112,12 @@ NestedRun make_nested_run(const ProblemFile& problem, const Eigen::VectorXd& x,
   return run;
 }
 
-std::vector<NestedRun> make_nested_runs(const ProblemFile& problem, const Eigen::VectorXd& x,
-                                        const std::vector<Refinement>& refinements,
-                                        const Trajectory* similar) {
-  std::vector<NestedRun> runs(refinements.size());
+std::vector<RefinedRun> make_refined_runs(const ProblemFile& problem, const Eigen::VectorXd& x,
+                                          const std::vector<Refinement>& refinements,
+                                          const Trajectory* similar) {
+  std::vector<RefinedRun> runs(refinements.size());
   for_each_in_parallel(int_size(runs), available_threads(), [&](int i) {
-    runs[i] = make_nested_run(problem, x, refinements[i], similar);
+    runs[i] = make_refined_run(problem, x, refinements[i], similar);
   });
   return runs;
 }

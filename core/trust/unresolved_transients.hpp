@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/trust/doubt.hpp"
+#include "core/trust/finding.hpp"
 #include "core/trust/trusted_run.hpp"
 
 namespace pleuel {
@@ -10,6 +10,6 @@ namespace pleuel {
 /// those that do so within a step nothing is left, with twice and half of it neither. Which may do
 /// so the equations about that instant tell (fast_vibration.hpp); what is missing is seen by one
 /// more simulation, with short steps behind such jumps (shorter_steps.hpp).
-std::vector<Doubt> doubt_unseen_overshoot(const TrustedRun& run);
+std::vector<Finding> check_unresolved_transients(const TrustedRun& run);
 
 }  // namespace pleuel

@@ -4,19 +4,19 @@
 #include <string>
 #include <vector>
 
-#include "core/trust/doubt.hpp"
 #include "core/trust/error_bars.hpp"
+#include "core/trust/finding.hpp"
 #include "core/trust/trusted_run.hpp"
 
 namespace pleuel {
 
 /// What the file alone says against the numbers to come, at its start design: known before a long
 /// run, and found again after it.
-std::vector<Doubt> find_doubts_before(const ProblemFile& problem);
+std::vector<Finding> check_before(const ProblemFile& problem);
 
 /// How far the numbers of a simulated design can be trusted.
 struct Trust {
-  std::vector<Doubt> doubts;  ///< the serious ones first
+  std::vector<Finding> findings;  ///< the serious ones first
   /// One a response, none of those that are errors themselves or round-off; empty where the file
   /// leaves the check of resolution out.
   std::vector<std::optional<ErrorBar>> errors;
@@ -27,18 +27,18 @@ struct Trust {
 
 Trust judge_run(const TrustedRun& run);
 
-/// All doubts about a simulated design, the serious ones first; every
-/// command that shows numbers shows them. Each kind of doubt has a file of its own beside this one.
-std::vector<Doubt> find_doubts(const TrustedRun& run);
+/// All findings about a simulated design, the serious ones first; every
+/// command that shows numbers shows them. Each kind of finding has a file of its own beside this one.
+std::vector<Finding> check_run(const TrustedRun& run);
 
 /// The same with monitors of its own.
-std::vector<Doubt> find_doubts(const ProblemFile& problem, const Eigen::VectorXd& x,
+std::vector<Finding> check_run(const ProblemFile& problem, const Eigen::VectorXd& x,
                                const Analysis& analysis);
 
 /// Their sentences.
-std::vector<std::string> texts_of(const std::vector<Doubt>& doubts);
+std::vector<std::string> texts_of(const std::vector<Finding>& findings);
 
 /// Whether one of them is serious.
-bool has_serious(const std::vector<Doubt>& doubts);
+bool has_serious(const std::vector<Finding>& findings);
 
 }  // namespace pleuel

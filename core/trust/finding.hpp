@@ -5,7 +5,7 @@
 
 namespace pleuel {
 
-/// What is behind a doubt. What is wrong in one class makes numbers wrong that those after it look at.
+/// What is behind a finding. What is wrong in one class makes numbers wrong that those after it look at.
 enum class Cause {
   unit,           ///< a number that lacks its unit, or has another one than meant
   limit,          ///< a limit that is far from what is reached
@@ -17,7 +17,7 @@ enum class Cause {
 };
 
 /// Something that speaks against numbers that came out of a simulation without complaint.
-struct Doubt {
+struct Finding {
   std::string text;  ///< a sentence: what, where, how far, and what to do about it
   /// The numbers are not to be trusted (more than 1 % off, or of another mechanism than meant): no
   /// design that rests on them is `verified`.

@@ -7,12 +7,12 @@
 
 #include "core/response/analysis.hpp"
 #include "core/scene/problem_reader.hpp"
-#include "core/trust/doubts.hpp"
+#include "core/trust/checks.hpp"
 #include "core/trust/model_variants.hpp"
 
 namespace pleuel::test {
 
-/// A problem, simulated at its start design, and what its doubts are made from.
+/// A problem, simulated at its start design, and what its findings are made from.
 struct StartRun {
   ProblemFile problem;
   Eigen::VectorXd x;
@@ -28,22 +28,22 @@ struct StartRun {
   TrustedRun run() const { return {problem, x, *analysis, monitors}; }
 };
 
-using FindDoubts = std::vector<Doubt> (*)(const TrustedRun&);
+using FindChecks = std::vector<Finding> (*)(const TrustedRun&);
 
-/// What one kind of doubt says of the start design of a problem.
-inline std::vector<Doubt> doubts_of(const ProblemFile& problem, FindDoubts find) {
+/// What one kind of finding says of the start design of a problem.
+inline std::vector<Finding> findings_of(const ProblemFile& problem, FindChecks find) {
   return find(StartRun(problem).run());
 }
 
-/// What variants of the model say, as one kind of doubt.
-inline std::vector<Doubt> doubt_variants(const TrustedRun& run) {
-  return compare_variants(run).doubts;
+/// What variants of the model say, as one kind of finding.
+inline std::vector<Finding> check_variants(const TrustedRun& run) {
+  return compare_variants(run).findings;
 }
 
-/// What all kinds of doubts say of it.
-inline std::vector<Doubt> doubts_of(const ProblemFile& problem) {
+/// What all kinds of findings say of it.
+inline std::vector<Finding> findings_of(const ProblemFile& problem) {
   const Eigen::VectorXd x = start_design(problem);
-  return find_doubts(problem, x, *analyze(problem, x));
+  return check_run(problem, x, *analyze(problem, x));
 }
 
 inline ProblemFile read_scene(const std::string& text,
