@@ -112,7 +112,8 @@ Evaluation DesignProblem::evaluate(const Eigen::VectorXd& x, Request request) {
   NamedRows rows{file_.has_cases() ? "constraints of the case" : "constraints", {}};
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
     const OfCase of_case = case_of_constraint(file_, i);
-    rows.sources.push_back(is_of_several(of_case) ? response_row(file_, *response_of(i))
+    // As one over cases whatever it is made of: PartRows name its parts, by which records tell rows apart.
+    rows.sources.push_back(is_of_several(of_case) ? RowSource{0, {.sign = 1.0}, *response_of(i)}
                                                   : RowSource{of_case.load_case, {of_case.index}});
   }
   return evaluate_rows(x, request, rows);
