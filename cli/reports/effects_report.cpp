@@ -81,11 +81,11 @@ struct BodyEffect {
 /// "elasticity (crank, rod), spatial_motion"
 std::string names_text(const std::vector<BodyEffect>& effects) {
   std::vector<std::pair<std::string, std::vector<std::string>>> all;  // name: bodies
-  for (const auto& [effect, body] : effects) {
+  for (const BodyEffect& one : effects) {
     auto same = std::find_if(all.begin(), all.end(),
-                             [&](const auto& entry) { return entry.first == effect; });
-    if (same == all.end()) same = all.insert(all.end(), {effect, {}});
-    if (!body.empty()) same->second.push_back(body);
+                             [&](const auto& entry) { return entry.first == one.effect; });
+    if (same == all.end()) same = all.insert(all.end(), {one.effect, {}});
+    if (!one.body.empty()) same->second.push_back(one.body);
   }
   std::string text;
   for (const auto& [effect, bodies] : all) {
