@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/base/find_named.hpp"
 #include "core/model/imported_constants.hpp"
 #include "core/response/analysis.hpp"
-#include "core/scene/names_of.hpp"
 #include "core/scene/visit_constants.hpp"
 #include "sensitivity/gradients.hpp"
 
@@ -115,18 +115,15 @@ class WithEntries {
 };
 
 std::size_t find_body(const ProblemFile& problem, const std::string& name) {
-  const std::vector<Body>& bodies = problem.scene.bodies;
-  const auto found = std::find_if(bodies.begin(), bodies.end(),
-                                  [&](const Body& body) { return body.name == name; });
-  if (found == bodies.end())
-    throw InputError(fmt::format("/scene/bodies has no body \"{}\"", name));
-  if (!std::holds_alternative<ImportedBody>(found->shape)) {
+  const auto index = index_of_named(problem.scene.bodies, name);
+  if (!index) throw InputError(fmt::format("/scene/bodies has no body \"{}\"", name));
+  if (!std::holds_alternative<ImportedBody>(problem.scene.bodies[*index].shape)) {
     throw InputError(fmt::format(
         "/scene/bodies/{} is no body of the type \"invariants\", which has numbers of its own to "
         "differentiate for; \"pleuel invariants\" writes a beam as such a body",
         name));
   }
-  return static_cast<std::size_t>(found - bodies.begin());
+  return *index;
 }
 
 }  // namespace

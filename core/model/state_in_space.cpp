@@ -23,7 +23,7 @@ void set_frame(const BodyModel& planar, const State& from, const BodyFrame& fram
 /// Nodal displacements, which the body in space has as coordinates. @returns whether it has
 bool set_deformation(const BodyModel& planar, const State& from, const BodyModel& body, State& to) {
   const int size = planar.elastic_size();
-  if (size == 0) return true;
+  if (size == 0) return body.elastic_size() == 0;
   const auto q = from.q.segment(planar.elastic_offset(), size),
              v = from.v.segment(planar.elastic_offset(), size);
   if (!body.is_beam() && body.elastic_size() == size) {
@@ -37,6 +37,9 @@ bool set_deformation(const BodyModel& planar, const State& from, const BodyModel
     for (int displacement = 0; displacement < 6; ++displacement) {
       const int index = body.coordinate(node, displacement);
       if (index < 0) continue;
+      // Without a stretch of its own the body would bear its axial force by no deformation.
+      const bool is_stretch = displacement == 0;
+      if (is_stretch && planar.places.shape.row(6 * node).nonZeros() == 0) return false;
       to.q(index) = displacements(displacement, node);
       to.v(index) = rates(displacement, node);
     }
