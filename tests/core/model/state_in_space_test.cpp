@@ -48,5 +48,19 @@ TEST(StateInSpace, HasTheAccelerationsOfTheMotionInThePlane) {
   }
 }
 
+/// Who leaves the stretch out in the plane has a member in space that no force presses.
+TEST(StateInSpace, IsNoneWhereThePlaneLeavesTheStretchOut) {
+  const ProblemFile problem =
+      sample_problem("slider_crank", {"/simulation/end_time=2 ms", "/simulation/step=1 ms",
+                                      "/effects={\"axial_elasticity\": \"off\"}"});
+  const Eigen::VectorXd x = start_design(problem);
+  const Design<double> design(x.begin(), x.end());
+  const auto analysis = analyze(problem, x);
+  const auto space = make_full_mechanism(problem, design, design);
+  State state;
+  analysis->trajectory.states->load(1, state);
+  EXPECT_FALSE(state_in_space(analysis->model, state, space->model));
+}
+
 }  // namespace
 }  // namespace pleuel::test::state_in_space_test
