@@ -95,7 +95,7 @@ std::string setting_text(const ProblemFile& problem, const SettingChoice& choice
                                    "method, miss it by themselves."
                                  : "";
   return wrapped(
-      fmt::format("No setting that was tried is known to keep {}; the finest of {}, {}, {}.{}\n",
+      fmt::format("No setting that was tried is known to keep {}; the best of {}, {}, {}.{}\n",
                   target, choice.tried.size(), setting, left, reason));
 }
 

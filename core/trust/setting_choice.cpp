@@ -30,10 +30,12 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double coarse_steps = 256.0;
 /// Of a motion, where the file has no fewer: runs of so few may agree on having seen nothing.
 constexpr double fewest_steps = 64.0;
-/// Bounds of the refinement of step and elements, and of the work of one simulation, relative to
-/// the file.
-constexpr double finest_step = 1.0 / 16.0, most_elements = 8.0, most_work = 16.0;
+/// Bounds of the work of one simulation: relative to that of the file, and what is always allowed
+/// [steps × unknowns], some seconds: a file that is coarse bounds nothing.
+constexpr double most_relative_work = 16.0, always_allowed_work = 2e6;
 constexpr int most_tries = 12;
+/// A setting that has less than this more of work is the same.
+constexpr double least_growth = 1.05;
 
 /// Shares of the target that a new step and new elements aim at.
 constexpr double step_aim = 0.5, elements_aim = 0.25;
@@ -97,24 +99,49 @@ class Search {
  private:
   bool is_met(const Trial& trial) const { return trial.tried.error <= target_; }
 
-  /// From coarse to fine, up to a setting that does, or the finest one that was tried.
+  /// From coarse to fine, up to a setting that does. Else the one with the smallest error.
   Trial refine(Refinement next) {
-    Trial trial;
-    for (int i = 0; i < most_tries && is_within_bounds(next); ++i) {
-      trial = measure(next);
+    Trial best;
+    for (int i = 0; i < most_tries; ++i) {
+      Trial trial = measure(next);
       const bool seems_met = is_met(trial);
       if (seems_met) confirm(trial);
+      if (i == 0 || trial.tried.error <= best.tried.error) best = trial;
       if (is_met(trial) || (std::isfinite(trial.by_step) && trial.by_others > target_)) break;
       if (seems_met) trial.by_step = infinite;  // runs agreed by accident
-      next = finer(trial);
+      next = within_bounds(finer(trial), trial);
+      if (growth(next, trial.setting()) < least_growth) break;
     }
-    return trial;
+    return best;
   }
 
-  /// Judged by the product of steps and elements.
-  static bool is_within_bounds(const Refinement& setting) {
-    return setting.step >= finest_step && setting.elements <= most_elements &&
-           setting.elements / setting.step <= most_work;
+  /// Of the work.
+  static double growth(const Refinement& next, const Refinement& from) {
+    return next.elements / from.elements * (from.step / next.step);
+  }
+
+  /// What of a finer setting the bounds of work leave: the larger error comes first.
+  static Refinement within_bounds(const Refinement& finer, const Trial& from) {
+    const double room = room_beyond(from);
+    double by_elements = finer.elements / from.setting().elements,
+           by_step = from.setting().step / finer.step;
+    if (from.by_elements > from.by_step) {
+      while (by_elements > std::max(room, 1.0)) by_elements *= 0.5;
+      by_step = std::clamp(room / by_elements, 1.0, by_step);
+    } else {
+      by_step = std::clamp(room, 1.0, by_step);
+      while (by_elements > std::max(room / by_step, 1.0)) by_elements *= 0.5;
+    }
+    return {from.setting().step / by_step, from.setting().elements * by_elements};
+  }
+
+  /// How much more work than a setting the bounds allow. Of one that was not simulated only what it has
+  /// more than the file is known.
+  static double room_beyond(const Trial& trial) {
+    const double beyond_file = trial.setting().elements / trial.setting().step;
+    const double work = trial.tried.work;
+    if (work == 0.0) return most_relative_work / beyond_file;
+    return std::max(most_relative_work / beyond_file, always_allowed_work / work);
   }
 
   Refinement finer(const Trial& trial) const {
@@ -127,7 +154,6 @@ class Search {
     if (by_step > step_aim) next.step *= std::clamp(std::sqrt(step_aim / by_step), 0.125, 0.8);
     if (by_elements > 1.0 - step_aim) {
       next.elements *= std::sqrt(by_elements / elements_aim) > 2.0 ? 4.0 : 2.0;
-      next.elements = std::min(next.elements, most_elements);
     }
     if (by_step <= step_aim && next.elements == trial.setting().elements) next.step *= 0.7;
     return next;
@@ -176,7 +202,7 @@ class Search {
   Trial with_trusted_steps(Trial best) {
     for (int i = 0; i < most_halvings && are_steps_doubted(best.setting()); ++i) {
       const Refinement next{0.5 * best.setting().step, best.setting().elements};
-      if (!is_within_bounds(next)) break;
+      if (room_beyond(best) < 2.0) break;
       Trial finer = measure(next);
       if (!is_met(finer)) break;
       best = std::move(finer);

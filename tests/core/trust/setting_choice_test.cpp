@@ -105,7 +105,17 @@ TEST(SettingChoice, SaysSoWhereNothingThatWasTriedDoes) {
   const SettingChoice choice = choose(problem, 1e-4);
   EXPECT_FALSE(choice.is_met);
   EXPECT_GT(choice.chosen.error, 1e-4);
-  EXPECT_EQ(choice.chosen.step, choice.tried.back().step);
+  for (const TriedSetting& tried : choice.tried) EXPECT_GE(tried.error, choice.chosen.error);
+}
+
+/// A fiftieth of the period of the push, and one element: far from where the target is.
+TEST(SettingChoice, IsNotBoundByACoarseFile) {
+  const ProblemFile problem =
+      problem_of({without_jerk, sudden, "/simulation/step=1e-3", "/scene/bodies/b/elements=1"});
+  const SettingChoice choice = choose(problem, 1e-4);
+  EXPECT_TRUE(choice.is_met);
+  EXPECT_GT(1e-3 / choice.chosen.step * choice.chosen.elements, 16.0);
+  EXPECT_LE(true_error(choice), 1e-4);
 }
 
 /// Steps and elements cannot make up for modes that are missing.
