@@ -12,8 +12,8 @@
 namespace pleuel {
 
 Attachment::Attachment(const std::string& body, Point at, const std::vector<BodyModel>& bodies,
-                       const BuildContext& context)
-    : context_(context), at_(std::move(at)) {
+                       const BuildContext& context, std::optional<Point> to)
+    : context_(context), at_(std::move(at)), to_(std::move(to)) {
   if (body == ground_name) return;
   const auto number = context.body_numbers.find(body);
   assert(number != context.body_numbers.end());
@@ -22,8 +22,11 @@ Attachment::Attachment(const std::string& body, Point at, const std::vector<Body
   if (const auto* imported = std::get_if<ImportedBody>(&body_->shape)) {
     point_ = point_of(*model_, place_at(*imported, at_, context.start));
   } else if (model_->is_elastic) {
-    const double share = share_along(std::get<BeamBody>(body_->shape), at_, context.start);
-    point_ = point_of(*model_, held_place(*model_, share));
+    const auto place = [&](const Point& point) {
+      return held_place(*model_,
+                        share_along(std::get<BeamBody>(body_->shape), point, context.start));
+    };
+    point_ = to_ ? mean_point(*model_, place(at_), place(*to_)) : point_of(*model_, place(at_));
   }
   if (point_) set_rows();
   is_direct_ = are_coordinates();
@@ -103,6 +106,7 @@ void Attachment::add_variables(std::set<int>& variables) const {
     for (const auto& [variable, change] : point_->derivatives) variables.insert(variable);
   }
   add_variables_of(at_, variables);
+  if (to_) add_variables_of(*to_, variables);
 }
 
 namespace {

@@ -13,8 +13,9 @@ namespace pleuel {
 class Attachment {
  public:
   /// @param body  name of a body, or the ground
+  /// @param to    the mean of the stretch of a body from `at` to here, in place of a point
   Attachment(const std::string& body, Point at, const std::vector<BodyModel>& bodies,
-             const BuildContext& context);
+             const BuildContext& context, std::optional<Point> to = {});
 
   bool is_ground() const { return body_ == nullptr; }
   bool has_orientation() const { return model_ == nullptr || model_->frame.rotations() > 0; }
@@ -34,7 +35,9 @@ class Attachment {
     if (is_ground()) return resolve_point(at_, design);
     if (point_) return point_at(design);
     const Pose<Scalar> pose = body_pose(*body_, design);
-    return pose.rotation.transpose() * (resolve_point(at_, design) - pose.origin);
+    Vector3<Scalar> middle = resolve_point(at_, design);
+    if (to_) middle = 0.5 * (middle + resolve_point(*to_, design));
+    return pose.rotation.transpose() * (middle - pose.origin);
   }
 
   /// A direction that is given at t = 0 in global axes, in local axes.
@@ -82,6 +85,7 @@ class Attachment {
 
   const BuildContext& context_;
   Point at_;
+  std::optional<Point> to_;
   const Body* body_ = nullptr;
   const BodyModel* model_ = nullptr;
   std::optional<BodyPoint> point_;  ///< of elastic beams and of bodies from files

@@ -1,5 +1,7 @@
 #include "core/model/body_point.hpp"
 
+#include <cmath>
+
 #include "core/base/eager_matrices.hpp"
 
 namespace pleuel {
@@ -22,6 +24,37 @@ struct NodePair {
         way(nodes.positions.col(first + 1) - start),
         rows(nodes.shape.middleRows(6 * first, 12)) {}
 };
+
+/// Of one element, in its ξ.
+struct Piece {
+  int element;
+  double begin, end;
+
+  template <class Scalar>
+  Scalar length(const Beam<Scalar>& beam) const {
+    return (end - begin) * beam.elements[static_cast<std::size_t>(element)].length;
+  }
+};
+
+std::vector<Piece> pieces_between(const ElementPlace& first, const ElementPlace& last) {
+  std::vector<Piece> pieces;
+  for (int e = first.element; e <= last.element; ++e) {
+    pieces.push_back({e, e == first.element ? first.xi : 0.0, e == last.element ? last.xi : 1.0});
+  }
+  return pieces;
+}
+
+template <class Scalar>
+Scalar length_of_all(const std::vector<Piece>& pieces, const Beam<Scalar>& beam) {
+  Scalar sum(0.0);
+  for (const Piece& piece : pieces) sum += piece.length(beam);
+  return sum;
+}
+
+void add(double weight, const PointShape& part, PointShape& sum) {
+  sum.position += weight * part.position;
+  sum.shape = SparseMatrix(sum.shape + weight * part.shape);
+}
 
 }  // namespace
 
@@ -72,6 +105,34 @@ BodyPoint point_of(const BodyModel& body, const BeamPlace& place) {
           MatrixXd(shape_x * nodes.rows + shape * change.rows).sparseView()}});
   }
   return point;
+}
+
+/// By two points of Gauss a piece, which are exact for cubic shapes.
+BodyPoint mean_point(const BodyModel& beam, const BeamPlace& one, const BeamPlace& other) {
+  const auto along = [](const BeamPlace& place) { return place.element + place.xi; };
+  const bool is_forward = along(one) <= along(other);
+  const std::vector<Piece> pieces =
+      pieces_between(is_forward ? one : other, is_forward ? other : one);
+  const PointShape nothing{Eigen::Vector3d::Zero(), SparseMatrix(6, beam.places.shape.cols())};
+  BodyPoint mean{nothing, {}};
+  for (const auto& [variable, change] : beam.places_x)
+    mean.derivatives.push_back({variable, nothing});
+  const double whole = length_of_all(pieces, beam.beam);
+  for (const Piece& piece : pieces) {
+    for (const double side : {-1.0, 1.0}) {
+      const double xi = piece.begin + (piece.end - piece.begin) * (0.5 + side / std::sqrt(12.0));
+      const BodyPoint point = point_of(beam, BeamPlace{{piece.element, xi}});
+      const double weight = 0.5 * piece.length(beam.beam) / whole;
+      add(weight, point, mean);
+      for (std::size_t k = 0; k < mean.derivatives.size(); ++k) {
+        const Beam<Dual>& changed = beam.beam_x[k].second;
+        const Dual share = 0.5 * piece.length(changed) / length_of_all(pieces, changed);
+        add(weight, point.derivatives[k].data, mean.derivatives[k].data);
+        add(derivative_of(share), point, mean.derivatives[k].data);
+      }
+    }
+  }
+  return mean;
 }
 
 }  // namespace pleuel

@@ -34,4 +34,8 @@ BodyPoint point_of(const BodyModel& body, int place);
 /// A place of a beam. Between two nodes it moves with both (core/beam/beam_shape.hpp).
 BodyPoint point_of(const BodyModel& body, const BeamPlace& place);
 
+/// The mean of all places of a stretch of a beam. A force on it does the work of one that is spread evenly
+/// along the stretch. Places that joints and loads hold on to are its ends (held_place()).
+BodyPoint mean_point(const BodyModel& beam, const BeamPlace& one, const BeamPlace& other);
+
 }  // namespace pleuel

@@ -147,12 +147,52 @@ class Division {
   }
 
   void move_attachments(Scene& divided) const {
+    split_stretches(divided.loads);
     const auto move_held = [&](std::string& body, const Point& at, const PointKey&) {
       move(body, at);
     };
     for (Joint& joint : divided.joints) visit_held_points(joint, move_held);
     for (Load& load : divided.loads) visit_held_points(load, move_held);
   }
+
+  /// Forces that are spread over several frames become one for each of them.
+  void split_stretches(std::vector<Load>& loads) const {
+    std::vector<Load> split;
+    for (const Load& load : loads) {
+      const auto* force = std::get_if<PointForce>(&load.element);
+      const bool is_split = force != nullptr && force->to && parts_.contains(force->body);
+      if (!is_split) {
+        split.push_back(load);
+        continue;
+      }
+      for (const Body& part : parts_.at(force->body)) add_piece(load, *force, part, split);
+    }
+    loads = std::move(split);
+  }
+
+  /// Of the stretch of a force, what lies on one part of the beam.
+  void add_piece(const Load& load, const PointForce& force, const Body& part,
+                 std::vector<Load>& split) const {
+    const auto& beam = std::get<BeamBody>(part.shape);
+    if (share_of_stretch(beam, {force.at, *force.to}, start_) <= part_tolerance) return;
+    const Pose<double> pose = body_pose(part, start_);
+    const auto on_part = [&](const Point& point) -> Point {
+      const double share = share_along(beam, point, start_);
+      if (share >= 0.0 && share <= 1.0) return point;
+      const double length =
+          (beam.part->end - beam.part->begin) * (position(beam.to) - position(beam.from)).norm();
+      const Eigen::Vector3d end = pose.origin + (share > 1.0 ? length : 0.0) * pose.rotation.col(0);
+      return {end.x(), end.y(), end.z()};
+    };
+    PointForce piece = force;
+    piece.body = part.name;
+    piece.whole = {force.at, *force.to};
+    piece.at = on_part(force.at);
+    piece.to = on_part(*force.to);
+    split.push_back({load.name, std::move(piece)});
+  }
+
+  Eigen::Vector3d position(const Point& point) const { return resolve_point(point, start_); }
 
   /// From a beam to the stretch of it that a point lies on.
   void move(std::string& body, const Point& at) const {

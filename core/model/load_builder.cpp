@@ -34,7 +34,7 @@ class LoadBuilder {
       : load_(load), bodies_(bodies), context_(context), coordinates_(coordinates) {}
 
   BuiltLoad operator()(const PointForce& force) {
-    attach(force.body, force.at);
+    places_.emplace_back(force.body, force.at, bodies_, context_, force.to);
     if (force.over) return over_joint(force, LoadKind::force);
     PointForceTopology topology;
     topology.name = load_.name;
@@ -42,7 +42,8 @@ class LoadBuilder {
     const auto data = [&](const auto& design) {
       PointForceData<ScalarOf<decltype(design)>> numbers;
       numbers.point = places_[0].local_point(design);
-      numbers.direction = load_direction(force.direction, force.follows_body, design);
+      numbers.direction =
+          share_of(force, design) * load_direction(force.direction, force.follows_body, design);
       numbers.value = resolve_time_law(force.value, design);
       return numbers;
     };
@@ -149,7 +150,8 @@ class LoadBuilder {
       const auto of_joint = joint_numbers(joint, along.coordinate, design, sides_from(1));
       LoadOverJointData<ScalarOf<decltype(design)>> numbers;
       numbers.point = places_[0].local_point(design);
-      numbers.direction = load_direction(load.direction, load.follows_body, design);
+      numbers.direction =
+          share_of(load, design) * load_direction(load.direction, load.follows_body, design);
       numbers.value = resolve_time_law(load.value, design);
       numbers.points = of_joint.points;
       numbers.directions = of_joint.directions;
@@ -188,6 +190,19 @@ class LoadBuilder {
 
   /// The sides of a joint among the places.
   Sides sides_from(std::size_t first) const { return Sides(places_).subspan(first, 2); }
+
+  /// Of the value of a force, that acts on this part of its stretch.
+  template <class PointLoad, class Scalar>
+  Scalar share_of(const PointLoad& load, const Design<Scalar>& design) const {
+    if constexpr (std::is_same_v<PointLoad, PointForce>) {
+      if (load.whole) return share_of_stretch(beam_named(load.body), *load.whole, design);
+    }
+    return Scalar(1.0);
+  }
+
+  const BeamBody& beam_named(const std::string& name) const {
+    return std::get<BeamBody>(find_named(context_.scene.bodies, name)->shape);
+  }
 
   void attach(const std::string& body, const Point& at) {
     places_.emplace_back(body, at, bodies_, context_);

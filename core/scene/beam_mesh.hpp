@@ -63,6 +63,17 @@ Scalar share_along(const BeamBody& beam, const Point& point, const Design<Scalar
   return (share - beam.part->begin) / (beam.part->end - beam.part->begin);
 }
 
+/// How much of a stretch between two points of a beam lies on a part of it, 0 … 1.
+template <class Scalar>
+Scalar share_of_stretch(const BeamBody& part, const std::array<Point, 2>& ends,
+                        const Design<Scalar>& design) {
+  const Scalar one = share_along(part, ends[0], design), other = share_along(part, ends[1], design);
+  const auto on_part = [](const Scalar& share) {
+    return value_of(share) < 0.0 ? Scalar(0.0) : value_of(share) > 1.0 ? Scalar(1.0) : share;
+  };
+  return (on_part(other) - on_part(one)) / (other - one);
+}
+
 /// Shares of the length between the knots of a mesh, one less than there are knots.
 template <class Scalar>
 std::vector<Scalar> knot_distances(const BeamBody& beam, const BeamMesh& mesh,

@@ -36,6 +36,9 @@ void visit_held_points(Holder& holder, Visit&& visit) {
             }
           } else if constexpr (!std::is_same_v<Element, JointForce>) {
             visit(element.body, element.at, PointKey{"at"});
+            if constexpr (std::is_same_v<Element, PointForce>) {
+              if (element.to) visit(element.body, *element.to, PointKey{"to"});
+            }
           }
         },
         holder.element);

@@ -257,7 +257,7 @@ struct JointCoordinate {
   DrivenCoordinate coordinate = DrivenCoordinate::angle;
 };
 
-/// A force on a point of a body: value(t) · direction.
+/// A force on a point of a body, or spread evenly along a stretch of it: value(t) · direction.
 struct PointForce {
   std::string body;
   Point at;                                  ///< at t = 0, global axes [m]
@@ -265,6 +265,9 @@ struct PointForce {
   TimeFunction value;                        ///< [N]
   bool follows_body = false;                 ///< whether the direction turns with the body
   std::optional<JointCoordinate> over = {};  ///< what the value is a function of, besides time
+  std::optional<Point> to = {};              ///< end of the stretch that begins at `at`
+  /// Of the part of a stretch that lies on one frame of a beam: the whole of it, which has the value.
+  std::optional<std::array<Point, 2>> whole = {};
 };
 
 /// A torque on a body: value(t) · direction.

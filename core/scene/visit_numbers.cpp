@@ -91,8 +91,12 @@ struct LoadNumbers {
   const NumberVisit& visit;
 
   void operator()(const PointForce& force) const {
-    const auto& [body, at, direction, value, follows_body, over] = force;
+    const auto& [body, at, direction, value, follows_body, over, to, whole] = force;
     all(at, quantities::length, visit);
+    if (to) all(*to, quantities::length, visit);
+    if (whole) {
+      for (const Point& point : *whole) all(point, quantities::length, visit);
+    }
     visit_numbers(value, quantities::force, visit);
   }
   void operator()(const PointTorque& torque) const {

@@ -21,7 +21,7 @@
 namespace pleuel::test::chosen_setting_test {
 namespace {
 
-constexpr int scenes = 40;
+constexpr int scenes = 12;
 constexpr unsigned first_seed = 1000;
 constexpr double targets[] = {1e-2, 1e-3, 1e-4};
 /// The grid: times the step and the elements of the file.

@@ -160,6 +160,10 @@ class Keys {
              std::string_view sentence) {
     if (int* value = optional_member(key, member)) whole(key, *value, range, sentence);
   }
+  void point(Key key, std::optional<std::array<Number, 3>>& member, const Quantity& quantity,
+             std::string_view sentence) {
+    if (auto* value = optional_member(key, member)) point(key, *value, quantity, sentence);
+  }
   void direction(Key key, std::optional<std::array<double, 3>>& member, std::string_view sentence) {
     if (auto* value = optional_member(key, member)) direction(key, *value, sentence);
   }

@@ -18,6 +18,8 @@ void describe_point_load(Keys& keys, PointLoad& s, std::string_view value) {
 
 void describe(Keys& keys, PointForce& s) {
   describe_point_load(keys, s, "[N]");
+  keys.point(optional_key("to"), s.to, quantities::length,
+             "The force is spread evenly from at to here, along a beam {}.");
 }
 
 void describe(Keys& keys, PointTorque& s) {

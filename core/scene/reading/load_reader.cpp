@@ -62,6 +62,17 @@ PointLoad read_point_load(const JsonNode& node, const Quantity& quantity, const 
   return load;
 }
 
+PointForce read_force(const JsonNode& node, const Scene& scene, NumberReader& numbers) {
+  auto force = read_point_load<PointForce>(node, quantities::force, scene, numbers);
+  const Body& body = *find_named(scene.bodies, force.body);
+  if (force.to && std::holds_alternative<ImportedBody>(body.shape)) {
+    node.at("to").fail(fmt::format(
+        "does not work with the body \"{}\": of a body from a file only places are known",
+        body.name));
+  }
+  return force;
+}
+
 PointTorque read_torque(const JsonNode& node, const Scene& scene, NumberReader& numbers) {
   auto torque = read_point_load<PointTorque>(node, quantities::torque, scene, numbers);
   if (std::holds_alternative<PointMass>(find_named(scene.bodies, torque.body)->shape)) {
@@ -140,7 +151,7 @@ Load read_load(const std::string& name, const JsonNode& node, const Scene& scene
                                                             {"joint", LoadType::joint}});
   switch (type) {
     case LoadType::force:
-      return {name, read_point_load<PointForce>(node, quantities::force, scene, numbers)};
+      return {name, read_force(node, scene, numbers)};
     case LoadType::torque:
       return {name, read_torque(node, scene, numbers)};
     case LoadType::spring:

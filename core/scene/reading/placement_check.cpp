@@ -38,10 +38,15 @@ std::vector<PointPair> pairs_of(const JsonNode& node, const Scene& scene) {
                      "must not be the same point as \"at\""});
   }
   for (const Load& load : scene.loads) {
-    const auto* spring = std::get_if<SpringDamper>(&load.element);
-    if (spring == nullptr) continue;
-    pairs.push_back({node.at("loads").at(load.name).at("at"), &spring->at[0], &spring->at[1],
-                     "must be two different points"});
+    const JsonNode place = node.at("loads").at(load.name);
+    if (const auto* spring = std::get_if<SpringDamper>(&load.element)) {
+      pairs.push_back(
+          {place.at("at"), &spring->at[0], &spring->at[1], "must be two different points"});
+    }
+    const auto* force = std::get_if<PointForce>(&load.element);
+    if (force == nullptr || !force->to) continue;
+    pairs.push_back(
+        {place.at("to"), &force->at, &*force->to, "must not be the same point as \"at\""});
   }
   return pairs;
 }
