@@ -31,7 +31,7 @@ bool set_deformation(const BodyModel& planar, const State& from, const BodyModel
     to.v.segment(body.elastic_offset(), size) = v;
     return true;
   }
-  if (!body.is_beam() || body.has_basis) return false;
+  if (!body.is_beam() || body.has_basis || body.places.size() != planar.places.size()) return false;
   const auto displacements = planar.places.displacements(q), rates = planar.places.displacements(v);
   for (int node = 0; node < planar.places.size(); ++node) {
     for (int displacement = 0; displacement < 6; ++displacement) {

@@ -13,6 +13,7 @@
 #include "core/base/error.hpp"
 #include "core/base/find_named.hpp"
 #include "core/base/int_size.hpp"
+#include "core/base/number_text.hpp"
 #include "core/base/parallel.hpp"
 #include "core/base/quoted.hpp"
 #include "core/scene/body_groups.hpp"
@@ -50,7 +51,7 @@ struct Variant {
   Cause cause;
   double missing;  ///< of what it changes: all that is missing
   std::vector<ConcernedBeam> (*find)(const TrustedRun&);
-  void (*put_in)(BeamBody&);
+  void (*put_in)(ProblemFile&, const std::string& beam);
   /// What else says whether it counts, where not all responses are there with it; null: nothing.
   std::vector<Finding> (*untold)(const TrustedRun&, const Names&, const std::string& why);
   std::string_view one, several;  ///< "is stubby: shear, which it leaves out,"
@@ -92,14 +93,38 @@ std::string advice_of_frames(const ProblemFile& problem, const Names& beams, dou
   return fmt::format("set {}", fmt::join(frames, ", "));
 }
 
+/// All elastic beams, where the file switches off what axial forces come from.
+std::vector<ConcernedBeam> find_unstretched(const TrustedRun& run) {
+  std::vector<ConcernedBeam> found;
+  if (run.problem.effects.axial_elasticity != EffectChoice::off) return found;
+  for (const Body& body : run.problem.scene.bodies) {
+    const bool is_beam = std::holds_alternative<BeamBody>(body.shape);
+    if (is_beam && run.analysis.model.parts(body.name).front()->is_elastic) {
+      found.push_back({body.name, 1.0});
+    }
+  }
+  return found;
+}
+
+std::string advice_of_stretch(const ProblemFile&, const Names&, double) {
+  return "set /effects/axial_elasticity to auto";
+}
+
 constexpr Variant variants[] = {
-    {"shear", Cause::left_out, 1.0, find_slenderness, [](BeamBody& beam) { beam.has_shear = true; },
+    {"shear", Cause::left_out, 1.0, find_slenderness,
+     [](ProblemFile& problem, const std::string& beam) { beam_of(problem, beam).has_shear = true; },
      nullptr, "is stubby: shear, which it leaves out,", "are stubby: shear, which they leave out,",
      advice_of_shear},
     {"more_frames", Cause::not_modelled, 4.0 / 3.0, find_far_bending,
-     [](BeamBody& beam) { beam.frames *= 2; }, check_untold_bending,
-     "bends too far for linear elasticity in its frame: more frames",
+     [](ProblemFile& problem, const std::string& beam) { beam_of(problem, beam).frames *= 2; },
+     check_untold_bending, "bends too far for linear elasticity in its frame: more frames",
      "bend too far for linear elasticity in their frames: more frames", advice_of_frames},
+    {"axial_elasticity", Cause::left_out, 1.0, find_unstretched,
+     [](ProblemFile& problem, const std::string&) {
+       problem.effects.axial_elasticity = EffectChoice::on;
+     },
+     nullptr, "cannot be stretched: axial elasticity, which it leaves out with N/A,",
+     "cannot be stretched: axial elasticity, which they leave out with N/A,", advice_of_stretch},
 };
 
 /// One variant of a run.
@@ -135,7 +160,7 @@ class VariantRun {
   /// The problem with these beams changed.
   ProblemFile with(const Names& beams) const {
     ProblemFile problem = problem_of_variants(run_);
-    for (const std::string& beam : beams) variant_.put_in(beam_of(problem, beam));
+    for (const std::string& beam : beams) variant_.put_in(problem, beam);
     return problem;
   }
 
@@ -218,7 +243,7 @@ class VariantRun {
       if (change <= tolerable_change || is_alarming != is_serious) continue;
       const ResponseSettings& response = run_.problem.responses[i];
       names.push_back(response.name);
-      changed.push_back(fmt::format("\"{}\" by {:.2g} %", response.name, 100.0 * change));
+      changed.push_back(fmt::format("\"{}\" by {}", response.name, rough_percent(change)));
       largest = std::max(largest, change);
       for (std::size_t k = 0; k < beams_.size(); ++k) {
         const bool is_told = by_beam_[k][i].of_value > told_part * change;

@@ -73,7 +73,9 @@ std::vector<std::string> bent_responses(const ProblemFile& problem, const std::s
   const auto is_bent = [&](std::size_t part) {
     const ResponseSettings& response = problem.responses[part];
     const bool is_of_moments =
-        response.type == ResponseType::stress || response.type == ResponseType::section_force ||
+        (response.type == ResponseType::stress && response.part != StressPart::axial) ||
+        (response.type == ResponseType::section_force &&
+         response.section_part != SectionForcePart::axial) ||
         response.type == ResponseType::fatigue || response.type == ResponseType::fatigue_damage;
     return is_of_moments &&
            std::find(response.bodies.begin(), response.bodies.end(), body) != response.bodies.end();

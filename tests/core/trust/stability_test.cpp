@@ -255,6 +255,7 @@ struct FollowedColumn {
   std::string value = R"({{"type": "ramp", "to": {}, "end": 0.01}})";
   double end_time = 0.4;
   std::string bodies = "", joints = "", loads = "";  ///< beside it
+  std::vector<std::string> overrides = {};
 };
 
 std::vector<Finding> findings_of_followed(const FollowedColumn& column) {
@@ -272,7 +273,8 @@ std::vector<Finding> findings_of_followed(const FollowedColumn& column) {
     "simulation": {{"end_time": {}, "step": 1e-3}},
     "responses": {{"mass": {{"type": "mass"}}}}}})",
                                             column.damping, column.bodies, column.joints, value,
-                                            column.loads, column.end_time)),
+                                            column.loads, column.end_time),
+                                column.overrides),
                      check_stability);
 }
 
@@ -320,6 +322,55 @@ TEST(Stability, OfBecksColumnIsLostWhenItsLoadComesLate) {
   ASSERT_EQ(findings.size(), 1u);
   EXPECT_TRUE(findings[0].is_serious);
   EXPECT_NE(findings[0].text.find("flutter"), std::string::npos) << findings[0].text;
+}
+
+/// Steps much longer than its vibration damp it; with one element it does not flutter at all.
+TEST(Stability, OfBecksColumnIsLostWhateverTheSteps) {
+  const std::vector<std::string> coarse = {"/simulation/step=0.1", "/scene/bodies/c/elements=1"};
+  EXPECT_TRUE(findings_of_followed({.press = 15.0, .overrides = coarse}).empty());
+  const std::vector<Finding> beyond = findings_of_followed({.press = 30.0, .overrides = coarse});
+  ASSERT_EQ(beyond.size(), 1u);
+  EXPECT_TRUE(beyond[0].is_serious);
+  EXPECT_NE(beyond[0].text.find("flutters"), std::string::npos) << beyond[0].text;
+}
+
+/// One element buckles at 12 EI/L² between pins, and never between clamps; Euler: π² and 4π² EI/L². Two
+/// are within 1 and 2 % of him.
+TEST(Stability, OfAColumnIsLostWhateverItsElements) {
+  const auto findings = [&](const std::string& ends, double press) {
+    const auto end = [](const char* name, const std::string& type, double at) {
+      return fmt::format(R"j("{}": {{"type": {}, "bodies": ["ground", "bar"], "at": [{}, 0, 0]}})j",
+                         name, type, at);
+    };
+    const bool is_clamped = ends == "clamps";
+    return findings_of(
+        read_scene(fmt::format(R"j({{"scene": {{
+          "materials": {{"light": {{"young": 2.1e11, "poisson": 0.3, "density": 100}}}},
+          "bodies": {{"bar": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "elements": 1,
+                              "material": "light", "damping": {{"stiffness": 1e-4}},
+                              "section": {{"type": "rectangle", "width": 0.02, "height": 0.01}}}}}},
+          "joints": {{{}, {}}},
+          "loads": {{"press": {{"type": "force", "body": "bar", "at": [1, 0, 0],
+                               "direction": [-1, 0, 0],
+                               "value": {{"type": "ramp", "to": {}, "end": 0.05}}}}}}}},
+        "simulation": {{"end_time": 1, "step": 0.0025}},
+        "responses": {{"mass": {{"type": "mass"}}}}}})j",
+                               end("a", is_clamped ? R"("fixed")" : R"("revolute")", 0),
+                               end("b",
+                                   is_clamped ? R"("prismatic", "axis": [1, 0, 0])"
+                                              : R"("point-on-line", "axis": [1, 0, 0])",
+                                   1),
+                               press)),
+        check_stability);
+  };
+  const double pins = std::numbers::pi * std::numbers::pi * 2.0 * stiffness;
+  for (const auto& [ends, load] : {std::pair("pins", pins), std::pair("clamps", 4.0 * pins)}) {
+    EXPECT_TRUE(findings(ends, 0.9 * load).empty()) << ends;
+    const std::vector<Finding> beyond = findings(ends, 1.1 * load);
+    ASSERT_EQ(beyond.size(), 1u) << ends;
+    EXPECT_TRUE(beyond[0].is_serious);
+    EXPECT_NE(beyond[0].text.find("buckles"), std::string::npos) << beyond[0].text;
+  }
 }
 
 /// A strut on pins under a force P sin(νt): its deflection follows q̈ + ω² (1 − P/P_E sin νt) q = 0
@@ -393,6 +444,27 @@ TEST(Stability, OfAPendulumThatIsSaidToBeInEquilibriumIsAsked) {
       << upright[0].text;
   EXPECT_TRUE(findings_of_pendulum(-1.0, "quasi-static").empty());
   EXPECT_TRUE(findings_of_pendulum(1.0, "consistent").empty());
+}
+
+/// A rigid one stays upright whatever the file asks: exp(√(m g l/J) t), with J about the pin.
+TEST(Stability, OfAnEquilibriumThatIsNeverLeftIsAsked) {
+  const auto findings = [](double at) {
+    return findings_of(read_scene(fmt::format(R"({{"scene": {{"gravity": [0, -9.81, 0],
+        "bodies": {{"bob": {{"type": "rigid", "at": [0, {}, 0], "mass": 2,
+                            "inertia": [0.5, 0.5, 0.5, 0, 0, 0]}}}},
+        "joints": {{"p": {{"type": "revolute", "bodies": ["ground", "bob"], "at": [0, 0, 0]}}}}}},
+      "simulation": {{"end_time": 0.1, "step": 0.01}},
+      "responses": {{"mass": {{"type": "mass"}}}}}})",
+                                              at)),
+                       check_stability);
+  };
+  EXPECT_TRUE(findings(-1.0).empty());
+  const std::vector<Finding> upright = findings(1.0);
+  ASSERT_EQ(upright.size(), 1u);
+  EXPECT_TRUE(upright[0].is_serious);
+  EXPECT_NE(upright[0].text.find(fmt::format("exp({:.4g}", std::sqrt(2.0 * 9.81 / 2.5))),
+            std::string::npos)
+      << upright[0].text;
 }
 
 }  // namespace

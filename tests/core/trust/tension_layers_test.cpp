@@ -57,6 +57,9 @@ TEST(TautMembers, AreNotDoubtedWhereBendingDoesNotCount) {
   EXPECT_THAT(findings_of(wire(-0.1, 0.01, 4), check_tension_layers), IsEmpty());
   EXPECT_THAT(findings_of(wire(1000.0, 20.0, 4, "elastic-energy"), check_tension_layers),
               IsEmpty());
+  EXPECT_THAT(
+      findings_of(wire(1000.0, 20.0, 4, R"(stress", "part": "axial)"), check_tension_layers),
+      IsEmpty());
 }
 
 }  // namespace
