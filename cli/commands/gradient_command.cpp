@@ -324,11 +324,14 @@ Outcome run_gradient(const Arguments& arguments) {
                                            progress.show_share(line, 0.0);
                                          }});
   }
-  progress.show_share("checking the numbers", 0.0);
+  const bool is_checked = arguments.scrutiny != Scrutiny::none;
+  if (is_checked) progress.show_share("checking the numbers", 0.0);
   findings.ties = computed.kinks ? make_ties(*findings.analysis, *computed.kinks)
                                  : find_ties(*findings.analysis, problem.variables);
-  const Monitors monitors = monitor(findings.analysis->model, findings.analysis->trajectory);
-  TrustedRun judged{problem, input.design, *findings.analysis, monitors, arguments.scrutiny};
+  const Analysis& analysis = *findings.analysis;
+  const Monitors monitors =
+      is_checked ? monitor(analysis.model, analysis.trajectory) : Monitors{};
+  TrustedRun judged{problem, input.design, analysis, monitors, arguments.scrutiny};
   if (input.choice) judged.known = &input.choice->bars;
   Trust trust = judge_run(judged);
   findings.warnings =
