@@ -144,7 +144,7 @@ TEST(ReadBack, OfRecommendationsForValuesAndForGradients) {
 
 /// Deviations and bounds are made again from gradients of another command.
 TEST(ReadBack, OfUncertainty) {
-  const Report report = run({"uncertainty", file, "--set",
+  const Report report = run({"uncertainty", file, "--histories", "--set",
                              R"(/uncertainty={"parameters": {"rod_diameter":
                                   {"deviation": "0.1 mm"}, "crank_diameter":
                                   {"interval": "0.2 mm"}}, "samples": 8})"});
