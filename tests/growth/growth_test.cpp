@@ -156,6 +156,8 @@ const Work evaluation{"evaluation", [](const ProblemFile& problem) {
                         design.evaluate(start_design(problem), Request::values_and_gradients);
                       }};
 
+const Work room{"room for histories", [](const ProblemFile& problem) { require_memory(problem); }};
+
 /// What is around the time loop grows a little faster than what there is more of, at most.
 constexpr double nearly_linear = 1.5;
 
@@ -174,6 +176,11 @@ TEST(Growth, OfResponsesIsNearlyLinear) {
 
 TEST(Growth, OfCasesIsNearlyLinear) {
   EXPECT_LT(exponent(many_cases, 4, evaluation), nearly_linear);
+}
+
+/// Before the first simulation nothing is differentiated.
+TEST(Growth, OfReadingIsNearlyLinear) {
+  EXPECT_LT(exponent(many_segments, 16, room), nearly_linear);
 }
 
 /// Elements, variables and responses at once: each of the gradients is elements × variables.
