@@ -231,7 +231,7 @@ TEST(ReadBack, OfStability) {
     for (const char* key : {"steps", "newton_iterations", "factorizations"}) {
       EXPECT_EQ(report.column("stability.csv", key)[i], work.at(key));
     }
-    expect_shown(table.text(i, "time"), "s", study_run.at("seconds"));
+    EXPECT_EQ(table.number(i, "factorizations"), work.at("factorizations"));
     EXPECT_EQ(report.column("stability.csv", "seconds")[i], study_run.at("seconds"));
   }
 }
