@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Optimizations with many variables: the slider-crank whose crank and rod have so many segments, each with a
 diameter and a limit on its stress. Prints a table: status, objective, evaluations, processor time, mean wall time of an
-evaluation of values and of one with gradients (from run.sqlite), and the largest memory of the process.
+evaluation of values and of one with gradients (from run.sqlite), and the largest memory of the process. Then processor time
+and memory of `check` and of one simulation, without its checks and with them.
 
     bench/scale.py PLEUEL [--variables 40,100,200] [--backends nlopt-slsqp,nlopt-mma,ipopt] [--keep DIR]
 """
@@ -105,6 +106,11 @@ def main():
                   f"  {result.get('evaluations', 0):11d}  {result.get('gradient_evaluations', 0):9d}"
                   f"  {seconds:13.1f}  {mean_seconds(record, 'values'):10.2f}"
                   f"  {mean_seconds(record, 'gradients'):18.2f}  {memory:11.0f}", flush=True)
+        run = ["-o", os.path.join(folder, f"{count}-other"), "--overwrite", "--no-report"]
+        for words in (["check", file, "--jobs", "1"], ["simulate", file, "--no-checks", *run], ["simulate", file, *run]):
+            _, seconds, memory = measure([os.path.abspath(arguments.program), *words])
+            name = " ".join([words[0], *(["--no-checks"] if "--no-checks" in words else [])])
+            print(f"{count:9d}  {name:20s} {seconds:8.2f} s  {memory:6.0f} MB", flush=True)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Draws what uncertain parameters make of the responses: first order beside Monte Carlo.
 
-    ./pleuel uncertainty problems/slider_crank.json -o run
+    ./pleuel uncertainty problems/slider_crank.json --histories -o run
     docs/draw_uncertainty.py run rod_bow crank_tip > docs/uncertainty.svg
 
 Above, every response in units of its first-order deviation; below, the histories that are named, and

@@ -12,8 +12,10 @@ std::string to_string(Purpose purpose) {
       return "polish";
     case Purpose::restoration:
       return "restoration";
-    default:
+    case Purpose::audit:
       return "audit";
+    default:
+      return "trial";
   }
 }
 

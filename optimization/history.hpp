@@ -15,10 +15,11 @@ enum class Purpose {
   search,       ///< a step of the backend
   polish,       ///< a step of what refines the backend's answer
   restoration,  ///< on the way into the limits, or to the design that breaks them least
-  audit         ///< beside an answer, to prove or disprove it: no step of anything
+  audit,        ///< beside an answer, to prove or disprove it: no step of anything
+  trial         ///< of a choice of sizes; all evaluations of one choice have one iteration
 };
 
-/// "search", "polish", "restoration" or "audit".
+/// "search", "polish", "restoration", "audit" or "trial".
 std::string to_string(Purpose purpose);
 
 /// One call of Problem::evaluate.

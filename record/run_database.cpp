@@ -80,7 +80,7 @@ Request request_of(const std::string& name) {
 
 Purpose purpose_of(const std::string& name) {
   for (const Purpose purpose :
-       {Purpose::search, Purpose::polish, Purpose::restoration, Purpose::audit}) {
+       {Purpose::search, Purpose::polish, Purpose::restoration, Purpose::audit, Purpose::trial}) {
     if (to_string(purpose) == name) return purpose;
   }
   throw DatabaseError(fmt::format("there is no purpose \"{}\"", name));

@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
+#include <numeric>
+#include <span>
 #include <tuple>
+#include <utility>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
+#include "core/base/parallel.hpp"
 #include "core/base/relative_error.hpp"
+#include "optimization/generic_numbers.hpp"
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/kinks.hpp"
 #include "sensitivity/sampled_gradients.hpp"
@@ -25,6 +29,14 @@ constexpr double tight_tolerances[] = {1e-12, 1e-10};
 /// A derivative that is computed anew at the same design is the same to this.
 constexpr double same_derivative = 1e-6;
 
+/// Entries of generic size and sign relative to the variables, the same in every run.
+Eigen::VectorXd generic_changes(const ProblemFile& problem, const Eigen::VectorXd& x) {
+  GenericNumbers numbers;
+  Eigen::VectorXd changes = step_scales(problem.variables, x);
+  for (double& change : changes) change *= numbers.signed_size();
+  return changes;
+}
+
 class Check {
  public:
   Check(const ProblemFile& problem, const Eigen::VectorXd& x, Analysis& analysis,
@@ -32,6 +44,7 @@ class Check {
       : problem_(with_steps_of(analysis.trajectory, problem)),
         x_(x),
         options_(options),
+        changes_(generic_changes(problem, x)),
         magnitudes_(values_of(analysis).cwiseAbs()),
         direct_(gradients_by(analysis, ExactMethod::direct)),
         adjoint_(gradients_by(analysis, ExactMethod::adjoint)),
@@ -41,103 +54,156 @@ class Check {
       has_kink_[kink.response] = true;
   }
 
-  std::vector<DerivativeCheck> run() {
-    for (const double step : first_steps) add_differences(step);
-    for (const double step : further_steps) {
-      if (!steps_.empty() && is_settled()) break;
-      add_differences(step);
-    }
-    if (steps_.empty()) throw SimulationError(failure_);
-    return judge();
+  DerivativeChecks run() {
+    begin();
+    std::vector<Eigen::Index> all(x_.size());
+    std::iota(all.begin(), all.end(), Eigen::Index{0});
+    divide(all);
+    return std::move(checks_);
+  }
+
+  DerivativeChecks run(const std::vector<CheckedDirection>& directions) {
+    begin();
+    for (const CheckedDirection& direction : directions) keep(direction, judge(direction));
+    return std::move(checks_);
   }
 
  private:
-  struct Step {
-    double step;
-    Eigen::MatrixXd differences;  ///< responses × variables
-  };
+  using Judged = std::vector<JudgedDerivative>;  ///< one a response
 
   static Eigen::MatrixXd gradients_by(Analysis& analysis, ExactMethod method) {
     return sampled_gradients(analysis, response_values(analysis), method);
   }
 
-  void add_differences(double step) {
-    options_.see_step(step);
-    try {
-      steps_.push_back({step, central_differences(problem_, x_, step, options_.threads)});
-    } catch (const SimulationError& error) {
-      failure_ = error.what();
+  void begin() {
+    for (Eigen::Index i = 0; i < direct_.rows(); ++i) {
+      DerivativeCheck& check = checks_.responses.emplace_back();
+      check.adjoint_error = gradient_error(adjoint_.row(i), direct_.row(i), x_, magnitudes_(i));
+      check.noise = noise_.floor()(i);
+      const double relative = check.noise == 0.0      ? 0.0
+                              : magnitudes_(i) == 0.0 ? 1.0
+                                                      : check.noise / magnitudes_(i);
+      check.relative_noise = std::max(relative, std::numeric_limits<double>::epsilon());
     }
   }
 
-  bool is_settled() const {
-    const auto agrees = [](const DerivativeCheck& check) {
-      return check.verdict() == DerivativeVerdict::agrees;
-    };
-    const std::vector<DerivativeCheck> checks = judge();
-    return std::all_of(checks.begin(), checks.end(), agrees);
-  }
-
-  std::vector<DerivativeCheck> judge() const {
-    std::vector<DerivativeCheck> checks;
-    for (Eigen::Index i = 0; i < direct_.rows(); ++i) checks.push_back(judge(i));
-    return checks;
-  }
-
-  DerivativeCheck judge(Eigen::Index i) const {
-    DerivativeCheck check;
-    check.error = std::numeric_limits<double>::infinity();
-    for (const Step& step : steps_) {
-      const double error =
-          gradient_error(direct_.row(i), step.differences.row(i), x_, magnitudes_(i));
-      if (error < check.error) std::tie(check.error, check.step) = std::tie(error, step.step);
+  void divide(const std::vector<Eigen::Index>& variables) {
+    const CheckedDirection direction = direction_along(variables);
+    Judged judged = judge(direction);
+    if (variables.size() == 1 || !any_is(judged, DerivativeVerdict::differs)) {
+      return keep(direction, std::move(judged));
     }
-    check.adjoint_error = gradient_error(adjoint_.row(i), direct_.row(i), x_, magnitudes_(i));
-    check.noise = noise_.floor()(i);
-    const double relative = check.noise == 0.0      ? 0.0
-                            : magnitudes_(i) == 0.0 ? 1.0
-                                                    : check.noise / magnitudes_(i);
-    check.relative_noise = std::max(relative, std::numeric_limits<double>::epsilon());
-    for (Eigen::Index j = 0; j < direct_.cols(); ++j) check.variables.push_back(judge(i, j));
-    return check;
+    const auto middle = variables.begin() + std::ssize(variables) / 2;
+    divide({variables.begin(), middle});
+    divide({middle, variables.end()});
   }
 
-  JudgedDerivative judge(Eigen::Index i, Eigen::Index j) const {
-    const double size = step_scale(problem_.variables[j], x_(j));
-    std::vector<CentralDifference> curve;
-    for (const Step& step : steps_) curve.push_back({step.step, step.differences(i, j)});
-    return judge_derivative(
-        {direct_(i, j), size, magnitudes_(i), noise_.scatter(i), noise_.remainder(i), has_kink_[i]},
-        std::move(curve));
+  CheckedDirection direction_along(const std::vector<Eigen::Index>& variables) const {
+    CheckedDirection direction{variables, Eigen::VectorXd::Zero(x_.size())};
+    for (const Eigen::Index j : variables) direction.change(j) = changes_(j);
+    return direction;
+  }
+
+  void keep(const CheckedDirection& direction, Judged judged) {
+    checks_.directions.push_back(direction);
+    for (std::size_t i = 0; i < judged.size(); ++i) {
+      checks_.responses[i].directions.push_back(std::move(judged[i]));
+    }
+  }
+
+  static bool any_is(const Judged& judged, DerivativeVerdict verdict) {
+    return std::ranges::find(judged, verdict, &JudgedDerivative::verdict) != judged.end();
+  }
+
+  Judged judge(const CheckedDirection& direction) {
+    std::vector<Step> steps;
+    add_differences(direction, first_steps, steps);
+    Judged judged;
+    if (!steps.empty()) judged = judge(direction, steps);
+    if (!steps.empty() && all_agree(judged)) return judged;
+    add_differences(direction, further_steps, steps);
+    if (steps.empty()) throw SimulationError(failure_);
+    return judge(direction, steps);
+  }
+
+  struct Step {
+    double step;
+    Eigen::VectorXd differences;  ///< one a response
+  };
+
+  /// Of steps at which nothing fails.
+  void add_differences(const CheckedDirection& direction, std::span<const double> steps,
+                       std::vector<Step>& found) {
+    const int simulations = 2 * static_cast<int>(steps.size());
+    options_.see_differences(simulations);
+    std::vector<Eigen::VectorXd> values(simulations);
+    std::vector<std::string> failures(simulations);
+    for_each_in_parallel(simulations, options_.threads, [&](int i) {
+      const double step = i % 2 == 0 ? steps[i / 2] : -steps[i / 2];
+      try {
+        values[i] = values_of(*analyze(problem_, x_ + step * direction.change));
+      } catch (const SimulationError& error) {
+        failures[i] = error.what();
+      }
+    });
+    for (std::size_t k = 0; k < steps.size(); ++k) {
+      const std::string& failure = failures[2 * k].empty() ? failures[2 * k + 1] : failures[2 * k];
+      if (!failure.empty()) {
+        failure_ = failure;
+      } else {
+        found.push_back({steps[k], (values[2 * k] - values[2 * k + 1]) / (2.0 * steps[k])});
+      }
+    }
+  }
+
+  static bool all_agree(const Judged& judged) {
+    return std::ranges::all_of(judged, [](const JudgedDerivative& one) {
+      return one.verdict == DerivativeVerdict::agrees;
+    });
+  }
+
+  Judged judge(const CheckedDirection& direction, const std::vector<Step>& steps) const {
+    const Eigen::VectorXd derivatives = direct_ * direction.change;
+    Judged judged;
+    for (Eigen::Index i = 0; i < direct_.rows(); ++i) {
+      std::vector<CentralDifference> curve;
+      for (const Step& step : steps) curve.push_back({step.step, step.differences(i)});
+      judged.push_back(judge_derivative({derivatives(i), 1.0, magnitudes_(i), noise_.scatter(i),
+                                         noise_.remainder(i), has_kink_[i]},
+                                        std::move(curve)));
+    }
+    return judged;
   }
 
   ProblemFile problem_;  ///< with the steps of the analysis
   const Eigen::VectorXd& x_;
   const DerivativeCheckOptions& options_;
+  Eigen::VectorXd changes_;  ///< of each variable, along any direction
   Eigen::VectorXd magnitudes_;
   Eigen::MatrixXd direct_, adjoint_;
   ResponseNoise noise_;
   std::vector<bool> has_kink_;
-  std::vector<Step> steps_;
   std::string failure_;  ///< of the last step that failed
+  DerivativeChecks checks_;
 };
 
-bool any_differs(const std::vector<DerivativeCheck>& checks) {
-  return std::any_of(checks.begin(), checks.end(), [](const DerivativeCheck& check) {
-    return check.verdict() == DerivativeVerdict::differs;
+bool any_differs(const DerivativeChecks& checks) {
+  return std::ranges::any_of(checks.responses, [](const DerivativeCheck& check) {
+    return check.worst().verdict == DerivativeVerdict::differs;
   });
 }
 
-/// The same checks with Newton's method carried further; empty where it does not come so far.
-std::vector<DerivativeCheck> tight_checks(ProblemFile problem, const Eigen::VectorXd& x,
-                                          const DerivativeCheckOptions& options) {
+/// The same checks with Newton's method carried further; none where it does not come so far.
+DerivativeChecks tight_checks(ProblemFile problem, const Eigen::VectorXd& x,
+                              const std::vector<CheckedDirection>& directions,
+                              const DerivativeCheckOptions& options) {
   for (const double tolerance : tight_tolerances) {
     if (problem.simulation.newton_tolerance <= tolerance) continue;
     ProblemFile tight = problem;
     tight.simulation.newton_tolerance = tolerance;
     try {
       const auto analysis = analyze(tight, x);
-      return Check(tight, x, *analysis, options).run();
+      return Check(tight, x, *analysis, options).run(directions);
     } catch (const SimulationError&) {
       continue;
     }
@@ -146,19 +212,19 @@ std::vector<DerivativeCheck> tight_checks(ProblemFile problem, const Eigen::Vect
 }
 
 /// See check_derivatives().
-void excuse_loose_newton(std::vector<DerivativeCheck>& checks, const ProblemFile& problem,
+void excuse_loose_newton(DerivativeChecks& checks, const ProblemFile& problem,
                          const Eigen::VectorXd& x, const DerivativeCheckOptions& options) {
   const auto here = analyze(problem, x);
   const Eigen::MatrixXd again =
       sampled_gradients(*here, response_values(*here), ExactMethod::direct);
-  const std::vector<DerivativeCheck> tight = tight_checks(problem, x, options);
-  for (std::size_t i = 0; i < tight.size(); ++i) {
-    for (std::size_t j = 0; j < checks[i].variables.size(); ++j) {
-      JudgedDerivative& loose = checks[i].variables[j];
-      const JudgedDerivative& judged = tight[i].variables[j];
+  const DerivativeChecks tight = tight_checks(problem, x, checks.directions, options);
+  for (std::size_t i = 0; i < tight.responses.size(); ++i) {
+    for (std::size_t k = 0; k < checks.directions.size(); ++k) {
+      JudgedDerivative& loose = checks.responses[i].directions[k];
+      const JudgedDerivative& judged = tight.responses[i].directions[k];
       if (loose.verdict != DerivativeVerdict::differs) continue;
       if (judged.verdict == DerivativeVerdict::differs) continue;
-      const double repeated = again(i, j);
+      const double repeated = again.row(i).dot(checks.directions[k].change);
       const double change = std::abs(repeated - loose.derivative);
       if (change > same_derivative * std::abs(loose.derivative)) continue;
       loose.verdict = DerivativeVerdict::noise;
@@ -169,18 +235,17 @@ void excuse_loose_newton(std::vector<DerivativeCheck>& checks, const ProblemFile
 
 }  // namespace
 
-std::size_t DerivativeCheck::worst_variable() const {
+std::size_t DerivativeCheck::worst_direction() const {
   const auto is_better = [](const JudgedDerivative& a, const JudgedDerivative& b) {
     return std::tie(a.verdict, a.error) < std::tie(b.verdict, b.error);
   };
-  const auto worst = std::max_element(variables.begin(), variables.end(), is_better);
-  return static_cast<std::size_t>(worst - variables.begin());
+  const auto worst = std::max_element(directions.begin(), directions.end(), is_better);
+  return static_cast<std::size_t>(worst - directions.begin());
 }
 
-std::vector<DerivativeCheck> check_derivatives(const ProblemFile& problem, const Eigen::VectorXd& x,
-                                               Analysis& analysis,
-                                               const DerivativeCheckOptions& options) {
-  std::vector<DerivativeCheck> checks = Check(problem, x, analysis, options).run();
+DerivativeChecks check_derivatives(const ProblemFile& problem, const Eigen::VectorXd& x,
+                                   Analysis& analysis, const DerivativeCheckOptions& options) {
+  DerivativeChecks checks = Check(problem, x, analysis, options).run();
   if (any_differs(checks)) {
     excuse_loose_newton(checks, with_steps_of(analysis.trajectory, problem), x, options);
   }

@@ -1,5 +1,8 @@
 #include "studies/method_comparison.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/base/relative_error.hpp"
@@ -29,7 +32,10 @@ class MethodStudy {
     try {
       for (const double step : compared_steps) compare_differences(step);
     } catch (const Stopped&) {
-      return std::move(compared_);
+    }
+    for (const GradientMethod method :
+         {GradientMethod::central_difference, GradientMethod::forward_difference}) {
+      take_median(method);
     }
     return std::move(compared_);
   }
@@ -44,14 +50,27 @@ class MethodStudy {
 
   void compare_exact() {
     const auto by = [&](ExactMethod method) {
-      return timed(
-          [&] { return sampled_gradients(analysis_, response_values(analysis_), method); });
+      return sampled_gradients(analysis_, response_values(analysis_), method);
     };
-    const auto [direct, direct_seconds] = by(ExactMethod::direct);
-    const auto [adjoint, adjoint_seconds] = by(ExactMethod::adjoint);
-    direct_ = direct;
-    compared_.push_back({GradientMethod::direct, 0.0, direct_seconds, errors(adjoint)});
-    compared_.push_back({GradientMethod::adjoint, 0.0, adjoint_seconds, errors(adjoint)});
+    Eigen::MatrixXd adjoint;
+    const std::vector<ComparedTime> times = compare_times(
+        {[&] { direct_ = by(ExactMethod::direct); }, [&] { adjoint = by(ExactMethod::adjoint); }});
+    const Eigen::VectorXd distances = errors(adjoint);
+    compared_.push_back({GradientMethod::direct, 0.0, times[0].seconds, {}, distances});
+    compared_.push_back({GradientMethod::adjoint, 0.0, times[1].seconds, times[1], distances});
+  }
+
+  void take_median(GradientMethod method) {
+    std::vector<double> seconds;
+    for (const ComparedMethod& one : compared_) {
+      if (one.method == method) seconds.push_back(one.seconds);
+    }
+    if (seconds.empty()) return;
+    const auto middle = seconds.begin() + std::ssize(seconds) / 2;
+    std::ranges::nth_element(seconds, middle);
+    for (ComparedMethod& one : compared_) {
+      if (one.method == method) one.seconds = *middle;
+    }
   }
 
   void compare_differences(double step) {
@@ -60,11 +79,11 @@ class MethodStudy {
       const auto [central, central_seconds] =
           timed([&] { return central_differences(problem_, x_, step, options_.threads); });
       compared_.push_back(
-          {GradientMethod::central_difference, step, central_seconds, errors(central)});
+          {GradientMethod::central_difference, step, central_seconds, {}, errors(central)});
       const auto [forward, forward_seconds] = timed(
           [&] { return forward_differences(problem_, x_, analysis_, step, options_.threads); });
       compared_.push_back(
-          {GradientMethod::forward_difference, step, forward_seconds, errors(forward)});
+          {GradientMethod::forward_difference, step, forward_seconds, {}, errors(forward)});
     } catch (const SimulationError&) {
       return;  // so large a step leads where nothing can be simulated
     }

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
+#include "core/base/compared_times.hpp"
 #include "core/response/analysis.hpp"
 #include "core/scene/problem_file.hpp"
 
@@ -11,8 +13,12 @@ namespace pleuel {
 /// What one method of gradients takes and brings, at one step if it has steps.
 struct ComparedMethod {
   GradientMethod method;
-  double step = 0.0;       ///< relative, of differences; 0: the method has none
-  double seconds = 0.0;    ///< wall time beside the simulation of the design itself
+  double step = 0.0;  ///< relative, of differences; 0: the method has none
+  /// Beside the simulation of the design itself: of exact methods processor time, of differences
+  /// wall time, the median over the steps, as all take the same simulations.
+  double seconds = 0.0;
+  /// Of the adjoint beside direct differentiation, in turns.
+  std::optional<ComparedTime> beside_direct = {};
   Eigen::VectorXd errors;  ///< one a response: see gradient_error() of relative_error.hpp
 };
 

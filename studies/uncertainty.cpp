@@ -123,7 +123,8 @@ struct SampleData {
  private:
   /// From the store, or for it: values and histories one behind the other.
   Sample known(const Eigen::VectorXd& design, EvaluationStore& store) const {
-    const EvaluationKey key = {setting_text(problem), "sample", "", Request::values, design};
+    const std::string rows = responses.empty() ? "sample" : "sample with histories";
+    const EvaluationKey key = {setting_text(problem), rows, "", Request::values, design};
     const Eigen::Index values = problem.responses.size();
     if (const auto stored = store.find(key)) {
       if (!stored->failure.empty()) return {};
@@ -166,8 +167,10 @@ struct SampleData {
 class Samples : public StoredTasks<SampleData> {
  public:
   Samples(SampleData data, std::vector<LimitScatter>& limits, EvaluationStore* store,
-          const SampleObserver& observer)
-      : StoredTasks(std::move(data), store), limits_(limits), observer_(observer) {}
+          const SampleObserver& observer, double expected_seconds)
+      : StoredTasks(std::move(data), store), limits_(limits), observer_(observer) {
+    if (observer_) observer_(0, expected_seconds);
+  }
 
   int count() const override { return (data().size() + task_size - 1) / task_size; }
 
@@ -195,7 +198,8 @@ class Samples : public StoredTasks<SampleData> {
     if (batch_.size() < batch_size && heard_ < data().size()) return;
     for (const Sample& one : batch_) sum_up(one);
     batch_.clear();
-    if (observer_) observer_(heard_);
+    const double a_sample = stopwatch_.seconds() / heard_;
+    if (observer_) observer_(heard_, a_sample * (data().size() - heard_));
   }
 
   void sum_up(const Sample& sample) {
@@ -211,6 +215,7 @@ class Samples : public StoredTasks<SampleData> {
 
   std::vector<LimitScatter>& limits_;
   const SampleObserver& observer_;
+  Stopwatch stopwatch_;
   std::vector<Sample> batch_;  ///< that is not yet whole
   int heard_ = 0, failures_ = 0;
   Moments responses_, histories_;
@@ -223,6 +228,7 @@ class Study {
         x_(start_design(problem)),
         deviations_(deviations_of(settings.parameters)),
         analysis_(analyze(problem, x_)),
+        simulation_seconds_(stopwatch_.seconds()),
         with_same_steps_(with_steps_of(analysis_->trajectory, problem)) {
     const Monitors monitors = monitor(analysis_->model, analysis_->trajectory);
     Trust trust = judge_run(TrustedRun{problem, x_, *analysis_, monitors});
@@ -253,10 +259,11 @@ class Study {
     study_.gradient_seconds = stopwatch.seconds();
   }
 
-  void sample(const Execution& execution, const SampleObserver& observer) {
+  void sample(const Execution& execution, const SampleObserver& observer, SampledNumbers numbers) {
     if (settings_.samples == 0) return;
     const Stopwatch stopwatch;
-    Samples samples(sample_data(), study_.limits, execution.store, observer);
+    Samples samples(sample_data(numbers), study_.limits, execution.store, observer,
+                    settings_.samples * simulation_seconds_ / std::max(1, execution.tasks.jobs));
     try {
       run_tasks(samples, execution.tasks);
     } catch (const Stopped&) {
@@ -315,11 +322,12 @@ class Study {
     return designs;
   }
 
-  SampleData sample_data() const {
+  SampleData sample_data(SampledNumbers numbers) const {
     SampleData data;
     data.problem = with_same_steps_;
     data.designs = draw();
     data.instants = study_.time.size();
+    if (numbers == SampledNumbers::values) return data;
     for (const UncertainHistory& history : study_.histories) {
       data.responses.push_back(history.response);
     }
@@ -371,7 +379,9 @@ class Study {
 
   const UncertaintySettings& settings_;
   Eigen::VectorXd x_, deviations_;
+  Stopwatch stopwatch_;
   std::unique_ptr<Analysis> analysis_;
+  double simulation_seconds_;
   ProblemFile with_same_steps_;
   UncertaintyStudy study_;
   std::vector<int> places_;  ///< of the histories
@@ -384,11 +394,11 @@ std::unique_ptr<TaskWork> make_sample_work(const std::string& content) {
 }
 
 UncertaintyStudy uncertainty_study(const ProblemFile& problem, const Execution& execution,
-                                   const SampleObserver& observer) {
+                                   const SampleObserver& observer, SampledNumbers numbers) {
   require_uncertainty(problem);
   Study study(problem, *problem.uncertainty);
   study.linearize();
-  study.sample(execution, observer);
+  study.sample(execution, observer, numbers);
   return study.take();
 }
 

@@ -36,7 +36,7 @@ struct UncertainResponse {
 struct UncertainHistory {
   std::size_t response;
   Eigen::VectorXd values, deviations;  ///< one an instant [SI]
-  Eigen::VectorXd sampled_deviations;  ///< by Monte Carlo; empty without
+  Eigen::VectorXd sampled_deviations;  ///< by Monte Carlo; empty where they are not asked for
 };
 
 /// One side of a limit on a response that scatters.
@@ -63,18 +63,24 @@ struct UncertaintyStudy {
   double gradient_seconds = 0.0, sampling_seconds = 0.0;
 };
 
-/// Called after each batch of samples with the number done.
-using SampleObserver = std::function<void(int done)>;
+/// Called before the first sample and after each batch, with the number done and about how long the
+/// others take [s].
+using SampleObserver = std::function<void(int done, double seconds_left)>;
+
+/// What is taken of each sample. Histories are thousands of numbers each.
+enum class SampledNumbers { values, histories };
 
 /// First-order second-moment analysis about the start design, and Monte Carlo with so many samples
 /// as the settings ask for as the check. Samples are tasks (core/base/tasks.hpp): those of a process
 /// that crashes count as ones that could not be simulated.
 /// @param execution  of the samples; the numbers do not depend on it
+/// @param numbers    of samples: with histories, these have sampled deviations, too
 /// @throws InputError if the problem has no uncertainty settings
 /// @throws SimulationError if the design itself cannot be simulated
 /// @throws Stopped if a stop was asked for before the first-order results were there
 UncertaintyStudy uncertainty_study(const ProblemFile& problem, const Execution& execution,
-                                   const SampleObserver& observer = {});
+                                   const SampleObserver& observer = {},
+                                   SampledNumbers numbers = SampledNumbers::values);
 
 /// The samples, made again on another rank (PackedWork).
 inline constexpr const char* sample_work_name = "samples";

@@ -30,9 +30,6 @@ namespace pleuel {
 
 namespace {
 
-/// Of the differences that derivatives are verified by; more where these cannot tell.
-constexpr int usual_difference_steps = 4;
-
 struct Examination {
   std::unique_ptr<Analysis> analysis;
   DegreesOfFreedom freedoms;
@@ -40,7 +37,7 @@ struct Examination {
   Ties ties;
   std::vector<EffectInfluence> influences;
   std::optional<DesignInfluence> influence;  ///< likewise
-  std::vector<DerivativeCheck> derivatives;  ///< empty without variables
+  DerivativeChecks derivatives;              ///< empty without variables
   bool is_interrupted = false;               ///< before the derivatives were verified
   std::vector<std::string> warnings;
   int consequences = 0;  ///< so many warnings are not told, since they follow from others
@@ -80,15 +77,11 @@ Examination examine(const ProblemFile& problem, const Eigen::VectorXd& x,
   findings.gradient_seconds = gradient.seconds();
   DerivativeCheckOptions options;
   options.threads = arguments.jobs;
-  // Each variable takes two simulations a step of the differences.
-  const double seconds_a_step =
-      2.0 * double(x.size()) * findings.simulation_seconds / std::max(1, arguments.jobs);
-  int left = usual_difference_steps;
-  options.see_step = [&](double step) {
+  options.see_differences = [&](int simulations) {
     const std::string line =
-        fmt::format("verifying derivatives by central differences, step {:g} …", step);
+        fmt::format("verifying derivatives by {} simulations for differences …", simulations);
     if (!progress.is_shown()) progress.print(line);
-    progress.expect(line, std::max(1, left--) * seconds_a_step);
+    progress.expect(line, simulations * findings.simulation_seconds / std::max(1, arguments.jobs));
   };
   try {
     findings.derivatives = check_derivatives(problem, x, *findings.analysis, options);
@@ -96,7 +89,7 @@ Examination examine(const ProblemFile& problem, const Eigen::VectorXd& x,
     findings.is_interrupted = true;
   }
   const std::vector<std::string> noise =
-      noise_warnings(problem, *findings.analysis, findings.derivatives);
+      noise_warnings(problem, *findings.analysis, findings.derivatives.responses);
   findings.warnings.insert(findings.warnings.end() - findings.consequences, noise.begin(),
                            noise.end());
   return findings;
@@ -104,9 +97,9 @@ Examination examine(const ProblemFile& problem, const Eigen::VectorXd& x,
 
 Json responses_with_verdicts(const ProblemFile& problem, const Examination& findings) {
   Json document = responses_document(problem, *findings.analysis);
-  for (std::size_t i = 0; i < findings.derivatives.size(); ++i) {
+  for (std::size_t i = 0; i < findings.derivatives.responses.size(); ++i) {
     document[findings.analysis->responses[i].name]["derivatives"] =
-        derivative_document(problem, findings.derivatives[i]);
+        derivative_document(findings.derivatives.responses[i]);
   }
   for (std::size_t i = 0; i < findings.ties.size(); ++i) {
     if (!findings.ties[i]) continue;
@@ -131,13 +124,17 @@ Json check_document(const ProblemFile& problem, const Examination& findings) {
                    {"warnings", findings.warnings},
                    {"seconds", {{"simulate", findings.simulation_seconds}}}};
   mark_effects({problem, values_of(analysis), findings.influences}, document["effects"]);
-  if (!findings.derivatives.empty()) document["seconds"]["direct"] = findings.gradient_seconds;
+  if (!findings.derivatives.directions.empty()) {
+    document["directions"] = directions_document(problem, findings.derivatives.directions);
+  }
+  if (!findings.derivatives.responses.empty())
+    document["seconds"]["direct"] = findings.gradient_seconds;
   return document;
 }
 
 std::string time_text(const ProblemFile& problem, const Examination& findings) {
   std::string text = "\nTime: one simulation " + duration(findings.simulation_seconds);
-  if (findings.derivatives.empty()) return text + "\n";
+  if (findings.derivatives.responses.empty()) return text + "\n";
   text += ", its gradients " + duration(findings.gradient_seconds) + " more";
   if (problem.objective) {
     const double iteration = findings.simulation_seconds + findings.gradient_seconds;
@@ -160,7 +157,7 @@ std::string make_text(const ProblemFile& problem, const Examination& findings, b
     text += influences_text({problem, values_of(analysis), findings.influences}, wants_effects);
   }
   if (!problem.variables.empty()) text += "\n" + variables_text(problem);
-  text += "\n" + (findings.derivatives.empty()
+  text += "\n" + (findings.derivatives.responses.empty()
                       ? responses_text(problem, analysis)
                       : derivatives_text(problem, analysis, findings.derivatives));
   text += ties_text(findings.ties, analysis);

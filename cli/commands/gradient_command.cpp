@@ -13,6 +13,7 @@
 #include "cli/reports/analysis_report.hpp"
 #include "cli/reports/constant_gradients_report.hpp"
 #include "cli/reports/ties.hpp"
+#include "cli/reports/time_text.hpp"
 #include "cli/reports/warnings.hpp"
 #include "cli/text/table.hpp"
 #include "cli/text/wrapped_text.hpp"
@@ -123,10 +124,12 @@ struct MethodFindings {
 
 Json comparison_document(const ProblemFile& problem, const std::vector<ComparedMethod>& compared) {
   return list_of(compared, [&](const ComparedMethod& one) {
-    return Json{{"method", to_string(one.method)},
-                {"step", one.step > 0.0 ? Json(one.step) : Json(nullptr)},
-                {"seconds", one.seconds},
-                {"errors", by_name(problem.responses, one.errors)}};
+    Json entry = {{"method", to_string(one.method)},
+                  {"step", one.step > 0.0 ? Json(one.step) : Json(nullptr)},
+                  {"seconds", one.seconds},
+                  {"errors", by_name(problem.responses, one.errors)}};
+    if (one.beside_direct) entry["time"] = time_change_document(*one.beside_direct);
+    return entry;
   });
 }
 
@@ -139,12 +142,15 @@ std::string comparison_text(const ProblemFile& problem,
     const ComparedMethod*& known = best[one.method];
     if (!known || one.errors.maxCoeff() < known->errors.maxCoeff()) known = &one;
   }
-  Table table({left_aligned("method"), "best step", "time", "largest error", left_aligned("of")});
+  Table table({left_aligned("method"), "best step", "time", "beside direct", "largest error",
+               left_aligned("of")});
   for (const auto& [method, one] : best) {
     Eigen::Index worst = 0;
     const double error = one->errors.maxCoeff(&worst);
     table.add_row({to_string(method), one->step > 0.0 ? magnitude(one->step) : "–",
-                   duration(one->seconds), magnitude(error), problem.responses[worst].name});
+                   duration(one->seconds),
+                   one->beside_direct ? time_change_text(*one->beside_direct) : "–",
+                   magnitude(error), problem.responses[worst].name});
   }
   return "\nEffort and accuracy of the methods, with the step that is best for differences; errors "
          "relative,\ndirect and adjoint against each other\n" +
@@ -324,11 +330,13 @@ Outcome run_gradient(const Arguments& arguments) {
                                            progress.show_share(line, 0.0);
                                          }});
   }
-  progress.show_share("checking the numbers", 0.0);
+  const bool is_checked = arguments.scrutiny != Scrutiny::none;
+  if (is_checked) progress.show_share("checking the numbers", 0.0);
   findings.ties = computed.kinks ? make_ties(*findings.analysis, *computed.kinks)
                                  : find_ties(*findings.analysis, problem.variables);
-  const Monitors monitors = monitor(findings.analysis->model, findings.analysis->trajectory);
-  TrustedRun judged{problem, input.design, *findings.analysis, monitors, arguments.scrutiny};
+  const Analysis& analysis = *findings.analysis;
+  const Monitors monitors = is_checked ? monitor(analysis.model, analysis.trajectory) : Monitors{};
+  TrustedRun judged{problem, input.design, analysis, monitors, arguments.scrutiny};
   if (input.choice) judged.known = &input.choice->bars;
   Trust trust = judge_run(judged);
   findings.warnings =

@@ -5,6 +5,7 @@
 
 #include "cli/commands/accurate_input.hpp"
 #include "cli/commands/commands.hpp"
+#include "cli/commands/progress_line.hpp"
 #include "cli/files/csv_file.hpp"
 #include "cli/files/run_picture.hpp"
 #include "cli/files/run_record.hpp"
@@ -15,9 +16,9 @@
 #include "cli/reports/gaps_report.hpp"
 #include "cli/reports/sizes_report.hpp"
 #include "cli/reports/warnings.hpp"
-#include "cli/text/console.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/number_text.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/scene/case_goals.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/shown_unit.hpp"
@@ -297,11 +298,30 @@ Json front_picture(const ProblemFile& problem, const std::vector<ParetoPoint>& p
   return rigid_picture(*simulated_problems(problem).front(), designs);
 }
 
-void show_progress(std::FILE* out, const ProblemFile& problem, const ParetoPoint& point) {
-  show(out, fmt::format("  {}: {} after {} evaluations, {}\n", limit_text(problem, point),
-                        to_string(point.result.status), point.result.evaluations,
-                        duration(point.result.seconds)));
-}
+/// A line for each point, with how long the others take if they take as long as those so far.
+class PointLines {
+ public:
+  PointLines(const Arguments& arguments, const ProblemFile& problem)
+      : problem_(problem), progress_(arguments, "the first points") {}
+
+  void see(const ParetoPoint& point) {
+    ++done_;
+    const ParetoSettings& settings = *problem_.pareto;
+    const int left = settings.gap > 0.0 ? 0 : settings.points - done_;
+    const double seconds = left * stopwatch_.seconds() / done_;
+    progress_.print(fmt::format("  {}: {} after {} evaluations, {}{}", limit_text(problem_, point),
+                                to_string(point.result.status), point.result.evaluations,
+                                duration(point.result.seconds),
+                                left > 0 ? fmt::format("; about {} left", duration(seconds)) : ""));
+    progress_.expect(fmt::format("{} points", done_), seconds);
+  }
+
+ private:
+  const ProblemFile& problem_;
+  ProgressLine progress_;
+  Stopwatch stopwatch_;
+  int done_ = 0;
+};
 
 }  // namespace
 
@@ -316,10 +336,11 @@ Outcome run_pareto(const Arguments& arguments) {
   show_warnings_before(problem);
   record.begin_phase("pareto");
   std::optional<DocumentCsv> csv;  // with the first result
+  PointLines lines(arguments, problem);
   const auto observer = [&](const ParetoPoint& point) {
     if (!csv) csv.emplace(record.result("pareto.csv"), pareto_columns(problem));
     csv->add(point_document(problem, point));
-    show_progress(stderr, problem, point);
+    lines.see(point);
   };
   const ParetoFront front = pareto_front(problem, options, {arguments.tasks(), &store}, observer);
   const std::vector<ParetoPoint>& points = front.points;

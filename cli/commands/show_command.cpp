@@ -87,6 +87,9 @@ struct FirstSteps {
 constexpr double enough_seconds = 0.1;
 constexpr double largest_share = 1.0 / 3.0;  ///< of the simulation
 constexpr double first_count = 16.0;         ///< of steps
+/// What it takes to find a motion that repeats itself, in simulated periods: 3.6 to 7.8 of those that
+/// bench/periodic_state.py simulates.
+constexpr double periods_of_start = 6.0;
 
 /// Its first part. Intervals of responses may lie behind it.
 ProblemFile beginning(ProblemFile problem, double end_time) {
@@ -125,7 +128,8 @@ FirstSteps take_first_steps(const ProblemFile& problem, const Eigen::VectorXd& x
   }
   const double rate = before > 0.0 ? std::max(0.0, (seconds - seconds_before) / (window - before))
                                    : seconds / window;
-  first.seconds = seconds + rate * (end - window);
+  first.seconds =
+      seconds + rate * (end - window + periods_of_start * problem.simulation.period);
   return first;
 }
 

@@ -47,7 +47,7 @@ constexpr int many_steps = 10000;
 
 /// Finds the warnings. An interrupt ends that, but not what is known.
 void check_numbers(const ProblemInput& input, Scrutiny scrutiny, Simulated& run) {
-  if (run.analysis.trajectory.steps() > many_steps) {
+  if (scrutiny != Scrutiny::none && run.analysis.trajectory.steps() > many_steps) {
     show(stderr, fmt::format("simulated in {}; checking the numbers …\n", duration(run.seconds)));
   }
   const Stopwatch check;

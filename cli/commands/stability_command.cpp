@@ -86,8 +86,8 @@ std::string runs_text(const Json& runs) {
                    number_column("energy error", "/energy_error", magnitude),
                    number_column("steps", "/work/steps", whole_number),
                    {"iterations a step", iterations},
-                   number_column("condition", "/condition", magnitude),
-                   number_column("time", "/seconds", duration)},
+                   number_column("factorizations", "/work/factorizations", whole_number),
+                   number_column("condition", "/condition", magnitude)},
                   2)
       .text();
 }

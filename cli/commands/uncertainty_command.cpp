@@ -239,14 +239,17 @@ UncertaintyStudy run_study(const ProblemFile& problem, const Arguments& argument
                            EvaluationStore& store) {
   ProgressLine progress(arguments, "gradients of the responses");
   const int samples = problem.uncertainty->samples;
-  return uncertainty_study(problem, {arguments.tasks(), &store}, [&](int done) {
+  const auto see = [&](int done, double seconds_left) {
     const std::string line = fmt::format("{} of {} samples", done, samples);
-    if (progress.is_shown()) {
-      progress.show_share(line, double(done) / samples);
-    } else {
-      progress.print("  " + line);
-    }
-  });
+    progress.expect(line, seconds_left);
+    if (progress.is_shown()) return;
+    const std::string left =
+        done < samples ? fmt::format(", about {} left", duration(seconds_left)) : "";
+    progress.print(fmt::format("  {}{}", line, left));
+  };
+  return uncertainty_study(
+      problem, {arguments.tasks(), &store}, see,
+      arguments.wants_histories ? SampledNumbers::histories : SampledNumbers::values);
 }
 
 }  // namespace

@@ -33,13 +33,17 @@ struct Room {
   double numbers = 1.2e6;  ///< of the motion of all designs together
 };
 
-/// Curves of up to four pictures are whole; those of more have the points of four.
-Room room_of_one(std::size_t pictures) {
-  constexpr double whole = 4.0, least = 0.2;
-  const double share = std::clamp(whole / static_cast<double>(pictures), least, 1.0);
+/// Of one of the pictures that share a page. Peaks and ends stay however few points a curve has.
+/// @param curves  of this picture
+Room room_of_one(std::size_t pictures, std::size_t curves) {
+  constexpr double points_of_page = 1.2e5;
+  constexpr int fewest = 60;
+  const double points = points_of_page / static_cast<double>(std::max<std::size_t>(1, curves)) /
+                        static_cast<double>(pictures);
   Room room;
-  room.points = static_cast<int>(share * room.points);
-  room.slope_points = static_cast<int>(share * room.slope_points);
+  const double share = std::min(1.0, points / room.points);
+  room.points = std::max(fewest, static_cast<int>(share * room.points));
+  room.slope_points = std::max(fewest, static_cast<int>(share * room.slope_points));
   room.numbers /= static_cast<double>(pictures);
   return room;
 }
@@ -224,7 +228,7 @@ Json run_picture(const ProblemFile& problem, const std::vector<ShownDesign>& des
   for (const ShownDesign& design : designs) {
     if (design.analysis != nullptr) document["size"] = size_of(design.analysis->model);
   }
-  const Room room = room_of_one(pictures);
+  const Room room = room_of_one(pictures, designs.size() * problem.responses.size());
   document["designs"] = list_of(designs, [&](const ShownDesign& design) {
     return design_document(problem, design, designs.size(), room);
   });

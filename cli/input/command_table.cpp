@@ -192,8 +192,16 @@ std::vector<CommandKind> command_kinds() {
        "Tells how far the responses scatter if the numbers of /uncertainty do; samples (Monte "
        "Carlo) check the estimate by gradients.",
        "uncertainty pump.json --jobs 4",
-       of_problem({design, overwrite, no_report, output_folder("uncertainty"), resume, accuracy,
-                   jobs, task_limit("eight samples")})},
+       of_problem({design,
+                   {"--histories", &Arguments::wants_histories,
+                    "sample deviations of histories, too: run.sqlite keeps all of them"},
+                   overwrite,
+                   no_report,
+                   output_folder("uncertainty"),
+                   resume,
+                   accuracy,
+                   jobs,
+                   task_limit("eight samples")})},
       {"pareto", "the best designs for a row of values of one limit",
        "Optimizes for a row of values of one limit, or trades two responses: what more of one "
        "costs of the other. The file says what in /pareto.",

@@ -25,7 +25,7 @@ Json curve_document(const std::vector<CentralDifference>& curve) {
   });
 }
 
-Json variable_document(const JudgedDerivative& judged) {
+Json judged_document(const JudgedDerivative& judged) {
   Json document = {{"verdict", to_string(judged.verdict)},
                    {"derivative", judged.derivative},
                    {"error", judged.error},
@@ -36,19 +36,17 @@ Json variable_document(const JudgedDerivative& judged) {
   return document;
 }
 
-std::string response_verdict(const ProblemFile& problem, const DerivativeCheck& check) {
-  const std::size_t worst = check.worst_variable();
-  const double worst_error = check.variables[worst].error;
-  switch (check.verdict()) {
+std::string response_verdict(const DerivativeCheck& check) {
+  const JudgedDerivative& worst = check.worst();
+  switch (worst.verdict) {
     case DerivativeVerdict::agrees:
-      return check.error == 0.0 ? "agrees exactly" : "agrees to " + magnitude(check.error);
+      return worst.error == 0.0 ? "agrees exactly" : "agrees to " + magnitude(worst.error);
     case DerivativeVerdict::noise:
-      return fmt::format("differences are too inexact to check that of {}",
-                         problem.variables[worst].name);
+      return "differences are too inexact to check it";
     case DerivativeVerdict::kink:
-      return fmt::format("at a kink, see below ({})", magnitude(worst_error));
+      return fmt::format("at a kink, see below ({})", magnitude(worst.error));
     default:
-      return "DIFFERS by " + magnitude(worst_error);
+      return "DIFFERS by " + magnitude(worst.error);
   }
 }
 
@@ -65,11 +63,10 @@ std::string explanation(const JudgedDerivative& judged) {
 }
 
 /// What to do where Newton's method stops too early for differences; empty if it does not.
-std::string loose_newton_text(const ProblemFile& problem,
-                              const std::vector<DerivativeCheck>& checks) {
+std::string loose_newton_text(const ProblemFile& problem, const DerivativeChecks& checks) {
   double largest = -1.0;
-  for (const DerivativeCheck& check : checks) {
-    for (const JudgedDerivative& judged : check.variables) {
+  for (const DerivativeCheck& check : checks.responses) {
+    for (const JudgedDerivative& judged : check.directions) {
       if (judged.tight_error) largest = std::max(largest, *judged.tight_error);
     }
   }
@@ -81,21 +78,29 @@ std::string loose_newton_text(const ProblemFile& problem,
       problem.simulation.newton_tolerance, magnitude(largest));
 }
 
-std::string disagreements_text(const ProblemFile& problem,
-                               const std::vector<DerivativeCheck>& checks) {
-  Table table({left_aligned("response"), left_aligned("variable"), "derivative", "error", "at step",
-               left_aligned("because")});
-  for (std::size_t i = 0; i < checks.size(); ++i) {
-    for (std::size_t j = 0; j < checks[i].variables.size(); ++j) {
-      const JudgedDerivative& judged = checks[i].variables[j];
+/// "rod_width", "all variables", "rod_width and 3 others"
+std::string variables_text(const ProblemFile& problem, const CheckedDirection& direction) {
+  const std::size_t count = direction.variables.size();
+  if (count > 1 && count == problem.variables.size()) return "all variables";
+  const std::string& first = problem.variables[direction.variables.front()].name;
+  if (count == 1) return first;
+  return fmt::format("{} and {} other{}", first, count - 1, count == 2 ? "" : "s");
+}
+
+std::string disagreements_text(const ProblemFile& problem, const DerivativeChecks& checks) {
+  Table table(
+      {left_aligned("response"), left_aligned("by"), "error", "at step", left_aligned("because")});
+  for (std::size_t i = 0; i < checks.responses.size(); ++i) {
+    for (std::size_t k = 0; k < checks.directions.size(); ++k) {
+      const JudgedDerivative& judged = checks.responses[i].directions[k];
       if (judged.verdict == DerivativeVerdict::agrees) continue;
-      table.add_row({problem.responses[i].name, problem.variables[j].name,
-                     significant(judged.derivative), magnitude(judged.error),
-                     fmt::format("{:g}", judged.step), explanation(judged)});
+      table.add_row({problem.responses[i].name, variables_text(problem, checks.directions[k]),
+                     magnitude(judged.error), fmt::format("{:g}", judged.step),
+                     explanation(judged)});
     }
   }
   if (table.is_empty()) return "";
-  return "\nDerivatives that do not agree with differences to 1e-6 [SI]\n" + table.text() +
+  return "\nDerivatives that do not agree with differences to 1e-6\n" + table.text() +
          loose_newton_text(problem, checks);
 }
 
@@ -115,37 +120,41 @@ double optimizer_magnitude(const ProblemFile& problem, const std::string& respon
 
 }  // namespace
 
-Json derivative_document(const ProblemFile& problem, const DerivativeCheck& check) {
-  Json document = {
-      {"verdict", to_string(check.verdict())},
-      {"error", check.error},
-      {"difference_step", check.step},
-      {"adjoint_error", check.adjoint_error},
-      {"noise", check.relative_noise},
-      {"digits",
-       {{"value", digits_of(check.relative_noise)}, {"gradient", digits_of(check.error)}}},
-      {"variables", Json::object()}};
-  for (std::size_t j = 0; j < check.variables.size(); ++j) {
-    document["variables"][problem.variables[j].name] = variable_document(check.variables[j]);
-  }
-  return document;
+Json directions_document(const ProblemFile& problem,
+                         const std::vector<CheckedDirection>& directions) {
+  return list_of(directions, [&](const CheckedDirection& direction) {
+    Json changes = Json::object();
+    for (const Eigen::Index j : direction.variables) {
+      changes[problem.variables[j].name] = direction.change(j);
+    }
+    return changes;
+  });
+}
+
+Json derivative_document(const DerivativeCheck& check) {
+  const JudgedDerivative& worst = check.worst();
+  return {{"verdict", to_string(worst.verdict)},
+          {"error", worst.error},
+          {"difference_step", worst.step},
+          {"adjoint_error", check.adjoint_error},
+          {"noise", check.relative_noise},
+          {"digits",
+           {{"value", digits_of(check.relative_noise)}, {"gradient", digits_of(worst.error)}}},
+          {"directions", list_of(check.directions, judged_document)}};
 }
 
 std::string derivatives_text(const ProblemFile& problem, const Analysis& analysis,
-                             const std::vector<DerivativeCheck>& checks) {
+                             const DerivativeChecks& checks) {
   Table table({left_aligned("response"), "value", left_aligned("unit"), left_aligned("derivative"),
-               left_aligned("worst variable"), "adjoint", "noise", left_aligned("digits")});
-  for (std::size_t i = 0; i < checks.size(); ++i) {
-    const DerivativeCheck& check = checks[i];
+               "adjoint", "noise", left_aligned("digits")});
+  for (std::size_t i = 0; i < checks.responses.size(); ++i) {
+    const DerivativeCheck& check = checks.responses[i];
     const ShownUnit unit = unit_of(problem.responses[i]);
-    const std::size_t worst = check.worst_variable();
     table.add_row(
         {problem.responses[i].name, significant(unit.shown(analysis.reductions[i].value)),
-         unit.name, response_verdict(problem, check),
-         fmt::format("{} {}", problem.variables[worst].name,
-                     magnitude(check.variables[worst].error)),
-         magnitude(check.adjoint_error), magnitude(check.relative_noise),
-         fmt::format("{} / {}", digits_of(check.relative_noise), digits_of(check.error))});
+         unit.name, response_verdict(check), magnitude(check.adjoint_error),
+         magnitude(check.relative_noise),
+         fmt::format("{} / {}", digits_of(check.relative_noise), digits_of(check.worst().error))});
   }
   return "Responses; direct differentiation against central differences and against the adjoint "
          "method,\nnoise of the value (all relative), and right digits of value / gradient that an "

@@ -10,13 +10,17 @@
 /// What check has to say of values and derivatives.
 namespace pleuel {
 
+/// [{VARIABLE: change for a relative step of 1}]
+Json directions_document(const ProblemFile& problem,
+                         const std::vector<CheckedDirection>& directions);
+
 /// Of one response: {"verdict", "error", "difference_step", "adjoint_error", "noise",
-/// "digits", "variables"}
-Json derivative_document(const ProblemFile& problem, const DerivativeCheck& check);
+/// "digits", "directions"}
+Json derivative_document(const DerivativeCheck& check);
 
 /// A line for each response, then one for each derivative that does not agree.
 std::string derivatives_text(const ProblemFile& problem, const Analysis& analysis,
-                             const std::vector<DerivativeCheck>& checks);
+                             const DerivativeChecks& checks);
 
 /// A sentence for each objective or limited response whose noise is above the optimizer's
 /// tolerance, with what to do. Noise of a limited response is relative to the larger one of value

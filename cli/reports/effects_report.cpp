@@ -10,7 +10,6 @@
 #include "cli/text/table.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/find_named.hpp"
-#include "core/base/int_size.hpp"
 #include "core/base/number_text.hpp"
 #include "core/scene/shown_unit.hpp"
 
@@ -31,6 +30,10 @@ const char* kind_of(const EffectRecord& effect) {
   }
 }
 
+bool has_body(const EffectInfluence& influence, const std::string& body) {
+  return std::ranges::find(influence.bodies, body) != influence.bodies.end();
+}
+
 void add_influence(const ProblemFile& problem, const EffectInfluence& influence, Json& entry) {
   if (!influence.failure.empty()) {
     entry["influence"] = nullptr;
@@ -40,6 +43,7 @@ void add_influence(const ProblemFile& problem, const EffectInfluence& influence,
   entry["influence"] = by_name(problem.responses, influence.changes);
   entry["unknowns"] = influence.unknowns;
   entry["iterations"] = influence.iterations;
+  if (influence.bodies.size() > 1) entry["together"] = influence.bodies;
   if (influence.time) entry["time"] = time_change_document(*influence.time);
 }
 
@@ -95,35 +99,14 @@ std::string names_text(const std::vector<BodyEffect>& effects) {
   return text;
 }
 
-/// Relative changes below this are round-off.
-constexpr double round_off = 1e-8;
-/// What counts where the file gives no tolerance of effects.
-constexpr double usual_tolerance = 1e-3;
-
 /// "+3", "−2", "0"
 std::string count_text(int count) {
   return count == 0 ? "0" : fmt::format("{}{}", count < 0 ? "−" : "+", std::abs(count));
 }
 
-struct Change {
-  Eigen::Index response = -1;  ///< none: nothing changes
-  double relative = 0.0;
-};
-
-/// The largest relative change of a response.
-Change largest_change(const Eigen::VectorXd& values, const EffectInfluence& influence) {
-  Change largest;
-  for (Eigen::Index i = 0; i < influence.changes.size(); ++i) {
-    const double relative = std::abs(influence.changes(i)) / std::abs(values(i));
-    if (values(i) == 0.0 || !(relative > std::max(largest.relative, round_off))) continue;
-    largest = {i, relative};
-  }
-  return largest;
-}
-
 /// "rod_bow −0.0012 mm (−0.6 %)"
 std::string largest_change_text(const MeasuredEffects& effects, const EffectInfluence& influence) {
-  const Change largest = largest_change(effects.values, influence);
+  const LargestInfluence largest = largest_influence(effects.values, influence.changes);
   if (largest.response < 0) return "nothing";
   const ResponseSettings& response = effects.problem.responses[largest.response];
   const ShownUnit unit = unit_of(response);
@@ -135,7 +118,7 @@ std::string largest_change_text(const MeasuredEffects& effects, const EffectInfl
 
 /// Of a response or of the optimum, relative.
 double most_changed(const MeasuredEffects& effects, const EffectInfluence& influence) {
-  const double change = largest_change(effects.values, influence).relative;
+  const double change = largest_influence(effects.values, influence.changes).relative;
   if (!effects.price) return change;
   const auto index = index_of_named(effects.problem.responses, effects.problem.objective->response);
   const double objective = index ? std::abs(effects.values(*index)) : 0.0;
@@ -145,8 +128,7 @@ double most_changed(const MeasuredEffects& effects, const EffectInfluence& influ
 
 bool does_matter(const MeasuredEffects& effects, const EffectInfluence& influence) {
   if (!influence.failure.empty()) return false;
-  const double asked = effects.problem.effects.tolerance;
-  return most_changed(effects, influence) > (asked > 0.0 ? asked : usual_tolerance);
+  return most_changed(effects, influence) > change_that_counts(effects.problem.effects);
 }
 
 bool has_times(const MeasuredEffects& effects) {
@@ -156,7 +138,7 @@ bool has_times(const MeasuredEffects& effects) {
 
 std::vector<std::string> row_of(const MeasuredEffects& effects, const EffectInfluence& one) {
   const PriceOfChanges& price = effects.price;
-  std::vector<std::string> row = {one.effect, one.body};
+  std::vector<std::string> row = {one.effect, bodies_text(one.bodies)};
   if (!one.failure.empty()) {
     row.insert(row.end(), 2 + (has_times(effects) ? 1 : 0) + (price ? 1 : 0), "–");
     row.push_back(one.failure);
@@ -175,15 +157,16 @@ std::vector<std::string> row_of(const MeasuredEffects& effects, const EffectInfl
 
 /// "4 further effects change nothing by more than 0.025 % and cost hardly any time"
 std::string small_text(const MeasuredEffects& effects, const std::vector<bool>& matters) {
-  int count = 0;
+  std::size_t count = 0, all = 0;
   double most = 0.0;
   for (std::size_t i = 0; i < matters.size(); ++i) {
+    all += effects.influences[i].bodies.size();
     if (matters[i] || !effects.influences[i].failure.empty()) continue;
-    ++count;
+    count += effects.influences[i].bodies.size();
     most = std::max(most, most_changed(effects, effects.influences[i]));
   }
   if (count == 0) return "";
-  const bool is_all = count == int_size(matters);
+  const bool is_all = count == all;
   const std::string subject =
       fmt::format("{}{}effect{} change{}", is_all ? "" : fmt::format("{} ", count),
                   is_all ? "all " : "further ", count == 1 ? "" : "s", count == 1 ? "s" : "");
@@ -195,7 +178,8 @@ std::string small_text(const MeasuredEffects& effects, const std::vector<bool>& 
 std::string indispensable_text(const MeasuredEffects& effects) {
   std::vector<BodyEffect> all;
   for (const EffectInfluence& one : effects.influences) {
-    if (!one.failure.empty()) all.push_back({one.effect, one.body});
+    if (one.failure.empty()) continue;
+    for (const std::string& body : one.bodies) all.push_back({one.effect, body});
   }
   return all.empty() ? "" : names_text(all) + " cannot be left out";
 }
@@ -234,7 +218,7 @@ Json effects_document(const ProblemFile& problem, const Model& model,
     if (effect.coordinates_saved > 0) entry["coordinates_saved"] = effect.coordinates_saved;
     const auto influence =
         std::find_if(influences.begin(), influences.end(), [&](const EffectInfluence& one) {
-          return one.body == effect.body && one.effect == effect.name;
+          return one.effect == effect.name && has_body(one, effect.body);
         });
     if (influence != influences.end()) add_influence(problem, *influence, entry);
     document.push_back(std::move(entry));
@@ -267,7 +251,7 @@ void mark_effects(const MeasuredEffects& effects, Json& document) {
   for (Json& entry : document) {
     for (std::size_t i = 0; i < matters.size(); ++i) {
       const EffectInfluence& one = effects.influences[i];
-      const bool is_it = entry.value("body", "") == one.body && entry.at("name") == one.effect;
+      const bool is_it = entry.at("name") == one.effect && has_body(one, entry.value("body", ""));
       if (is_it && one.failure.empty()) entry["matters"] = static_cast<bool>(matters[i]);
     }
   }

@@ -1,12 +1,14 @@
 #include "cli/reports/iteration_lines.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "cli/text/console.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/number_text.hpp"
+#include "optimization/verdict.hpp"
 
 namespace pleuel {
 
@@ -27,9 +29,18 @@ const char* describe(Purpose purpose) {
       return "the answer is refined";
     case Purpose::restoration:
       return "the limits alone";
-    default:
+    case Purpose::audit:
       return "of the answer, by designs beside it";
+    default:
+      return "of choices of sizes, the best design of each";
   }
+}
+
+/// Without limits broken before one with: an order in which the last is the best.
+bool is_better(const EvaluationRecord& one, const EvaluationRecord& other) {
+  const double allowed = Tolerances().violation;
+  const bool are_inside = std::max(one.max_violation, other.max_violation) <= allowed;
+  return are_inside ? one.objective < other.objective : one.max_violation < other.max_violation;
 }
 
 }  // namespace
@@ -43,6 +54,9 @@ IterationLines::IterationLines(std::FILE* out, const ProblemFile& problem)
 }
 
 void IterationLines::see(const EvaluationRecord& record) {
+  if (trial_ && (record.purpose != Purpose::trial || record.iteration != trial_->iteration)) {
+    print(*std::exchange(trial_, std::nullopt));
+  }
   if (record.purpose != purpose_) {
     purpose_ = record.purpose;
     step_ = 0.0;
@@ -53,14 +67,20 @@ void IterationLines::see(const EvaluationRecord& record) {
     show(out_, wrapped(fmt::format("  evaluation {} failed: {}\n", record.evaluation,
                                    first_clause(record.failure)),
                        "    "));
+  } else if (purpose_ == Purpose::trial) {
+    if (!trial_ || is_better(record, *trial_)) trial_ = record;
   } else if (purpose_ != Purpose::audit && record.iteration > iteration_) {
-    show(out_, fmt::format(line_columns, record.iteration,
-                           significant(unit_.shown(sign_ * record.objective), 6),
-                           magnitude(record.max_violation), magnitude(step_),
-                           fmt::format("{:.1f}", record.seconds)));
-    iteration_ = record.iteration;
-    step_ = 0.0;
+    print(record);
   }
+}
+
+void IterationLines::print(const EvaluationRecord& record) {
+  show(out_, fmt::format(line_columns, record.iteration,
+                         significant(unit_.shown(sign_ * record.objective), 6),
+                         magnitude(record.max_violation), magnitude(step_),
+                         fmt::format("{:.1f}", record.seconds)));
+  iteration_ = record.iteration;
+  step_ = 0.0;
 }
 
 }  // namespace pleuel

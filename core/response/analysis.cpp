@@ -20,6 +20,7 @@
 #include "core/response/recorder.hpp"
 #include "core/response/validity.hpp"
 #include "core/response/whole_turns.hpp"
+#include "core/scene/fixed_numbers.hpp"
 #include "core/scene/response_kind.hpp"
 #include "core/scene/time_breaks.hpp"
 #include "core/start/equilibrium.hpp"
@@ -219,8 +220,7 @@ Eigen::VectorXd start_design(const ProblemFile& problem) {
 void require_memory(const ProblemFile& problem) {
   const Eigen::VectorXd start = start_design(problem);
   const Design<double> x(start.begin(), start.end());
-  const Model model =
-      build_model(problem.scene, problem.effects, x, x, problem.sensitivity.invariants);
+  const Model model = build_model(with_fixed_numbers(problem.scene, x), problem.effects, x, x);
   require_memory(make_responses(problem.responses, model, model), problem.simulation);
 }
 

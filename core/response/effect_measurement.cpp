@@ -38,8 +38,9 @@ std::unique_ptr<Analysis> try_to_analyze(const ProblemFile& problem) {
   }
 }
 
-/// What is left out of the model by estimate or by measurement.
+/// What is left out of the model by estimate or by measurement: nothing where no tolerance allows it.
 std::vector<Unit> left_out(const ProblemFile& problem) {
+  if (problem.effects.tolerance <= 0.0) return {};
   const Eigen::VectorXd start = start_design(problem);
   const Design<double> design(start.begin(), start.end());
   std::vector<Unit> units;

@@ -1,5 +1,8 @@
 #include "core/scene/common_units.hpp"
 
+#include <algorithm>
+#include <iterator>
+
 namespace pleuel {
 
 namespace {
@@ -47,6 +50,36 @@ constexpr CommonUnit table[] = {
     {"J", "J", 1},
 };
 
+struct SiUnit {
+  std::string_view name;
+  Dimension dimension;  ///< m, kg, s, rad
+};
+
+constexpr SiUnit si_units[] = {
+    {"m", {{1}}},
+    {"kg", {{0, 1}}},
+    {"s", {{0, 0, 1}}},
+    {"Pa", {{-1, 1, -2}}},
+    {"N", {{1, 1, -2}}},
+    {"N m", {{2, 1, -2}}},
+    {"kg/m^3", {{-3, 1}}},
+    {"rad", {{0, 0, 0, 1}}},
+    {"rad/s", {{0, 0, -1, 1}}},
+    {"m/s", {{1, 0, -1}}},
+    {"m/s^2", {{1, 0, -2}}},
+    {"1/s", {{0, 0, -1}}},
+    {"m^2", {{2}}},
+    {"m^4", {{4}}},
+    {"kg m^2", {{2, 1}}},
+    {"N/m", {{0, 1, -2}}},
+    {"N s/m", {{0, 1, -1}}},
+    {"N m/rad", {{2, 1, -2, -1}}},
+    {"N m s/rad", {{2, 1, -1, -1}}},
+    {"Hz", {{0, 0, -1}}},
+    {"W", {{2, 1, -3}}},
+    {"J", {{2, 1, -2}}},
+};
+
 }  // namespace
 
 std::span<const CommonUnit> common_units() {
@@ -58,6 +91,14 @@ std::optional<double> find_common_scale(std::string_view unit, std::string_view 
     if (common.unit == unit && common.si == si) return common.scale;
   }
   return std::nullopt;
+}
+
+std::optional<MeasuredUnit> find_common_measure(std::string_view unit) {
+  const auto common = std::ranges::find(table, unit, &CommonUnit::unit);
+  if (common == std::end(table)) return std::nullopt;
+  const auto si = std::ranges::find(si_units, common->si, &SiUnit::name);
+  if (si == std::end(si_units)) return std::nullopt;
+  return MeasuredUnit{common->scale, si->dimension};
 }
 
 }  // namespace pleuel

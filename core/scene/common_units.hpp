@@ -4,6 +4,8 @@
 #include <span>
 #include <string_view>
 
+#include "core/scene/dimension.hpp"
+
 namespace pleuel {
 
 /// What one unit is in SI units: {"mm", "m", 1e-3}.
@@ -17,5 +19,8 @@ struct CommonUnit {
 std::span<const CommonUnit> common_units();
 
 std::optional<double> find_common_scale(std::string_view unit, std::string_view si);
+
+/// What a common unit measures.
+std::optional<MeasuredUnit> find_common_measure(std::string_view unit);
 
 }  // namespace pleuel

@@ -269,6 +269,11 @@ double UnitSystem::scale_by_database(const std::string& unit, const Quantity& qu
 }
 
 MeasuredUnit UnitSystem::measure(const std::string& unit) const {
+  const auto common = find_common_measure(trim(unit));
+  return common ? *common : measure_by_database(unit);
+}
+
+MeasuredUnit UnitSystem::measure_by_database(const std::string& unit) const {
   const std::string name = trim(unit);
   refuse_misread(name);
   const UnitHandle handle = has_stray_number(name) ? nullptr : parse_unit(database(), name);

@@ -90,6 +90,8 @@ class UnitSystem {
   /// Scale and dimension of a unit by itself: "km/h" is 1/3.6 m/s.
   /// @throws UnitError if it is unknown or does not count from zero
   MeasuredUnit measure(const std::string& unit) const;
+  /// The same from the database.
+  MeasuredUnit measure_by_database(const std::string& unit) const;
 };
 
 }  // namespace pleuel

@@ -90,6 +90,10 @@ class SizeSearch {
   }
 
   void keep(const Sizes& choice, SizeTrial trial) {
+    for (EvaluationRecord& record : trial.history) {
+      record.purpose = Purpose::trial;
+      record.iteration = 1;
+    }
     add_effort(std::exchange(trial.history, {}), trial.seconds);
     ++report_.tried;
     if (trial.keeps_limits()) ++report_.feasible;

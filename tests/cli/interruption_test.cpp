@@ -88,8 +88,9 @@ TEST_F(Interrupted, UncertaintyKeepsItsSamples) {
       fmt::format("uncertainty {0} -o {1}/run --set '/simulation/step=0.2 ms' --set "
                   "'/simulation/end_time=20 ms' --set '/uncertainty={{\"parameters\": "
                   "{{\"rod_diameter\": {{\"deviation\": \"0.1 mm\"}}}}, \"samples\": 100000}}' "
-                  ">{1}/out 2>{1}/err & p=$!; i=0; while [ ! -s {1}/err ] && [ $i -lt 3000 ]; "
-                  "do sleep 0.01; i=$((i + 1)); done; kill -TERM $p; wait $p; echo $?",
+                  ">{1}/out 2>{1}/err & p=$!; i=0; while ! grep -q '^  64 of' {1}/err && "
+                  "[ $i -lt 3000 ]; do sleep 0.01; i=$((i + 1)); done; kill -TERM $p; wait $p; "
+                  "echo $?",
                   problem("slider_crank_round"), path));
   EXPECT_EQ(run.out, "4\n");
   EXPECT_EQ(result().at("status"), "interrupted");

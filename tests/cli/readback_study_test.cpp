@@ -144,7 +144,7 @@ TEST(ReadBack, OfRecommendationsForValuesAndForGradients) {
 
 /// Deviations and bounds are made again from gradients of another command.
 TEST(ReadBack, OfUncertainty) {
-  const Report report = run({"uncertainty", file, "--set",
+  const Report report = run({"uncertainty", file, "--histories", "--set",
                              R"(/uncertainty={"parameters": {"rod_diameter":
                                   {"deviation": "0.1 mm"}, "crank_diameter":
                                   {"interval": "0.2 mm"}}, "samples": 8})"});
@@ -231,7 +231,7 @@ TEST(ReadBack, OfStability) {
     for (const char* key : {"steps", "newton_iterations", "factorizations"}) {
       EXPECT_EQ(report.column("stability.csv", key)[i], work.at(key));
     }
-    expect_shown(table.text(i, "time"), "s", study_run.at("seconds"));
+    EXPECT_EQ(table.number(i, "factorizations"), work.at("factorizations"));
     EXPECT_EQ(report.column("stability.csv", "seconds")[i], study_run.at("seconds"));
   }
 }

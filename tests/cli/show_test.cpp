@@ -21,6 +21,18 @@ TEST(Show, SaysWhatJointsLeaveFreeAndHowLongItTakes) {
   EXPECT_THAT(run.out, HasSubstr("Time: one simulation takes about "));
 }
 
+/// Some seven periods in place of one: more than times of the same work ever differ.
+TEST(Show, ExpectsTheSearchForAMotionThatRepeatsItself) {
+  const TemporaryFolder folder;
+  const auto expected = [&](const std::string& start) {
+    const ProgramRun run = run_program(
+        folder.path(), {"show", problem("running_press"), "-o", start + ".html", "--json", "--set",
+                        "/simulation/initial_state=" + start});
+    return run.document().at("seconds").at("simulate").get<double>();
+  };
+  EXPECT_GT(expected("periodic"), 2.0 * expected("consistent"));
+}
+
 /// A link that nothing drives, holds or pulls, on the end of a driven crank.
 TEST(Show, DrawsBodiesRedThatNothingMoves) {
   const TemporaryFolder folder;

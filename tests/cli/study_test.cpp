@@ -138,7 +138,7 @@ TEST(UncertaintyCommand, ReportsDeviationsAndWritesHistories) {
   const ProgramRun run =
       run_program(folder.path(),
                   joined({"uncertainty", problem("slider_crank_round"), "--json", "-o", "study",
-                          "--jobs", "2", "--set",
+                          "--histories", "--jobs", "2", "--set",
                           R"(/uncertainty={"parameters": {"rod_diameter": {"deviation": "0.1 mm"}},
                                "samples": 8})"},
                          quick()));

@@ -19,6 +19,8 @@ namespace pleuel::test {
 
 /// Blocks that this program has asked for so far. A program that links this counts all of its own.
 long allocations();
+/// Bytes of them, whether they were given back or not.
+long allocated_bytes();
 
 }  // namespace pleuel::test
 #endif

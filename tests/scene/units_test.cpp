@@ -51,6 +51,19 @@ TEST(CommonUnits, AreWhatTheDatabaseSaysToTheLastBit) {
   }
 }
 
+TEST(CommonUnits, MeasureWhatTheDatabaseSays) {
+  const UnitSystem units;
+  for (const CommonUnit& common : common_units()) {
+    const std::string name(common.unit);
+    const MeasuredUnit known = units.measure_by_database(name);
+    const auto found = find_common_measure(name);
+    ASSERT_TRUE(found) << name;
+    EXPECT_EQ(found->scale, known.scale) << name;
+    EXPECT_EQ(found->dimension, known.dimension) << name;
+  }
+  EXPECT_FALSE(find_common_measure("furlong"));
+}
+
 TEST(CommonUnits, BelongToTheirQuantityOnly) {
   const UnitSystem units;
   EXPECT_EQ(units.scale("mm", quantities::length), 1e-3);

@@ -258,7 +258,8 @@ TEST(Uncertainty, OfHistoriesIsThatOfMonteCarlo) {
   const ProblemFile problem = uncertain_problem(
       R"({"parameters": {"crank_diameter": {"deviation": "0.06 mm"},
                          "rod_diameter": {"deviation": "0.06 mm"}}, "samples": 400})");
-  const UncertaintyStudy study = uncertainty_study(problem, {.tasks = {.jobs = 2}});
+  const UncertaintyStudy study =
+      uncertainty_study(problem, {.tasks = {.jobs = 2}}, {}, SampledNumbers::histories);
   ASSERT_GE(study.histories.size(), 5u);
   for (const UncertainHistory& history : study.histories) {
     ASSERT_EQ(history.deviations.size(), study.time.size());
@@ -266,6 +267,30 @@ TEST(Uncertainty, OfHistoriesIsThatOfMonteCarlo) {
               4.0 / std::sqrt(2.0 * 399) * history.deviations.norm())
         << problem.responses[history.response].name;
   }
+}
+
+TEST(Uncertainty, SamplesNoHistoriesThatAreNotAskedFor) {
+  const ProblemFile problem = uncertain_problem(
+      R"({"parameters": {"rod_diameter": {"deviation": "0.06 mm"}}, "samples": 8})");
+  for (const UncertainHistory& one : uncertainty_study(problem, {.tasks = {.jobs = 1}}).histories) {
+    EXPECT_GT(one.deviations.size(), 0);
+    EXPECT_EQ(one.sampled_deviations.size(), 0);
+  }
+}
+
+/// Before the first sample by the time of a simulation; none is left after the last.
+TEST(Uncertainty, TellsHowLongTheSamplesTake) {
+  const ProblemFile problem = uncertain_problem(
+      R"({"parameters": {"rod_diameter": {"deviation": "0.06 mm"}}, "samples": 80})");
+  std::vector<std::pair<int, double>> told;
+  uncertainty_study(problem, {.tasks = {.jobs = 1}},
+                    [&](int done, double left) { told.emplace_back(done, left); });
+  ASSERT_EQ(told.size(), 3u);
+  EXPECT_EQ(told[0].first, 0);
+  EXPECT_GT(told[0].second, 0.0);
+  EXPECT_EQ(told[1].first, 64);
+  EXPECT_GT(told[1].second, 0.0);
+  EXPECT_EQ(told[2], std::make_pair(80, 0.0));
 }
 
 /// What is missing is summed up in time: its history ends with its value.

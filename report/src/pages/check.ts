@@ -45,17 +45,23 @@ function responsesSection(data: ReportData): HTMLElement | null {
   );
 }
 
+/** "rod_width", or "rod_width and 3 others" */
+function variablesOf(data: ReportData, direction: number): string {
+  const [first, ...others] = Object.keys(data.result.directions[direction]).map(words);
+  return others.length ? `${first} and ${others.length} other${others.length > 1 ? "s" : ""}` : first;
+}
+
 const colors = ["accent", "more", "good", "drive", "limit", "soft", "load", "start"];
 const smallest = 1e-17;
 
-/** Error of central differences over their step, a curve a variable. */
+/** Error of central differences over their step, a curve a direction. */
 function curvesSection(data: ReportData): HTMLElement | null {
-  const responses = Object.entries((data.result.responses ?? {}) as Record<string, Document>).filter(([, one]) => one.derivatives?.variables);
-  const withCurves = responses.filter(([, one]) => Object.values(one.derivatives.variables as Record<string, Document>).some((v) => v.curve?.length > 1));
+  const responses = Object.entries((data.result.responses ?? {}) as Record<string, Document>).filter(([, one]) => one.derivatives?.directions);
+  const withCurves = responses.filter(([, one]) => (one.derivatives.directions as Document[]).some((v) => v.curve?.length > 1));
   if (!withCurves.length) return null;
   const place = h("div", {});
   const show = (name: string) => {
-    const variables = Object.entries(withCurves.find(([one]) => one === name)![1].derivatives.variables as Record<string, Document>).slice(0, colors.length);
+    const directions = (withCurves.find(([one]) => one === name)![1].derivatives.directions as Document[]).slice(0, colors.length);
     place.replaceChildren(
       lineChart({
         title: `differences of ${words(name)}`,
@@ -65,9 +71,9 @@ function curvesSection(data: ReportData): HTMLElement | null {
         logX: true,
         logY: true,
         legend: true,
-        series: variables.map(([variable, one], i) => {
+        series: directions.map((one, i) => {
           const curve = [...one.curve].sort((a: Document, b: Document) => a.step - b.step);
-          return { name: words(variable), x: curve.map((p: Document) => p.step), y: curve.map((p: Document) => Math.max(p.error, smallest)), color: colors[i], dots: true };
+          return { name: variablesOf(data, i), x: curve.map((p: Document) => p.step), y: curve.map((p: Document) => Math.max(p.error, smallest)), color: colors[i], dots: true };
         }),
       }).element,
     );

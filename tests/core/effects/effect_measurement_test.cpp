@@ -147,7 +147,7 @@ TEST(EffectInfluence, IsWhatLeavingAnEffectOutChanges) {
         twisted_bar(0.0, position), {fmt::format(R"(/effects/torsional_elasticity="{}")", choice)});
     bool has_torsion = false;
     for (const EffectInfluence& one : effect_influences(problem, start_design(problem))) {
-      EXPECT_EQ(one.body, "bar");
+      EXPECT_THAT(one.bodies, testing::ElementsAre("bar"));
       if (one.effect != "torsional_elasticity") continue;
       has_torsion = true;
       EXPECT_TRUE(one.failure.empty());
