@@ -53,7 +53,7 @@ ProblemFile with_fixed_effects(ProblemFile problem, const Model& model) {
   return problem;
 }
 
-bool is_same(const BeamEffects& one, const BeamEffects& other) {
+bool is_same(const BodyEffects& one, const BodyEffects& other) {
   for (const BeamEffect& effect : beam_effects) {
     if (one.*effect.is_built != other.*effect.is_built) return false;
   }
@@ -74,12 +74,11 @@ std::vector<Turned> turned_problems(const ProblemFile& fixed, const Model& model
   std::vector<Turned> turned;
   for (const EffectRecord& record : model.effects) {
     const Body* body = find_named(fixed.scene.bodies, record.body);
-    // Of bodies that a file describes effects are told, but not decided.
-    if (!body || !std::holds_alternative<BeamBody>(body->shape) || is_exact(record)) continue;
+    if (!body || is_exact(record)) continue;
     ProblemFile problem = fixed;
     problem.effects.decisions.measured[{record.body, record.name}].is_needed = !record.is_built;
-    const bool changes_nothing = is_same(decide_beam_effects(*body, problem.effects),
-                                         decide_beam_effects(*body, fixed.effects));
+    const bool changes_nothing =
+        is_same(decide_effects(*body, problem.effects), decide_effects(*body, fixed.effects));
     if (!changes_nothing) turned.push_back({&record, std::move(problem)});
   }
   return turned;

@@ -10,7 +10,7 @@
 /// What each effect brings, and what it costs.
 namespace pleuel {
 
-/// One effect of one beam.
+/// One effect of one beam or imported body.
 struct EffectInfluence {
   std::string body, effect;  ///< as in Model::effects
   std::string failure;       ///< why it cannot be simulated without (or with) it; empty: it can
@@ -24,7 +24,7 @@ struct EffectInfluence {
 
 enum class InfluenceTimes { none, measured };
 
-/// Simulates a design once more for each effect of each beam that the file or a tolerance decides
+/// Simulates a design once more for each effect of each body that the file or a tolerance decides
 /// on: without it where it is built, with it where it is not. Effects that another one needs are
 /// not listed, nor those that change nothing of what is built.
 /// @param times  measured: all of them in turns (core/base/compared_times.hpp)

@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/eager_matrices.hpp"
+#include "core/response/effect_influence.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/core/response/exchange.hpp"
 #include "tests/support/parameter_name.hpp"
@@ -73,6 +74,28 @@ TEST_F(Exchange, TakesAnyTwoPlacesForAChord) {
   document["responses"]["bow"]["chord"][1] = "nowhere";
   EXPECT_THAT(complaint(document),
               HasSubstr("/responses/bow/chord/1 names the unknown place \"nowhere\""));
+}
+
+/// What a body changes without its stiffening. Differences of values: round-off of these.
+TEST_F(Exchange, LosesWithItsStiffeningWhatTheBeamLoses) {
+  Json document = slider_crank();
+  document["simulation"]["end_time"] = 4e-3;
+  const ProblemFile original = read("original.json", document);
+  const ProblemFile imported = read("imported.json", exchanged(document));
+  const auto changes = [](const ProblemFile& problem) {
+    for (const EffectInfluence& one : effect_influences(problem, start_design(problem))) {
+      if (one.body == "rod" && one.effect == "geometric_stiffening") return one.changes;
+    }
+    return Eigen::VectorXd();
+  };
+  const Eigen::VectorXd values = values_of(*analyze(original, start_design(original)));
+  const Eigen::VectorXd expected = changes(original), found = changes(imported);
+  ASSERT_EQ(found.size(), values.size());
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    EXPECT_NEAR(found(i), expected(i), 1e-9 * std::abs(values(i))) << original.responses[i].name;
+  }
+  const Eigen::Index bow = 8;
+  EXPECT_GT(std::abs(expected(bow)), 1e-4 * std::abs(values(bow))) << original.responses[bow].name;
 }
 
 TEST_F(Exchange, GivesEveryNumberBackExactly) {
