@@ -23,8 +23,9 @@ ONE = ['/variables={"height": {"start": "30 mm", "lower": "6 mm", "upper": "60 m
        '/scene/bodies/rod/generator/variables={"height": "m"}',
        '/constraints={"strength": {"response": "rod_stress", "upper": "150 MPa"}, '
        '"stiffness": {"response": "rod_bow", "upper": "0.2 mm"}}']
-#: The crank may be as thin as its bounds allow: stubby, so that its shear is a doubt about any answer.
-FREE = ['/constraints={"crank_strength": {"response": "crank_stress", "upper": "200 MPa"}, '
+#: The crank may be as thin as its bounds allow: it becomes so high that shear bends it.
+FREE = ['/scene/bodies/crank/shear=true',
+        '/constraints={"crank_strength": {"response": "crank_stress", "upper": "200 MPa"}, '
         '"rod_strength": {"response": "rod_stress", "upper": "200 MPa"}, '
         '"rod_stiffness": {"response": "rod_bow", "upper": "0.2 mm"}, '
         '"crank_stiffness": {"response": "crank_tip", "upper": "0.5 mm"}}']

@@ -91,6 +91,8 @@ class BodySampler {
       add_beam_stations(model);
     } else if (parts_.front()->is_imported()) {
       add_imported_places(model);
+      const auto& imported = std::get<ImportedBody>(body.shape);
+      has_surface_ = parts_.front()->is_elastic && imported.file->surface.has_value();
     } else {
       motion_.stations = {0.0};
       motion_.parts = {0};
@@ -99,6 +101,9 @@ class BodySampler {
     motion_.positions.resize(positions_.size(), instants);
     motion_.rotations.resize(4 * static_cast<Eigen::Index>(parts_.size()), instants);
     motion_.stress.resize(stresses_.size(), stresses_.empty() ? 0 : instants);
+    if (!has_surface_) return;
+    motion_.coordinates.resize(parts_.front()->elastic_size(), instants);
+    motion_.origins.resize(3, instants);
   }
 
   void see(const State& state, Eigen::Index instant) {
@@ -115,6 +120,10 @@ class BodySampler {
       motion_.rotations.block<4, 1>(4 * static_cast<Eigen::Index>(i), instant) =
           quaternion_of(parts_[i]->frame, state);
     }
+    if (!has_surface_) return;
+    const BodyModel& body = *parts_.front();
+    motion_.coordinates.col(instant) = state.q.segment(body.elastic_offset(), body.elastic_size());
+    motion_.origins.col(instant) = frame_of(body.frame, state).r;
   }
 
   BodyTrack take() { return std::move(motion_); }
@@ -161,17 +170,20 @@ class BodySampler {
     }
   }
 
-  static Eigen::Vector4d quaternion_of(const BodyFrame& frame, const State& state) {
+  static FrameMotion<double> frame_of(const BodyFrame& frame, const State& state) {
     const Eigen::VectorXd q = state.q.segment(frame.offset, frame.size()),
                           v = state.v.segment(frame.offset, frame.size()),
                           a = state.a.segment(frame.offset, frame.size());
-    return Eigen::Quaterniond(Eigen::Matrix3d(frame_motion<double>(frame, q, v, a).A))
-        .normalized()
-        .coeffs();
+    return frame_motion<double>(frame, q, v, a);
+  }
+
+  static Eigen::Vector4d quaternion_of(const BodyFrame& frame, const State& state) {
+    return Eigen::Quaterniond(Eigen::Matrix3d(frame_of(frame, state).A)).normalized().coeffs();
   }
 
   BodyTrack motion_;
   std::vector<const BodyModel*> parts_;
+  bool has_surface_ = false;
   std::vector<std::unique_ptr<Signal>> positions_, stresses_;
   Eigen::VectorXd number_ = Eigen::VectorXd::Zero(1), points_;
 };

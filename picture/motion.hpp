@@ -22,6 +22,8 @@ struct BodyTrack {
   Eigen::MatrixXd rotations;
   /// The largest von Mises stress of the section at each station [Pa]; empty where there is none.
   Eigen::MatrixXd stress;
+  /// Of a body whose surface is known, its elastic coordinates, and the origin of its frame [m].
+  Eigen::MatrixXd coordinates, origins;
 };
 
 struct Motion {

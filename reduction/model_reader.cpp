@@ -34,7 +34,7 @@ class ModelReader {
 
   ReductionModel read() {
     root_.allow_keys({"body", "description", "mesh", "matrices", "units", "interfaces", "places",
-                      "modes", "damping", "stress", "stiffening", "plane"});
+                      "modes", "damping", "stress", "stiffening", "surface", "plane"});
     model_.body = root_.at("body").text();
     if (const auto text = root_.find("description")) model_.description = text->text();
     read_mesh();
@@ -48,6 +48,7 @@ class ModelReader {
     }
     if (const auto stress = root_.find("stress")) read_stress(*stress);
     if (const auto line = root_.find("stiffening")) read_stiffening(*line);
+    if (const auto most = root_.find("surface")) model_.surface = most->whole_number(4, 100000);
     return std::move(model_);
   }
 
@@ -189,19 +190,45 @@ class ModelReader {
     }
   }
 
-  void read_stress(const JsonNode& node) {
-    node.allow_keys({"nodes", "most", "strength"});
-    StressChoice& stress = model_.stress.emplace();
-    stress.nodes = nodes(node.at("nodes"));
+  /// Of a rigid interface no stress is known.
+  std::vector<int> elastic_nodes(const JsonNode& node) const {
+    std::vector<int> found = nodes(node);
     for (const InterfaceSet& interface : model_.interfaces) {
       if (!interface.is_rigid) continue;
-      std::erase_if(stress.nodes, [&](int i) {
+      std::erase_if(found, [&](int i) {
         return std::binary_search(interface.nodes.begin(), interface.nodes.end(), i);
       });
     }
+    return found;
+  }
+
+  /// Nodes, or {NAME: nodes} for groups that responses can name.
+  std::vector<NodeGroup> stress_groups(const JsonNode& node) const {
+    const bool is_one = node.value().is_string() || node.find("box") || node.find("cylinder");
+    if (is_one) return {{"", elastic_nodes(node)}};
+    std::vector<NodeGroup> groups;
+    for (const auto& [name, member] : node.members()) {
+      groups.push_back({name, elastic_nodes(member)});
+    }
+    if (groups.empty()) node.fail("must have at least one group of nodes");
+    return groups;
+  }
+
+  void read_stress(const JsonNode& node) {
+    std::vector<std::string_view> keys = {"nodes", "most", fatigue_exponent_word};
+    for (const auto& [word, member] : strength_members<double>) keys.push_back(word);
+    node.allow_keys(keys);
+    StressChoice& stress = model_.stress.emplace();
+    stress.groups = stress_groups(node.at("nodes"));
     if (const auto most = node.find("most")) stress.most = most->whole_number(1, 100000);
-    if (const auto strength = node.find("strength")) {
-      stress.strength = numbers_.fixed(*strength, quantities::stress, Range::positive);
+    for (const auto& [word, member] : strength_members<double>) {
+      if (const auto strength = node.find(std::string(word))) {
+        stress.strengths.*member = numbers_.fixed(*strength, quantities::stress, Range::positive);
+      }
+    }
+    if (const auto exponent = node.find(std::string(fatigue_exponent_word))) {
+      stress.strengths.fatigue_exponent =
+          numbers_.fixed(*exponent, quantities::pure_number, Range::positive);
     }
   }
 

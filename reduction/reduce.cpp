@@ -1,11 +1,13 @@
 #include "reduction/reduce.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
 #include "core/base/int_size.hpp"
+#include "reduction/body_surface.hpp"
 #include "reduction/model_check.hpp"
 #include "reduction/nodal_invariants.hpp"
 #include "reduction/plane_motion.hpp"
@@ -32,28 +34,49 @@ std::vector<BodyPlace> places_of(const ReductionModel& model, const Eigen::Matri
   return places;
 }
 
+/// Of a group the nodes that become points, in rising order.
+std::vector<int> stressed_nodes(const ReductionModel& model, const std::vector<int>& group,
+                                const Eigen::MatrixXd& shape, const Eigen::MatrixXd& stiffness) {
+  const std::vector<int> nodes = corners_among(model.mesh, group);
+  if (nodes.empty()) throw InputError("no node of /stress/nodes is a corner of an element");
+  const int most = model.stress->most;
+  if (most == 0) return nodes;
+  std::vector<int> found;
+  for (const int i : most_stressed(nodal_stress(model.mesh, shape, nodes), stiffness, most)) {
+    found.push_back(nodes[i]);
+  }
+  return found;
+}
+
+PointGroup group_of(const std::string& name, const std::vector<int>& group,
+                    const std::vector<int>& all) {
+  PointGroup points{name, {}};
+  for (const int node : group) {
+    points.points.push_back(
+        static_cast<int>(std::lower_bound(all.begin(), all.end(), node) - all.begin()));
+  }
+  return points;
+}
+
 StressRecovery stress_of(const ReductionModel& model, const Eigen::MatrixXd& shape,
                          const Eigen::MatrixXd& stiffness) {
-  const StressChoice& choice = *model.stress;
-  std::vector<int> nodes = corners_among(model.mesh, choice.nodes);
-  if (nodes.empty()) throw InputError("no node of /stress/nodes is a corner of an element");
-  Eigen::MatrixXd rows = nodal_stress(model.mesh, shape, nodes);
-  if (choice.most > 0) {
-    const std::vector<int> kept = most_stressed(rows, stiffness, choice.most);
-    Eigen::MatrixXd fewer(6 * int_size(kept), rows.cols());
-    std::vector<int> fewer_nodes;
-    for (int i = 0; i < int_size(kept); ++i) {
-      fewer.middleRows<6>(6 * i) = rows.middleRows<6>(6 * kept[i]);
-      fewer_nodes.push_back(nodes[kept[i]]);
-    }
-    rows = fewer;
-    nodes = fewer_nodes;
+  std::vector<std::vector<int>> groups;
+  std::set<int> all;
+  for (const NodeGroup& group : model.stress->groups) {
+    groups.push_back(stressed_nodes(model, group.nodes, shape, stiffness));
+    all.insert(groups.back().begin(), groups.back().end());
   }
+  const std::vector<int> nodes(all.begin(), all.end());
   StressRecovery stress;
   for (const int node : nodes) {
     stress.points.push_back(fmt::format("node {}", model.mesh.numbers[node]));
   }
-  stress.strength = choice.strength;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const std::string& name = model.stress->groups[i].name;
+    if (!name.empty()) stress.groups.push_back(group_of(name, groups[i], nodes));
+  }
+  stress.strengths = model.stress->strengths;
+  const Eigen::MatrixXd rows = nodal_stress(model.mesh, shape, nodes);
   stress.of_coordinates = sparse_of(rows);
   stress.of_accelerations.resize(rows.rows(),
                                  3 * int_size(model.interfaces) + 3 * int_size(model.places));
@@ -135,6 +158,7 @@ ReducedBody reduce(const ReductionModel& model) {
       fmt::format("the interface \"{}\" is clamped", model.interfaces.front().name);
   body.file.coordinates = modes.names;
   body.file.constants = constants_of(model, modes.shape);
+  if (model.surface > 0) body.file.surface = body_surface(model.mesh, modes.shape, model.surface);
   body.findings = findings_about(model, body.file.constants);
   if (model.plane) body.asymmetry = clear_across_plane(body.file.constants, *model.plane);
   return body;

@@ -4,16 +4,22 @@
 #include <string>
 #include <vector>
 
+#include "core/base/strengths.hpp"
 #include "reduction/component_modes.hpp"
 #include "reduction/line_stiffening.hpp"
 
 /// What a body is reduced from, and to what.
 namespace pleuel {
 
-struct StressChoice {
+struct NodeGroup {
+  std::string name;  ///< that responses give it; empty: none
   std::vector<int> nodes;
-  int most = 0;  ///< only those that can be largest, so many at most; 0: all
-  double strength = 0.0;
+};
+
+struct StressChoice {
+  std::vector<NodeGroup> groups;
+  int most = 0;  ///< of each only those that can be largest, so many at most; 0: all
+  Strengths<double> strengths;
 };
 
 /// What a model file asks for, in SI units, its files read.
@@ -27,6 +33,7 @@ struct ReductionModel {
   double damping = 0.0;  ///< D = damping · K [s]
   std::optional<StressChoice> stress;
   std::optional<StiffeningLine> stiffening;
+  int surface = 0;  ///< points of it at most, for pictures; 0: none
   /// Normal (0, 1, 2: x, y, z) of a plane of symmetry through the origin that the motion stays in.
   std::optional<int> plane;
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include <Eigen/Geometry>
+
 #include "core/base/disjoint_sets.hpp"
 #include "reduction/element_shape.hpp"
 
@@ -17,6 +19,18 @@ double volume_of(const SolidMesh& mesh, const SolidElement& element) {
     volume += point.weight * shape_gradient(element.shape, positions, point.at).determinant;
   }
   return volume;
+}
+
+/// The nodes of a face, anticlockwise seen from outside of the element.
+std::vector<int> outward_face(const SolidMesh& mesh, const SolidElement& element,
+                              const std::vector<int>& corners) {
+  std::vector<int> face;
+  for (const int corner : corners) face.push_back(element.nodes[corner]);
+  const auto at = [&](int i) { return Eigen::Vector3d(mesh.positions.col(face[i])); };
+  const Eigen::Vector3d centre = element_positions(mesh, element).rowwise().mean();
+  const Eigen::Vector3d normal = (at(1) - at(0)).cross(at(2) - at(0));
+  if (normal.dot(at(0) - centre) < 0.0) std::reverse(face.begin(), face.end());
+  return face;
 }
 
 }  // namespace
@@ -52,18 +66,26 @@ double volume_of(const SolidMesh& mesh) {
   return volume;
 }
 
-std::vector<int> surface_corners(const SolidMesh& mesh) {
-  std::map<std::vector<int>, int> faces;
+std::vector<std::vector<int>> surface_faces(const SolidMesh& mesh) {
+  std::map<std::vector<int>, std::vector<std::vector<int>>> faces;
   for (const SolidElement& element : mesh.elements) {
-    for (std::vector<int> face : faces_of(element.shape)) {
-      for (int& node : face) node = element.nodes[node];
-      std::sort(face.begin(), face.end());
-      ++faces[face];
+    for (const std::vector<int>& corners : faces_of(element.shape)) {
+      std::vector<int> face = outward_face(mesh, element, corners), sorted = face;
+      std::sort(sorted.begin(), sorted.end());
+      faces[sorted].push_back(std::move(face));
     }
   }
+  std::vector<std::vector<int>> outer;
+  for (const auto& [sorted, same] : faces) {
+    if (same.size() == 1) outer.push_back(same.front());
+  }
+  return outer;
+}
+
+std::vector<int> surface_corners(const SolidMesh& mesh) {
   std::set<int> corners;
-  for (const auto& [face, count] : faces) {
-    if (count == 1) corners.insert(face.begin(), face.end());
+  for (const std::vector<int>& face : surface_faces(mesh)) {
+    corners.insert(face.begin(), face.end());
   }
   return {corners.begin(), corners.end()};
 }

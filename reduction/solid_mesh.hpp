@@ -47,7 +47,11 @@ double mass_of(const SolidMesh& mesh);
 /// ∫1 over all elements by quadrature.
 double volume_of(const SolidMesh& mesh);
 
-/// Nodes at corners of faces that one element alone has: the surface of the body.
+/// Corners of the faces that one element alone has, the surface of the body: anticlockwise seen from
+/// outside.
+std::vector<std::vector<int>> surface_faces(const SolidMesh& mesh);
+
+/// Nodes at the corners of these.
 std::vector<int> surface_corners(const SolidMesh& mesh);
 
 /// For each node the number of its connected part, counted by the smallest node; nodes of one

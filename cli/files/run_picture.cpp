@@ -8,6 +8,7 @@
 #include "cli/files/scene_picture.hpp"
 #include "cli/reports/analysis_report.hpp"
 #include "cli/text/json.hpp"
+#include "core/model/imported_constants.hpp"
 #include "core/response/peak_place.hpp"
 #include "core/response/shown_history.hpp"
 #include "core/scene/response_kind.hpp"
@@ -155,8 +156,8 @@ Json companions_document(const ProblemFile& problem, const Analysis& analysis, c
 int frames_for(const Motion& first, std::size_t designs, const Room& room) {
   double numbers = 0.0;
   for (const BodyTrack& body : first.bodies) {
-    numbers +=
-        static_cast<double>(body.positions.rows() + body.rotations.rows() + body.stress.rows());
+    numbers += static_cast<double>(body.positions.rows() + body.rotations.rows() +
+                                   body.stress.rows() + body.coordinates.rows());
   }
   const double frames = room.numbers / std::max(1.0, numbers * static_cast<double>(designs));
   return static_cast<int>(std::clamp(frames, 60.0, static_cast<double>(most_frames)));
@@ -175,10 +176,30 @@ Json motion_document(const Motion& motion) {
                   {"positions", packed_numbers(body.positions)},
                   {"rotations", packed_numbers(body.rotations)}};
     if (body.stress.size() > 0) entry["stress"] = packed_numbers(body.stress);
+    if (body.coordinates.size() > 0) {
+      entry["coordinates"] = packed_numbers(body.coordinates);
+      entry["origins"] = packed_numbers(body.origins);
+    }
     return entry;
   };
   return {{"time", packed_numbers(motion.time.transpose())},
           {"bodies", list_of(motion.bodies, body_entry)}};
+}
+
+/// Of the bodies whose surface is known at the design.
+/// @param bodies  in the order of the scene
+void add_surfaces(const Scene& scene, const Eigen::VectorXd& x, Json& bodies) {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const auto* imported = std::get_if<ImportedBody>(&scene.bodies[i].shape);
+    if (imported == nullptr) continue;
+    const auto file = body_at(*imported, scene.bodies[i], Design<double>(x.begin(), x.end()));
+    if (!file->surface) continue;
+    bodies[i]["surface"] = {{"positions", packed_numbers(file->surface->positions)},
+                            {"triangles", file->surface->triangles},
+                            {"displacement", packed_numbers(file->surface->displacement)},
+                            {"young", file->surface->young},
+                            {"poisson", file->surface->poisson}};
+  }
 }
 
 Json design_document(const ProblemFile& problem, const ShownDesign& design, std::size_t designs,
@@ -189,6 +210,7 @@ Json design_document(const ProblemFile& problem, const ShownDesign& design, std:
   if (design.rigid != nullptr) document["motion"] = motion_document(*design.rigid);
   if (design.analysis == nullptr) return document;
   const Analysis& analysis = *design.analysis;
+  add_surfaces(problem.scene, design.x, document["geometry"]["bodies"]);
   document["masses"] = Json::object();
   for (const BodyModel& body : analysis.model.bodies) {
     document["masses"][body.name] = document["masses"].value(body.name, 0.0) + body.mass;

@@ -121,6 +121,9 @@ Json body_document(const ProblemFile& problem, const Body& body, const Values& s
     document["is_rigid"] = beam->is_rigid;
     document["frames"] = beam->frames;
     if (material.strength) document["strength"] = resolve(*material.strength, start);
+  } else if (const auto* imported = std::get_if<ImportedBody>(&body.shape)) {
+    const std::optional<StressRecovery>& stress = imported->file->constants.stress;
+    if (stress && stress->strengths.yield > 0.0) document["strength"] = stress->strengths.yield;
   }
   if (const auto limit = stress_limit(problem, body.name)) document["stress_limit"] = *limit;
   if (!body.initial_deflections.empty()) document["starts_bent"] = bent_start(body, start);

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/base/int_size.hpp"
+#include "core/base/strengths.hpp"
 #include "core/section/section_properties.hpp"
 
 namespace pleuel {
@@ -16,12 +17,7 @@ struct BeamElement {
   SectionProperties<Scalar> section;
   /// 1/(κ G A) of shear forces along y and z [1/N]; 0: shear does not bend it.
   Scalar shear_compliance_y = Scalar(0), shear_compliance_z = Scalar(0);
-  // That stress is compared with [Pa]; 0: not given.
-  Scalar strength = Scalar(0);           ///< of yield
-  Scalar ultimate_strength = Scalar(0);  ///< of fracture
-  Scalar endurance_limit = Scalar(0);    ///< of the amplitude of stress without mean
-  Scalar fatigue_strength = Scalar(0);   ///< of Basquin's line
-  double fatigue_exponent = 0.0;         ///< of that line [–]
+  Strengths<Scalar> strengths = {};
 };
 
 /// A straight chain of elements along local x; node i is the start of element i.

@@ -259,7 +259,7 @@ std::set<int> beam_variables(const Body& body, const BeamMesh& mesh, const Scene
 
 void set_beam(const BeamBody& beam, const Body& body, const BuildContext& context,
               BodyModel& model) {
-  const BeamEffects& effects = context.effects_of(model.name);
+  const BodyEffects& effects = context.effects_of(model.name);
   model.kind = BodyKind::beam;
   model.condition = beam.frame;
   if (beam.part) {

@@ -81,7 +81,7 @@ BodyModel make_body_model(const Body& body, const BuildContext& context, int off
   } else {
     set_rigid(body, context, model);
   }
-  if (model.has_stiffening) {
+  if (!model.stretching.elements.empty()) {
     model.stretched = std::make_shared<const StretchedMembers>(stretched_members(model));
   }
   model.mass = model.invariants.mass;

@@ -29,10 +29,10 @@ struct BuildContext {
   std::optional<MotionPlane> plane;
   Eigen::Vector3d gravity;
   InvariantDifferentiation differentiation = {};
-  std::map<std::string, BeamEffects> beam_effects = {};  ///< by body
+  std::map<std::string, BodyEffects> beam_effects = {};  ///< by body
   std::unordered_map<std::string, std::size_t> body_numbers = numbers_by_name(scene.bodies);
 
-  const BeamEffects& effects_of(const std::string& beam) const { return beam_effects.at(beam); }
+  const BodyEffects& effects_of(const std::string& beam) const { return beam_effects.at(beam); }
   int variables() const { return int_size(design); }
   /// The design with one variable seeded.
   Design<Dual> seeded(int variable) const;

@@ -115,7 +115,7 @@ class ModelBuilder {
     decide_motion();
     for (const Body& body : scene_.bodies) {
       if (!std::holds_alternative<BeamBody>(body.shape)) continue;
-      context_.beam_effects[body.name] = pleuel::decide_beam_effects(body, context_.effects);
+      context_.beam_effects[body.name] = pleuel::decide_effects(body, context_.effects);
     }
     model_.bodies.reserve(context_.scene.bodies.size());  // bodies are large, and would be copied
     for (const Body& body : context_.scene.bodies) {

@@ -108,7 +108,7 @@ class Division {
   void add(const Body& body, Scene& divided) {
     const auto* beam = std::get_if<BeamBody>(&body.shape);
     const bool is_divided =
-        beam != nullptr && beam->frames > 1 && decide_beam_effects(body, effects_).elasticity;
+        beam != nullptr && beam->frames > 1 && decide_effects(body, effects_).elasticity;
     if (!is_divided) {
       divided.bodies.push_back(body);
       return;

@@ -37,13 +37,14 @@ bool is_wanted(const Body& body, const BeamEffect& effect, const EffectSettings&
 
 }  // namespace
 
-BeamEffects decide_beam_effects(const Body& body, const EffectSettings& settings) {
-  BeamEffects effects;
+BodyEffects decide_effects(const Body& body, const EffectSettings& settings) {
+  BodyEffects effects;
   for (const BeamEffect& effect : beam_effects) {
     effects.*effect.is_built = is_wanted(body, effect, settings);
   }
   const bool has_axial = settings.axial_elasticity != EffectChoice::off;
-  effects.elasticity = effects.elasticity && !std::get<BeamBody>(body.shape).is_rigid;
+  const auto* beam = std::get_if<BeamBody>(&body.shape);
+  effects.elasticity = effects.elasticity && !(beam != nullptr && beam->is_rigid);
   effects.torsional_elasticity = effects.torsional_elasticity && effects.elasticity;
   effects.geometric_stiffening = effects.geometric_stiffening && effects.elasticity && has_axial;
   effects.axial_elasticity =
@@ -60,7 +61,7 @@ class BeamTable {
       : body_(body), settings_(settings), model_(model), is_planar_(is_planar) {}
 
   std::vector<EffectRecord> records() {
-    built_ = decide_beam_effects(body_, settings_);
+    built_ = decide_effects(body_, settings_);
     add("elasticity");
     if (std::get<BeamBody>(body_.shape).is_rigid) set_exact("the file says that it is rigid");
     if (built_.elasticity) {
@@ -155,7 +156,7 @@ class BeamTable {
   const EffectSettings& settings_;
   const BodyModel& model_;
   bool is_planar_;
-  BeamEffects built_;
+  BodyEffects built_;
   std::vector<EffectRecord> records_;
 };
 

@@ -46,7 +46,7 @@ struct ElasticBody {
   BodyPlaces places;
   std::vector<DesignDerivative<BodyPlaces>> places_x;
 
-  Stretching stretching;  ///< without members where geometric stiffening is left out
+  Stretching stretching;  ///< of a beam without members where stiffening is left out
   std::vector<DesignDerivative<Stretching>> stretching_x;
 
   /// Stress at the points of a file; a beam has section forces (core/response/section_forces.hpp).

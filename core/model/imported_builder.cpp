@@ -8,6 +8,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/base/int_size.hpp"
+#include "core/model/effect_decisions.hpp"
 #include "core/model/imported_constants.hpp"
 
 namespace pleuel {
@@ -158,9 +159,9 @@ void check_effects(const ImportedBody& imported, const Body& body, const EffectS
 
 void set_imported(const ImportedBody& imported, const Body& body, const BuildContext& context,
                   BodyModel& model) {
-  const EffectSettings& settings = context.effects;
+  const BodyEffects effects = decide_effects(body, context.effects);
   model.kind = BodyKind::imported;
-  model.is_elastic = settings.elasticity != EffectChoice::off;
+  model.is_elastic = effects.elasticity;
   const std::shared_ptr<const InvariantsFile> file = body_at(imported, body, context.design);
   const BodyConstants& constants = file->constants;
   std::vector<std::pair<int, const BodyConstants*>> changes;
@@ -178,7 +179,7 @@ void set_imported(const ImportedBody& imported, const Body& body, const BuildCon
     set(model.invariants, model.invariants_x, rigid_part);
     return;
   }
-  check_effects(imported, body, settings);
+  check_effects(imported, body, context.effects);
   ArrangementFinder finder(constants.size());
   finder.add(constants);
   for (const auto& [variable, change] : changes) finder.add(*change);
@@ -188,8 +189,8 @@ void set_imported(const ImportedBody& imported, const Body& body, const BuildCon
   if (constants.stress) {
     set(model.stress, model.stress_x, [](const BodyConstants& of) { return *of.stress; });
   }
-  model.has_stiffening = settings.geometric_stiffening != EffectChoice::off && constants.stretching;
-  if (!model.has_stiffening) return;
+  if (!constants.stretching) return;
+  model.has_stiffening = effects.geometric_stiffening;
   set(model.stretching, model.stretching_x, [](const BodyConstants& of) { return *of.stretching; });
 }
 

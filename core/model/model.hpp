@@ -48,7 +48,7 @@ struct BodyModel : ElasticBody {
   double mass = 0.0;       ///< [kg]
   Eigen::VectorXd mass_x;  ///< derivatives with respect to all design variables
   bool has_stiffening = false;
-  std::shared_ptr<const StretchedMembers> stretched;  ///< with stiffening; else null
+  std::shared_ptr<const StretchedMembers> stretched;  ///< with members to stretch; else null
   bool is_elastic = false;
 
   // What a beam is made of: for section forces, and for judgements on beams.

@@ -7,6 +7,20 @@
 
 namespace pleuel {
 
+template <class Scalar>
+Strengths<Scalar> resolve_strengths(const Material& material, const Design<Scalar>& design) {
+  Strengths<Scalar> strengths;
+  const auto take = [&](const std::optional<Number>& number, Scalar& strength) {
+    if (number) strength = resolve(*number, design);
+  };
+  take(material.strength, strengths.yield);
+  take(material.ultimate_strength, strengths.ultimate);
+  take(material.endurance_limit, strengths.endurance_limit);
+  take(material.fatigue_strength, strengths.fatigue);
+  strengths.fatigue_exponent = material.fatigue_exponent.value_or(0.0);
+  return strengths;
+}
+
 /// The elements of a beam at a design of any scalar type.
 template <class Scalar>
 Beam<Scalar> resolve_beam(const BeamBody& body, const BeamMesh& mesh, const Scene& scene,
@@ -19,17 +33,7 @@ Beam<Scalar> resolve_beam(const BeamBody& body, const BeamMesh& mesh, const Scen
   element.young = resolve(material.young, design);
   element.shear = element.young / (2.0 * (1.0 + poisson));
   element.density = resolve(material.density, design);
-  if (material.strength) element.strength = resolve(*material.strength, design);
-  if (material.ultimate_strength) {
-    element.ultimate_strength = resolve(*material.ultimate_strength, design);
-  }
-  if (material.endurance_limit) {
-    element.endurance_limit = resolve(*material.endurance_limit, design);
-  }
-  if (material.fatigue_strength) {
-    element.fatigue_strength = resolve(*material.fatigue_strength, design);
-  }
-  element.fatigue_exponent = material.fatigue_exponent.value_or(0.0);
+  element.strengths = resolve_strengths(material, design);
   Beam<Scalar> beam;
   int segment = -1;
   const std::vector<Scalar> shares = element_shares(body, mesh, design);

@@ -55,7 +55,7 @@ ProblemFile with_fixed_effects(ProblemFile problem, const Model& model) {
   return problem;
 }
 
-bool is_same(const BeamEffects& one, const BeamEffects& other) {
+bool is_same(const BodyEffects& one, const BodyEffects& other) {
   for (const BeamEffect& effect : beam_effects) {
     if (one.*effect.is_built != other.*effect.is_built) return false;
   }
@@ -91,12 +91,11 @@ std::vector<Group> all_groups(const ProblemFile& fixed, const Model& model) {
   std::vector<Group> groups;
   for (const EffectRecord& record : model.effects) {
     const Body* body = find_named(fixed.scene.bodies, record.body);
-    // Of bodies that a file describes effects are told, but not decided.
-    if (!body || !std::holds_alternative<BeamBody>(body->shape) || is_exact(record)) continue;
+    if (!body || is_exact(record)) continue;
     EffectSettings settings = settings_of(record.body, plain, fixed.effects.decisions);
-    const BeamEffects as_it_is = decide_beam_effects(*body, settings);
+    const BeamEffects as_it_is = decide_effects(*body, settings);
     settings.decisions.measured[{record.body, record.name}].is_needed = !record.is_built;
-    if (is_same(decide_beam_effects(*body, settings), as_it_is)) continue;
+    if (is_same(decide_effects(*body, settings), as_it_is)) continue;
     const auto is_its_group = [&](const Group& group) {
       const EffectRecord& first = *group.records.front();
       return first.name == record.name && first.is_built == record.is_built;

@@ -10,7 +10,7 @@
 /// What each effect brings, and what it costs.
 namespace pleuel {
 
-/// One effect of one beam, or of several together where it hardly changes anything.
+/// One effect of one body, or of several together where it hardly changes anything.
 struct EffectInfluence {
   std::vector<std::string> bodies;
   std::string effect;   ///< as in Model::effects
@@ -35,11 +35,11 @@ double change_that_counts(const EffectSettings& effects);
 
 enum class InfluenceTimes { none, measured };
 
-/// Simulates a design without each effect of each beam that the file or a tolerance decides on where
-/// it is built, with it where it is not. An effect is turned round in all beams together; where that
+/// Simulates a design without each effect of each body that the file or a tolerance decides on where
+/// it is built, with it where it is not. An effect is turned round in all bodies together; where that
 /// changes a response by more than counts, or cannot be simulated, in both halves of them, and so on.
 /// Effects that another one needs are not listed, nor those that change nothing of what is built.
-/// @param times  measured: of each effect of each beam, in turns (core/base/compared_times.hpp)
+/// @param times  measured: of each effect of each body, in turns (core/base/compared_times.hpp)
 std::vector<EffectInfluence> effect_influences(const ProblemFile& problem, const Eigen::VectorXd& x,
                                                InfluenceTimes times = InfluenceTimes::none);
 

@@ -3,6 +3,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/response/body_strengths.hpp"
 #include "core/response/section_stations.hpp"
 #include "core/response/stress_signal.hpp"
 
@@ -65,13 +66,11 @@ struct Inverse {
   Eigen::VectorXd derivatives;  ///< one a design variable
 };
 
-template <class StrengthOf>
-Inverse inverse_of(const BodyModel& body, int variables, const StrengthOf& strength_of) {
-  const double strength = strength_of(body.beam.elements.front());
+Inverse inverse_of(const BodyModel& body, int variables, double Strengths<double>::*member) {
+  const double strength = strengths_of(body).*member;
   Inverse inverse{1.0 / strength, Eigen::VectorXd::Zero(variables)};
-  for (const auto& [variable, beam] : body.beam_x) {
-    inverse.derivatives(variable) =
-        -derivative_of(strength_of(beam.elements.front())) / (strength * strength);
+  for (const auto& [variable, change] : strength_derivatives(body)) {
+    inverse.derivatives(variable) = -(change.*member) / (strength * strength);
   }
   return inverse;
 }
@@ -116,21 +115,17 @@ class StressOverStrengths final : public Signal {
 
 }  // namespace
 
-std::unique_ptr<Signal> make_fatigue_signal(const BodyModel& body, const Model& model,
-                                            const FatigueStrengths& strengths,
-                                            const StationChoice& stations) {
-  const int variables = model.mechanism.system->variables();
-  const bool is_endurance = strengths.of_amplitude == AmplitudeStrength::endurance;
-  const bool is_yield = strengths.of_mean == MeanStrength::yield;
-  return std::make_unique<StressOverStrengths>(
-      make_section_signal(body, model.gravity, stations, FixedPointStress()),
-      inverse_of(body, variables,
-                 [is_endurance](const auto& element) {
-                   return is_endurance ? element.endurance_limit : element.fatigue_strength;
-                 }),
-      inverse_of(body, variables, [is_yield](const auto& element) {
-        return is_yield ? element.strength : element.ultimate_strength;
-      }));
+std::unique_ptr<Signal> make_fixed_point_signal(const BodyModel& body,
+                                                const Eigen::Vector3d& gravity,
+                                                const StationChoice& stations) {
+  return make_section_signal(body, gravity, stations, FixedPointStress());
+}
+
+std::unique_ptr<Signal> make_fatigue_signal(std::unique_ptr<Signal> stress, const BodyModel& body,
+                                            int variables, const CycleStrengths& strengths) {
+  return std::make_unique<StressOverStrengths>(std::move(stress),
+                                               inverse_of(body, variables, strengths.of_amplitude),
+                                               inverse_of(body, variables, strengths.of_mean));
 }
 
 }  // namespace pleuel

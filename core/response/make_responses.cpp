@@ -8,6 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/response/balance_map.hpp"
 #include "core/response/body_frequency.hpp"
+#include "core/response/body_strengths.hpp"
 #include "core/response/drift_signal.hpp"
 #include "core/response/drive_signals.hpp"
 #include "core/response/energy_signals.hpp"
@@ -82,7 +83,7 @@ class ResponseMaker {
     if (settings_.type == ResponseType::fatigue) history.fatigue = {settings_.criterion};
     if (settings_.type == ResponseType::fatigue_damage) {
       const BodyModel& body = *model_.parts(settings_.bodies.front()).front();
-      history.fatigue = {settings_.criterion, body.beam.elements.front().fatigue_exponent};
+      history.fatigue = {settings_.criterion, strengths_of(body).fatigue_exponent};
     }
     return history;
   }

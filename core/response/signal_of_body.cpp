@@ -6,11 +6,14 @@
 
 #include <fmt/format.h>
 
+#include "core/base/error.hpp"
+#include "core/response/body_strengths.hpp"
 #include "core/response/buckling_signal.hpp"
 #include "core/response/divided_deflection.hpp"
 #include "core/response/fatigue_signal.hpp"
 #include "core/response/largest_signal.hpp"
 #include "core/response/lateral_buckling_signal.hpp"
+#include "core/response/line_buckling.hpp"
 #include "core/response/motion_signals.hpp"
 #include "core/response/norm_signal.hpp"
 #include "core/response/place_deflection.hpp"
@@ -44,10 +47,7 @@ class BodySignalMaker {
         return make_stress();
       case ResponseType::fatigue:
       case ResponseType::fatigue_damage:
-        check_section_forces();
-        check_fatigue_data();
-        return make_fatigue_signal(body_, model_, fatigue_strengths(),
-                                   {settings_.segment, settings_.station});
+        return make_fatigue();
       case ResponseType::shear_stress:
         return make_shear_stress();
       case ResponseType::buckling:
@@ -83,9 +83,13 @@ class BodySignalMaker {
  private:
   [[noreturn]] void fail(const std::string& why) const { refuse_response(settings_.name, why); }
 
+  void check_elastic() const {
+    if (!body_.is_elastic) fail(fmt::format("\"{}\" is rigid", body_.name));
+  }
+
   /// Section forces come from strain.
   void check_section_forces() const {
-    if (!body_.is_elastic) fail(fmt::format("\"{}\" is rigid", body_.name));
+    check_elastic();
     const bool is_section_force = settings_.type == ResponseType::section_force;
     const bool needs_axial =
         settings_.type == ResponseType::buckling ||
@@ -102,28 +106,42 @@ class BodySignalMaker {
     if (needs_twist && !has_displacement(3)) {
       fail(fmt::format("\"{}\" has no torsional elasticity", body_.name));
     }
-    const bool has_strength = body_.beam.elements.front().strength > 0.0;
+    const bool has_strength = strengths_of(body_).yield > 0.0;
     if (settings_.part == StressPart::utilization && !has_strength) {
       fail(fmt::format("the material of \"{}\" has no strength", body_.name));
     }
   }
 
-  FatigueStrengths fatigue_strengths() const {
-    return {settings_.type == ResponseType::fatigue ? AmplitudeStrength::endurance
-                                                    : AmplitudeStrength::basquin,
-            settings_.criterion == FatigueCriterion::soderberg ? MeanStrength::yield
-                                                               : MeanStrength::ultimate};
+  CycleStrengths cycle_strengths() const {
+    using S = Strengths<double>;
+    return {settings_.type == ResponseType::fatigue ? &S::endurance_limit : &S::fatigue,
+            settings_.criterion == FatigueCriterion::soderberg ? &S::yield : &S::ultimate};
+  }
+
+  std::unique_ptr<Signal> make_fatigue() const {
+    std::unique_ptr<Signal> stress;
+    if (body_.is_imported()) {
+      check_elastic();
+      stress = make_plane_stress_signal(body_, model_.gravity, settings_.place);
+    } else {
+      check_section_forces();
+      stress =
+          make_fixed_point_signal(body_, model_.gravity, {settings_.segment, settings_.station});
+    }
+    check_fatigue_data();
+    return make_fatigue_signal(std::move(stress), body_, model_.mechanism.system->variables(),
+                               cycle_strengths());
   }
 
   void check_fatigue_data() const {
-    const BeamElement<double>& element = body_.beam.elements.front();
+    const Strengths<double> strengths = strengths_of(body_);
+    const CycleStrengths needed = cycle_strengths();
     const bool is_damage = settings_.type == ResponseType::fatigue_damage;
     const bool is_yield = settings_.criterion == FatigueCriterion::soderberg;
-    const double of_mean = is_yield ? element.strength : element.ultimate_strength;
-    const bool has_amplitude =
-        is_damage ? element.fatigue_strength > 0.0 && element.fatigue_exponent > 0.0
-                  : element.endurance_limit > 0.0;
-    if (has_amplitude && of_mean > 0.0) return;
+    const bool has_exponent = !is_damage || strengths.fatigue_exponent > 0.0;
+    if (has_exponent && strengths.*needed.of_amplitude > 0.0 && strengths.*needed.of_mean > 0.0) {
+      return;
+    }
     fail(fmt::format("the material of \"{}\" needs {} and {}", body_.name,
                      is_damage ? "a fatigue strength with its exponent" : "an endurance limit",
                      is_yield ? "a strength" : "an ultimate strength"));
@@ -139,8 +157,8 @@ class BodySignalMaker {
 
   std::unique_ptr<Signal> make_stress() const {
     if (body_.is_imported()) {
-      if (!body_.is_elastic) fail(fmt::format("\"{}\" is rigid", body_.name));
-      return make_point_stress_signal(body_, model_.gravity, settings_.part);
+      check_elastic();
+      return make_point_stress_signal(body_, model_.gravity, settings_.part, settings_.place);
     }
     check_section_forces();
     const bool is_averaged = settings_.over_time == OverTime::mean ||
@@ -164,6 +182,7 @@ class BodySignalMaker {
 
   /// Of the whole beam, also where the body is a part of it.
   std::unique_ptr<Signal> make_buckling() const {
+    if (body_.is_imported()) return make_line_buckling();
     check_section_forces();
     std::vector<std::unique_ptr<Signal>> parts;
     for (const BodyModel* part : model_.parts(body_.name)) {
@@ -178,6 +197,17 @@ class BodySignalMaker {
       loads = {*std::min_element(loads.begin(), loads.end(), is_weaker)};
     }
     return make_buckling_signal(std::make_unique<SignalList>(std::move(parts)), std::move(loads));
+  }
+
+  std::unique_ptr<Signal> make_line_buckling() const {
+    check_elastic();
+    try {
+      return make_buckling_signal(
+          make_line_compression_signal(body_, model_.gravity),
+          {pinned_line_load(body_, *settings_.chord, model_.mechanism.system->variables())});
+    } catch (const InputError& error) {
+      fail(error.what());
+    }
   }
 
   /// The same.
@@ -213,9 +243,7 @@ class BodySignalMaker {
   std::unique_ptr<Signal> make_deflection() const {
     switch (settings_.against) {
       case DeflectionReference::frame:
-        if (body_.is_imported() && !body_.is_elastic) {
-          fail(fmt::format("\"{}\" is rigid", body_.name));
-        }
+        if (body_.is_imported()) check_elastic();
         return make_deflection_signal(body_, point(), settings_.direction);
       case DeflectionReference::chord:
         return make_chord_deflection();
@@ -227,7 +255,7 @@ class BodySignalMaker {
   /// Against the straight line through both ends of a beam, whatever its frame.
   std::unique_ptr<Signal> make_chord_deflection() const {
     if (settings_.chord) {
-      if (!body_.is_elastic) fail(fmt::format("\"{}\" is rigid", body_.name));
+      check_elastic();
       return make_place_deflection(body_, settings_.place, *settings_.chord,
                                    model_.mechanism.system->variables(), settings_.direction);
     }

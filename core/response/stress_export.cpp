@@ -8,6 +8,7 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
+#include "core/response/body_strengths.hpp"
 #include "core/response/section_forces.hpp"
 #include "core/response/stress_signal.hpp"
 
@@ -29,7 +30,7 @@ StressExport::StressExport(const BodyModel& body, const std::vector<NamedPlace>&
 void StressExport::find_stress_places() {
   const bool is_planar = body_.frame.rotation == RotationCoordinates::angle;
   for (int s = 0; s < int_size(stations_); ++s) {
-    const std::string node = fmt::format("node {}", stations_[s].place);
+    const std::string node = describe(stations_[s], body_);
     const SectionProperties<double>& section = section_of(body_.beam, s);
     if (section.is_round() && !is_planar) {
       for (int i = 0; i < outline_points; ++i) {
@@ -101,10 +102,25 @@ SparseMatrix StressExport::of_named_places(const SparseMatrix& of_nodes) const {
   return of_nodes * nodes;
 }
 
-StressRecovery StressExport::recovery_of(const Recovery& stress, double strength) const {
+/// One for each segment, where there are several.
+std::vector<PointGroup> StressExport::segment_groups() const {
+  const std::vector<MeshElement>& elements = body_.mesh.elements;
+  std::vector<PointGroup> groups(static_cast<std::size_t>(elements.back().segment) + 1);
+  if (groups.size() == 1) return {};
+  for (std::size_t i = 0; i < groups.size(); ++i) groups[i].name = fmt::format("segment {}", i);
+  for (int i = 0; i < int_size(stress_places_); ++i) {
+    const int element = stations_[stress_places_[i].station].elements.front();
+    groups[elements[element].segment].points.push_back(i);
+  }
+  return groups;
+}
+
+StressRecovery StressExport::recovery_of(const Recovery& stress,
+                                         const Strengths<double>& strengths) const {
   StressRecovery recovery;
   for (const StressPlace& place : stress_places_) recovery.points.push_back(place.name);
-  recovery.strength = strength;
+  recovery.groups = segment_groups();
+  recovery.strengths = strengths;
   recovery.of_coordinates = stress.of_coordinates.pruned();
   recovery.of_accelerations = of_named_places(stress.of_accelerations).pruned();
   recovery.of_stretching = stress.of_stretching.pruned();
@@ -116,7 +132,7 @@ StressRecovery StressExport::value() const {
   const Recovery forces = section_force_recovery(body_, stations_);
   return recovery_of({stress * forces.of_coordinates, stress * forces.of_accelerations,
                       stress * forces.of_stretching},
-                     body_.beam.elements.front().strength);
+                     body_.beam.elements.front().strengths);
 }
 
 StressRecovery StressExport::derivative(std::size_t k) const {
@@ -132,7 +148,7 @@ StressRecovery StressExport::derivative(std::size_t k) const {
   };
   return recovery_of({change(&Recovery::of_coordinates), change(&Recovery::of_accelerations),
                       change(&Recovery::of_stretching)},
-                     derivative_of(beam.elements.front().strength));
+                     derivative_of(beam.elements.front().strengths));
 }
 
 }  // namespace pleuel

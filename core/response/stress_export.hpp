@@ -40,7 +40,8 @@ class StressExport {
   SparseMatrix stress_of_forces(const Beam<Scalar>& beam, const Number& number) const;
   SparseMatrix stress_of_forces() const;
   SparseMatrix of_named_places(const SparseMatrix& of_nodes) const;
-  StressRecovery recovery_of(const Recovery& stress, double strength) const;
+  StressRecovery recovery_of(const Recovery& stress, const Strengths<double>& strengths) const;
+  std::vector<PointGroup> segment_groups() const;
 
   const BodyModel& body_;
   const std::vector<NamedPlace>& places_;

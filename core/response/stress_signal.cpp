@@ -116,7 +116,7 @@ class StressQuantity {
       case StressPart::shear:
         return forces.torque * section.points[place.number].shear;
       case StressPart::utilization:  // a beam has one material
-        return von_mises(section, forces, place) / beam.elements.front().strength;
+        return von_mises(section, forces, place) / beam.elements.front().strengths.yield;
       default:
         return von_mises(section, forces, place);
     }

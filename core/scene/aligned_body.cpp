@@ -41,6 +41,9 @@ void require_same_arrangement(const InvariantsFile& reference, const InvariantsF
         "is "
         "largest, and keep the mesh");
   }
+  if (a.stress && a.stress->groups != b.stress->groups) {
+    throw SimulationError("has other groups of points of stress than at the start");
+  }
   const auto elements = [](const BodyConstants& of) {
     return of.stretching ? of.stretching->elements.size() : 0;
   };

@@ -4,6 +4,9 @@
 #include <cmath>
 
 #include "core/base/diameter.hpp"
+#include "core/base/find_named.hpp"
+#include "core/base/int_size.hpp"
+#include "core/scene/names_of.hpp"
 #include "core/scene/visit_constants.hpp"
 
 namespace pleuel {
@@ -48,6 +51,21 @@ BodyConstants zero_constants(const BodyConstants& like) {
     }
   });
   return zero;
+}
+
+std::vector<int> named_points(const StressRecovery& stress, const std::string& name) {
+  if (const PointGroup* group = find_named(stress.groups, name)) return group->points;
+  std::vector<int> points;
+  for (int i = 0; i < int_size(stress.points); ++i) {
+    if (stress.points[i] == name) points.push_back(i);
+  }
+  return points;
+}
+
+std::vector<std::string> point_names(const StressRecovery& stress) {
+  std::vector<std::string> names = names_of(stress.groups);
+  names.insert(names.end(), stress.points.begin(), stress.points.end());
+  return names;
 }
 
 int nearest_place(const BodyConstants& constants, const Eigen::Vector3d& point) {

@@ -7,6 +7,7 @@
 
 #include <Eigen/SparseCore>
 
+#include "core/base/strengths.hpp"
 #include "core/scene/units.hpp"
 
 /// What the equations of motion and the responses know of the finite-element model of an elastic
@@ -24,13 +25,22 @@ struct BodyPlace {
   SparseMatrix rotation;                               ///< small rotation, 3 × n
 };
 
+/// Points of stress that responses name together.
+struct PointGroup {
+  std::string name;
+  std::vector<int> points;  ///< in rising order
+
+  bool operator==(const PointGroup&) const = default;
+};
+
 /// Stress from the deformation, and from what the inertia load adds within the finite elements:
 ///     σ = of_coordinates q_f + of_accelerations a + of_stretching N
 /// with six rows a point, σ_xx σ_yy σ_zz τ_xy τ_yz τ_xz [Pa].
 struct StressRecovery {
-  std::vector<std::string> points;  ///< names, for people
-  double strength = 0.0;            ///< that stress is compared with [Pa]; 0: not given
-  SparseMatrix of_coordinates;      ///< 6 points × n
+  std::vector<std::string> points;  ///< their names
+  std::vector<PointGroup> groups;
+  Strengths<double> strengths;
+  SparseMatrix of_coordinates;  ///< 6 points × n
   /// Times the accelerations of all places against free fall, three each, 6 points × 3 places.
   SparseMatrix of_accelerations;
   /// Times the axial forces κ ½ dᵀ Ĝ d of the elements of geometric stiffening, 6 points ×
@@ -74,12 +84,27 @@ struct BodyConstants {
 inline constexpr std::array<std::pair<int, int>, 6> moment_pairs = {
     {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {1, 2}, {0, 2}}};
 
+/// The points that a name stands for: those of a group, or all that are called so.
+/// @returns indices; none if the name is unknown
+std::vector<int> named_points(const StressRecovery& stress, const std::string& name);
+
+/// Names of all groups and points.
+std::vector<std::string> point_names(const StressRecovery& stress);
+
 /// The constants as functions of one design variable, at the design of the file.
 struct ConstantsDerivative {
   std::string variable;
   double value = 0.0;  ///< of the variable [SI]
   std::string unit;    ///< SI
   std::optional<BodyConstants> derivative;
+};
+
+/// The surface of a body, for pictures.
+struct BodySurface {
+  Eigen::Matrix3Xd positions;                 ///< of its points [m]
+  std::vector<std::array<int, 3>> triangles;  ///< of points
+  Eigen::MatrixXd displacement;               ///< of the points per coordinate, 3 points × n
+  double young = 0.0, poisson = 0.0;          ///< E [Pa], ν: what makes stress of strain
 };
 
 /// A file of invariants.
@@ -89,6 +114,7 @@ struct InvariantsFile {
   std::vector<std::string> coordinates;  ///< names of q_f, in their order
   BodyConstants constants;
   std::vector<ConstantsDerivative> design;
+  std::optional<BodySurface> surface;
 };
 
 /// to += factor · change

@@ -118,6 +118,7 @@ class ContinuedBody : public BodySource {
     const Expansion outside = others_->at(x.cwiseQuotient(unit_));
     chart_.take_exponentials(inside.value, inside.slopes);
     InvariantsFile file = *files_.front();
+    file.surface.reset();  // nobody has seen it
     file.constants = outside.value;
     add_constants(file.constants, 1.0, inside.value);
     for (int i = 0; i < int_size(x); ++i) {

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "core/base/strengths.hpp"
+
 namespace pleuel {
 
 /// Visits the numbers of two sets of constants of the same arrangement, block by block: numbers,
@@ -23,7 +25,9 @@ void visit_constants(First& a, Second& b, const Visit& visit) {
     visit(a.places[i].rotation, b.places[i].rotation);
   }
   if (a.stress) {
-    visit(a.stress->strength, b.stress->strength);
+    for (const auto& [word, member] : strength_members<double>) {
+      visit(a.stress->strengths.*member, b.stress->strengths.*member);
+    }
     visit(a.stress->of_coordinates, b.stress->of_coordinates);
     visit(a.stress->of_accelerations, b.stress->of_accelerations);
     visit(a.stress->of_stretching, b.stress->of_stretching);

@@ -55,12 +55,22 @@ export interface Segment {
   inner: [number, number][];
 }
 
+/** Of a body from a mesh, in its axes [m]. */
+export interface Surface {
+  positions: Packed;
+  triangles: number[][];
+  displacement: Packed; // of the points, per coordinate
+  young: number; // [Pa]
+  poisson: number;
+}
+
 export interface BodyGeometry {
   origin: Vec3;
   axes: [Vec3, Vec3, Vec3];
   length?: number;
   mass?: number;
   segments?: Segment[];
+  surface?: Surface;
 }
 
 export interface Geometry {
@@ -75,6 +85,8 @@ export interface BodyMotion {
   positions: Packed;
   rotations: Packed;
   stress?: Packed;
+  coordinates?: Packed; // elastic ones, of a body with a surface
+  origins?: Packed; // of its frame
 }
 
 export interface Design {

@@ -64,6 +64,7 @@ Object.assign(runs, {
   stiff: ["simulate", problem("hard/stiff_rod")],
   rigid: ["simulate", problem("hard/squeezer")],
   sliding: ["simulate", problem("spatial_slider_crank")],
+  solid: ["simulate", problem("conrod/stored"), "--no-checks"],
 });
 const pageOf = (name) => join(folder, name === "show" || name === "compare" ? `${name}.html` : `${name}/report.html`);
 
@@ -645,6 +646,23 @@ describe("pages", { concurrency: 3 }, () => {
       assert.equal(await tab.evaluate(() => window.pleuelPlayer.state().scale), 1000);
       await tab.close();
     }
+  });
+
+  // What triangles make of the strain of the surface, against the stress that the elements have at the points of the file.
+  test("a body from a mesh has the colours of its stress, and bends between its joints", async () => {
+    const { tab } = await open("solid");
+    const { value, peak } = result("solid").responses.stress;
+    const drawn = await tab.evaluate((time) => {
+      window.pleuelPlayer.goTo(time);
+      const { stage, state } = window.pleuelPlayer;
+      const rod = stage.actors[0].members[1];
+      const stress = rod.stress();
+      const shank = rod.points.map((p, i) => (p.x > 0.04 && p.x < 0.12 && Math.abs(p.y) > 0.008 ? stress[i] : 0));
+      return { largest: Math.max(...shank), bent: state().scale * rod.deviation(stage.mainPoses().poses[1]) / stage.view.size };
+    }, peak.time);
+    assert.ok(Math.abs(drawn.largest / value - 1) < 0.1, `${drawn.largest} against ${value}`);
+    assert.ok(drawn.bent > 0.001 && drawn.bent < 0.06, `bent by ${drawn.bent} of the mechanism`);
+    await tab.close();
   });
 
   test("warnings of the runs of a study stand on its page", async () => {

@@ -58,8 +58,12 @@ std::vector<const BeamBody*> beams(Keys& keys, const Body* one, R& r, const Scop
   const int segments = beam == nullptr ? most_segments : int_size(beam->segments);
   keys.whole(optional_key("segment"), r.segment, {0, segments - 1},
              "Counted from 0; by default the whole beam.");
-  keys.place(optional_key("at"), r.station,
-             "Only at this place along the beam, from 0 to 1; not with segment.");
+  if (beam == nullptr && r.type != ResponseType::shear_stress) {
+    keys.other(optional_key("at"), "stress_place", "");
+  } else {
+    keys.place(optional_key("at"), r.station,
+               "Only at this place along the beam, from 0 to 1; not with segment.");
+  }
   return found;
 }
 
@@ -68,16 +72,24 @@ void body_or_bodies(Keys& keys) {
   keys.one_at_least({"body", "bodies"});
 }
 
-/// What the points of stress of a file are good for: they know nothing of sections.
-void imported_stress(Keys& keys, const ImportedBody& body, R& r) {
+/// The points of stress of a file: all, or those that `at` names.
+/// @returns what is known of them; without strengths where the file has no points
+Strengths<double> stress_points(Keys& keys, const ImportedBody& body, R& r) {
   const std::optional<StressRecovery>& stress = body.file->constants.stress;
   keys.must("body", stress.has_value(),
             fmt::format("names a body whose file {} has no block \"stress\"", body.source));
-  for (const char* word : {"bodies", "segment", "at"}) {
-    keys.refused(word, "is for beams only; the points of stress of a file are one set");
+  for (const char* word : {"bodies", "segment"}) {
+    keys.refused(word, "is for beams only; \"at\" names points of stress of a file");
   }
+  if (!stress) return {};
+  keys.name(optional_key("at"), "point or group of points", point_names(*stress), r.place, "");
+  return stress->strengths;
+}
+
+void imported_stress(Keys& keys, const ImportedBody& body, R& r) {
+  const Strengths<double> strengths = stress_points(keys, body, r);
   keys.choice(optional_key("part"), r.part, imported_stress_parts, "");
-  keys.must("part", r.part != StressPart::utilization || (stress && stress->strength != 0.0),
+  keys.must("part", r.part != StressPart::utilization || strengths.yield != 0.0,
             fmt::format("needs a strength, which the file {} does not give", body.source));
 }
 
@@ -139,21 +151,29 @@ void shear_stress(Keys& keys, R& r, const Scope& scope) {
 
 namespace {
 
-/// What a criterion needs of a material, and what the endurance or the damage does.
-void fatigue_data(Keys& keys, const R& r, const Material& material) {
-  const auto need = [&](bool is_asked, const auto& number, const char* word) {
-    keys.must("criterion", !is_asked || number,
-              fmt::format("needs the \"{}\" of the material \"{}\", which has none: give it in "
-                          "/scene/materials",
-                          word, material.name));
+/// What a criterion needs to know, and what the endurance or the damage does.
+/// @param given  not zero where it is
+/// @param where  what lacks it
+void fatigue_data(Keys& keys, const R& r, const Strengths<double>& given,
+                  const std::string& where) {
+  const auto need = [&](bool is_asked, double number, std::string_view word) {
+    keys.must("criterion", !is_asked || number > 0.0,
+              fmt::format("needs the \"{}\" of {}", word, where));
   };
   const bool is_damage = r.type == ResponseType::fatigue_damage;
   const bool is_soderberg = r.criterion == FatigueCriterion::soderberg;
-  need(!is_damage, material.endurance_limit, "endurance_limit");
-  need(is_damage, material.fatigue_strength, "fatigue_strength");
-  need(is_damage, material.fatigue_exponent, "fatigue_exponent");
-  need(is_soderberg, material.strength, "strength");
-  need(!is_soderberg, material.ultimate_strength, "ultimate_strength");
+  need(!is_damage, given.endurance_limit, "endurance_limit");
+  need(is_damage, given.fatigue, "fatigue_strength");
+  need(is_damage, given.fatigue_exponent, fatigue_exponent_word);
+  need(is_soderberg, given.yield, "strength");
+  need(!is_soderberg, given.ultimate, "ultimate_strength");
+}
+
+/// 1 for each that is given, by a number or by a variable.
+Strengths<double> given_strengths(const Material& material) {
+  const auto one = [](const auto& number) { return number ? 1.0 : 0.0; };
+  return {one(material.strength), one(material.ultimate_strength), one(material.endurance_limit),
+          one(material.fatigue_strength), one(material.fatigue_exponent)};
 }
 
 }  // namespace
@@ -182,9 +202,17 @@ void fatigue(Keys& keys, R& r, const Scope& scope) {
   r.over_time = OverTime::final;
   const Key key = is_damage ? Key("body") : optional_key("body");
   const Body* one = body(keys, key, r, scope, "An elastic beam.");
-  for (const BeamBody* beam : beams(keys, one, r, scope)) {
-    const Material* material = find_named(scope.scene.materials, beam->material);
-    if (material != nullptr) fatigue_data(keys, r, *material);
+  if (const auto* imported = shape_of<ImportedBody>(one)) {
+    fatigue_data(keys, r, stress_points(keys, *imported, r),
+                 fmt::format("the file {}, which does not give it", imported->source));
+  } else {
+    for (const BeamBody* beam : beams(keys, one, r, scope)) {
+      const Material* material = find_named(scope.scene.materials, beam->material);
+      if (material == nullptr) continue;
+      fatigue_data(keys, r, given_strengths(*material),
+                   fmt::format("the material \"{}\", which has none: give it in /scene/materials",
+                               material->name));
+    }
   }
   window(keys, r, scope);
 }
@@ -204,31 +232,11 @@ void section_force(Keys& keys, R& r, const Scope& scope) {
   history(keys, r, scope);
 }
 
-void buckling(Keys& keys, R& r, const Scope& scope) {
-  keys.about(
-      r.type == ResponseType::buckling
-          ? "Compressive force of a beam over the Euler load of the same beam pinned at both "
-            "ends."
-          : "Section forces of a beam, which its joints hold sideways, over those at which it "
-            "buckles out of the plane in which it bends, sideways as a column, by twisting "
-            "under its bending moment, or both; 0 where nothing buckles.");
-  elastic_beam(keys, "body", r, scope);
-  history(keys, r, scope);
-}
-
 namespace {
 
 /// The places at both ends of a chord of an imported body.
-void chord(Keys& keys, const ImportedBody* imported, R& r) {
-  if (imported == nullptr || r.against != DeflectionReference::chord) {
-    keys.must("chord", false,
-              "is for imported bodies with \"against\": \"chord\"; that of a beam is through its "
-              "ends");
-    keys.other(optional_key("chord"), "two_places",
-               "Of an imported body: the places at both ends of its chord.");
-    return;
-  }
-  const std::vector<BodyPlace>& places = imported->file->constants.places;
+void chord_of_places(Keys& keys, const ImportedBody& imported, R& r) {
+  const std::vector<BodyPlace>& places = imported.file->constants.places;
   std::array<std::string, 2> ends;
   keys.two_names("chord", "place", names_of(places), ends, "");
   const auto *first = find_named(places, ends[0]), *second = find_named(places, ends[1]);
@@ -238,7 +246,40 @@ void chord(Keys& keys, const ImportedBody* imported, R& r) {
   r.chord = ends;
 }
 
+/// A beam has its chord through its ends.
+void no_chord(Keys& keys, const std::string& rule, std::string_view sentence) {
+  keys.must("chord", false, rule);
+  keys.other(optional_key("chord"), "two_places", sentence);
+}
+
 }  // namespace
+
+void buckling(Keys& keys, R& r, const Scope& scope) {
+  const bool is_lateral = r.type == ResponseType::lateral_buckling;
+  keys.about(
+      is_lateral
+          ? "Section forces of a beam, which its joints hold sideways, over those at which it "
+            "buckles out of the plane in which it bends, sideways as a column, by twisting "
+            "under its bending moment, or both; 0 where nothing buckles."
+          : "Compressive force of a beam over the Euler load of the same beam pinned at both "
+            "ends; or of the stiffening of an imported body over the force under which the body, "
+            "pinned at both ends of its chord, buckles.");
+  const Body* one = body(keys, "body", r, scope, "An elastic beam.");
+  const auto* imported = is_lateral ? nullptr : shape_of<ImportedBody>(one);
+  if (imported != nullptr) {
+    keys.must(
+        "body", imported->file->constants.stretching.has_value(),
+        fmt::format("names a body whose file {} has no block \"stiffening\"", imported->source));
+    chord_of_places(keys, *imported, r);
+  } else {
+    elastic_beam(keys, one);
+    if (!is_lateral) {
+      no_chord(keys, "is for imported bodies; a beam is pinned at its ends",
+               "Of an imported body: the places at both ends of its stiffening.");
+    }
+  }
+  history(keys, r, scope);
+}
 
 void deflection(Keys& keys, R& r, const Scope& scope) {
   keys.about(
@@ -251,7 +292,14 @@ void deflection(Keys& keys, R& r, const Scope& scope) {
   keys.choice(optional_key("against"), r.against, references,
               "The body frame, the straight line through both ends, or the same mechanism without "
               "elasticity.");
-  chord(keys, imported, r);
+  if (imported != nullptr && r.against == DeflectionReference::chord) {
+    chord_of_places(keys, *imported, r);
+  } else {
+    no_chord(keys,
+             "is for imported bodies with \"against\": \"chord\"; that of a beam is through its "
+             "ends",
+             "Of an imported body: the places at both ends of its chord.");
+  }
   if (r.against == DeflectionReference::rigid_mechanism) {
     keys.choice("direction", r.direction, axes, "");
   } else if (r.against == DeflectionReference::chord) {

@@ -68,6 +68,9 @@ void describe(Keys& keys, ImportedBody& s) {
   keys.point("to", s.to, quantities::length, "A point on its local x axis {}.");
   keys.direction(optional_key("reference"), s.reference,
                  "Local y is the part of this vector normal to local x; as of a beam.");
+  keys.refused("frames",
+               "is for beams: a body from a file has one frame; where it bends far, import it in "
+               "several, joined by fixed joints");
   keys.choice(optional_key("other_designs"), s.is_linear, elsewhere,
               "At other designs than that of the file: an error, or its numbers continued "
               "linearly.");

@@ -129,15 +129,60 @@ void read_changes_of_places(const JsonNode& node, BodyConstants& change) {
   }
 }
 
-void read_stress_matrices(const JsonNode& node, StressRecovery& stress) {
-  if (const auto strength = node.find("strength")) stress.strength = read_number(*strength);
+/// Keys that derivatives have, too.
+std::vector<std::string_view> stress_keys() {
+  std::vector<std::string_view> keys = {"of_coordinates", "of_accelerations", "of_stretching"};
+  for (const auto& [word, member] : strength_members<double>) keys.push_back(word);
+  return keys;
+}
+
+void read_stress_numbers(const JsonNode& node, StressRecovery& stress) {
+  for (const auto& [word, member] : strength_members<double>) {
+    if (const auto strength = node.find(std::string(word))) {
+      stress.strengths.*member = read_number(*strength);
+    }
+  }
   read_into(node, "of_coordinates", stress.of_coordinates);
   read_into(node, "of_accelerations", stress.of_accelerations);
   read_into(node, "of_stretching", stress.of_stretching);
 }
 
+std::vector<int> read_group(const JsonNode& node, const StressRecovery& stress) {
+  std::set<int> members;
+  for (const JsonNode& item : node.items()) {
+    const std::string name = item.text();
+    const std::vector<int> found = named_points(stress, name);
+    if (found.empty()) fail_unknown_name(item, "point", name, stress.points);
+    members.insert(found.begin(), found.end());
+  }
+  if (members.empty()) node.fail("must name at least one point");
+  return {members.begin(), members.end()};
+}
+
+void read_groups(const JsonNode& node, StressRecovery& stress) {
+  std::vector<PointGroup> groups;
+  for (const auto& [name, member] : node.members()) {
+    if (!named_points(stress, name).empty()) member.fail("has the name of a point");
+    groups.push_back({name, read_group(member, stress)});
+  }
+  stress.groups = std::move(groups);
+}
+
+void read_strengths(const JsonNode& node, Strengths<double>& strengths) {
+  for (const auto& [word, member] : strength_members<double>) {
+    const auto strength = node.find(std::string(word));
+    if (strength && strengths.*member <= 0.0) strength->fail_with_value("must be positive [Pa]");
+  }
+  const auto exponent = node.find(std::string(fatigue_exponent_word));
+  if (!exponent) return;
+  strengths.fatigue_exponent = read_number(*exponent);
+  if (strengths.fatigue_exponent < 1.0) exponent->fail_with_value("must be at least 1");
+}
+
 void read_stress(const JsonNode& node, BodyConstants& constants) {
-  node.allow_keys({"points", "strength", "of_coordinates", "of_accelerations", "of_stretching"});
+  std::vector<std::string_view> keys = stress_keys();
+  keys.insert(keys.end(), {"points", "groups", fatigue_exponent_word});
+  node.allow_keys(keys);
   StressRecovery stress;
   for (const JsonNode& point : node.at("points").items()) stress.points.push_back(point.text());
   if (stress.points.empty()) node.at("points").fail("must have at least one point");
@@ -150,10 +195,9 @@ void read_stress(const JsonNode& node, BodyConstants& constants) {
   if (node.find("of_stretching") && !constants.stretching) {
     node.at("of_stretching").fail("needs the block \"stiffening\"");
   }
-  read_stress_matrices(node, stress);
-  if (node.find("strength") && stress.strength <= 0.0) {
-    node.at("strength").fail_with_value("must be positive [Pa]");
-  }
+  if (const auto groups = node.find("groups")) read_groups(*groups, stress);
+  read_stress_numbers(node, stress);
+  read_strengths(node, stress.strengths);
   constants.stress = std::move(stress);
 }
 
@@ -234,8 +278,8 @@ BodyConstants read_derivative(const JsonNode& node, const BodyConstants& of) {
   if (const auto places = node.find("places")) read_changes_of_places(*places, change);
   if (const auto stress = node.find("stress")) {
     if (!change.stress) stress->fail("has no block of the same name outside the derivatives");
-    stress->allow_keys({"strength", "of_coordinates", "of_accelerations", "of_stretching"});
-    read_stress_matrices(*stress, *change.stress);
+    stress->allow_keys(stress_keys());
+    read_stress_numbers(*stress, *change.stress);
   }
   if (const auto stiffening = node.find("stiffening")) {
     if (!change.stretching) {

@@ -139,6 +139,7 @@ class GeneratedBody : public BodySource {
     const SparseMatrix t = alignment(values, *first_, file);
     file.coordinates = first_->coordinates;
     file.constants = in_coordinates(std::move(file.constants), t);
+    if (file.surface) file.surface->displacement *= Eigen::MatrixXd(t);
     for (ConstantsDerivative& of : file.design) {
       of.derivative = in_coordinates(std::move(*of.derivative), t);
     }

@@ -4,6 +4,7 @@
 #include "core/scene/invariants_file.hpp"
 #include "core/scene/reading/constants_check.hpp"
 #include "core/scene/reading/constants_reader.hpp"
+#include "core/scene/reading/surface_reader.hpp"
 #include "core/scene/reading/text_file.hpp"
 
 namespace pleuel {
@@ -28,8 +29,8 @@ void check_format(const JsonNode& root) {
 
 void read_heading(const JsonNode& root, InvariantsFile& file) {
   root.allow_keys({"format", "version", "body", "description", "units", "reference_condition",
-                   "coordinates", "invariants", "places", "stress", "stiffening", "design",
-                   "derivatives"});
+                   "coordinates", "invariants", "places", "stress", "stiffening", "surface",
+                   "design", "derivatives"});
   check_format(root);
   file.body = root.at("body").text();
   if (const auto description = root.find("description")) file.description = description->text();
@@ -77,6 +78,9 @@ InvariantsFile read_invariants_text(const std::string& text, const std::string& 
   check_constants(root, file.constants);
   file.design = read_design(root);
   read_derivatives(root, file);
+  if (const auto surface = root.find("surface")) {
+    file.surface = read_surface(*surface, file.constants.size());
+  }
   return file;
 }
 

@@ -1,5 +1,7 @@
 #include "core/scene/reading/invariants_writer.hpp"
 
+#include <string>
+
 #include <fmt/format.h>
 
 #include "core/scene/invariants_file.hpp"
@@ -59,10 +61,28 @@ Json places_json(const BodyConstants& constants) {
   return json;
 }
 
+Json groups_json(const StressRecovery& stress) {
+  Json json = Json::object();
+  for (const PointGroup& group : stress.groups) {
+    json[group.name] = Json::array();
+    for (const int point : group.points) json[group.name].push_back(stress.points[point]);
+  }
+  return json;
+}
+
 Json stress_json(const StressRecovery& stress, bool is_derivative) {
   Json json = Json::object();
-  if (!is_derivative) json["points"] = stress.points;
-  if (is_derivative || stress.strength > 0.0) json["strength"] = stress.strength;
+  if (!is_derivative) {
+    json["points"] = stress.points;
+    if (!stress.groups.empty()) json["groups"] = groups_json(stress);
+  }
+  for (const auto& [word, member] : strength_members<double>) {
+    const double strength = stress.strengths.*member;
+    if (strength != 0.0) json[std::string(word)] = strength;
+  }
+  if (!is_derivative && stress.strengths.fatigue_exponent > 0.0) {
+    json[std::string(fatigue_exponent_word)] = stress.strengths.fatigue_exponent;
+  }
   json["of_coordinates"] = entries_json(stress.of_coordinates);
   json["of_accelerations"] = entries_json(stress.of_accelerations);
   if (stress.of_stretching.cols() > 0) {
@@ -87,6 +107,21 @@ Json stiffening_json(const Stretching& stretching, bool is_derivative) {
     item["slopes"] = rows_json(element.slopes);
     json["elements"].push_back(std::move(item));
   }
+  return json;
+}
+
+/// For pictures: single precision is enough.
+double rounded(double number) {
+  return std::stod(fmt::format("{:.7g}", number));
+}
+
+Json surface_json(const BodySurface& surface) {
+  Json json = {{"young", surface.young}, {"poisson", surface.poisson}};
+  const Eigen::Matrix3Xd positions = surface.positions.unaryExpr(&rounded);
+  json["positions"] = rows_json(positions.transpose());
+  json["triangles"] = surface.triangles;
+  const Eigen::MatrixXd displacement = surface.displacement.unaryExpr(&rounded);
+  json["displacement"] = rows_json(displacement);
   return json;
 }
 
@@ -133,6 +168,7 @@ std::string write_invariants(const InvariantsFile& file) {
   json["reference_condition"] = file.reference_condition;
   json["coordinates"] = file.coordinates;
   json.update(blocks_json(file.constants, false));
+  if (file.surface) json["surface"] = surface_json(*file.surface);
   json["design"] = Json::object();
   for (const ConstantsDerivative& of : file.design) {
     json["design"][of.variable] = {{"value", of.value}, {"unit", of.unit}};

@@ -21,6 +21,7 @@ import {
 import type { BodyGeometry, SceneBody, Segment } from "../data";
 import { stressColor } from "../theme";
 import { type BodyPose, type Motion, pointAlong, stressAlong } from "./pose";
+import { SurfaceMember } from "./surface";
 
 export interface Look {
   color: [number, number, number];
@@ -35,6 +36,8 @@ export interface Member {
   body: number;
   update(pose: BodyPose, poses: BodyPose[], limit: number | null): void;
   setLook(look: Look, isSelected: boolean): void;
+  /** How far it leaves what the places do that joints hold [m]; of beams the motion tells. */
+  deviation?(pose: BodyPose): number;
 }
 
 /** Stations at which a beam is drawn: those of the pose within a segment, and its ends. */
@@ -229,6 +232,12 @@ function heldPoints(motion: Motion, body: number): Vector3[] {
   return places.map((place) => new Vector3(...(place.point ?? [0, 0, 0])));
 }
 
+/** In the frame of a body: where joints hold it, along its x axis. */
+function heldByJoints(motion: Motion, body: number): Vector3[] {
+  const places = motion.design.geometry.joints.flatMap((joint) => joint.places).filter((place) => place.body === body);
+  return places.map((place) => new Vector3(...(place.point ?? [0, 0, 0]))).sort((a, b) => a.x - b.x);
+}
+
 /** In the frame of a body: where the joint that it slides in holds it, turned along that. */
 function guideOf(motion: Motion, body: number): { point: Vector3; turn: Quaternion } | null {
   const { joints } = motion.design.geometry;
@@ -332,6 +341,7 @@ export function makeMember(
   size: number,
 ): Member {
   const stations = motion.bodies[body].stations;
+  if (geometry.surface) return new SurfaceMember(body, geometry.surface, heldByJoints(motion, body));
   if (geometry.segments) return new BeamMember(body, geometry.segments, stations);
   if (description.type === "invariants" && stations.length > 1) {
     // Places along local x, as shares of their range.

@@ -1,5 +1,5 @@
 // The moving drawing with its controls, and the clock that charts follow.
-import type { Picture } from "../data";
+import type { Design, Picture } from "../data";
 import { h } from "../dom";
 import { number, seconds, words } from "../format";
 import { onTheme, stressGradient } from "../theme";
@@ -40,12 +40,18 @@ const largestDefault = 100;
 const shownDeformation = 0.05;
 const secondsOfLoop = 8;
 
+/** Whether stress of a body, or of any, can be drawn. */
+function hasStress(design: Design, body: number): boolean {
+  const motion = design.motion?.bodies[body];
+  return !!motion?.stress || (!!motion?.coordinates && !!design.geometry.bodies[body].surface);
+}
+const hasAnyStress = (design: Design) => design.geometry.bodies.some((_, i) => hasStress(design, i));
+
 /** Largest stress that colours reach: the limit of the body, else its strength, else what it sees. */
 function stressLimits(picture: Picture, main: number): (number | null)[] {
   return picture.scene.bodies.map((body, i) => {
     if (body.stress_limit) return body.stress_limit;
-    const stress = picture.designs[main].motion?.bodies[i].stress;
-    if (!stress) return null;
+    if (!hasStress(picture.designs[main], i)) return null;
     if (body.strength) return body.strength;
     return null;
   });
@@ -55,7 +61,7 @@ export function makePlayer(options: PlayerOptions): Player {
   const { picture } = options;
   const end = picture.scene.end_time;
   const isMoving = picture.designs.some((design) => design.motion);
-  const hasStress = picture.designs.some((design) => design.motion?.bodies.some((body) => body.stress));
+  const isColoured = picture.designs.some(hasAnyStress);
   const listeners: ((time: number) => void)[] = [];
   const host = h("div.stage", {
     tabindex: 0,
@@ -152,7 +158,7 @@ export function makePlayer(options: PlayerOptions): Player {
         slider,
         clock,
         choice("speed", speeds(end), "1", (value) => (speed = Number(value))),
-        hasStress && choice(
+        isColoured && choice(
           "deformation",
           scales.map((s) => [String(s), `× ${s}`]),
           String(scale),
@@ -177,7 +183,7 @@ export function makePlayer(options: PlayerOptions): Player {
         }),
       );
     }
-    if (hasStress) {
+    if (isColoured) {
       corner.append(
         choice("colour", [["stress", "stress"], ["plain", "plain"]], "stress", (value) => {
           shown.setStressShown(value === "stress");
@@ -206,7 +212,7 @@ export function makePlayer(options: PlayerOptions): Player {
 
   function drawingButton(shown: Stage, kind: "svg" | "png"): HTMLElement {
     const save = () => {
-      const what = isMoving ? `${words(picture.name)} at ${seconds(time)}${hasStress ? `, deformation × ${scale}` : ""}` : words(picture.name);
+      const what = isMoving ? `${words(picture.name)} at ${seconds(time)}${isColoured ? `, deformation × ${scale}` : ""}` : words(picture.name);
       const colours = legendText(picture, options.main);
       saveDrawing(shown, kind, picture.name.replace(/[^A-Za-z0-9]+/g, "-"), what, colours && colours.join(" "));
     };
@@ -273,7 +279,7 @@ export function makePlayer(options: PlayerOptions): Player {
 
   const legend = legendOf(picture, options.main);
   if (legend && stage) element.append(legend);
-  if (hasStress && stage) element.append(factor);
+  if (isColoured && stage) element.append(factor);
   show();
   if (isMoving && stage && !window.matchMedia("(prefers-reduced-motion: reduce)").matches) setPlaying(true);
   const stopTheme = onTheme(() => stage?.show(time, scale));
@@ -318,7 +324,7 @@ function speeds(end: number): string[][] {
 
 /** So that the largest deformation is seen and stands in proportion to the mechanism. */
 function usefulScale(stage: Stage): number {
-  const largest = Math.max(...stage.motions.map((motion) => motion.largestDeviation()));
+  const largest = stage.largestDeviation();
   if (!(largest > 0)) return 1;
   const wanted = Math.min((shownDeformation * stage.view.size) / largest, largestDefault);
   return scales.filter((s) => s <= wanted).pop() ?? 1;
@@ -328,7 +334,7 @@ function usefulScale(stage: Stage): number {
 function legendText(picture: Picture, main: number): [string, string] | null {
   const limits = stressLimits(picture, main);
   const known = [...new Set(limits.filter((limit): limit is number => limit !== null))];
-  if (!picture.designs[main].motion?.bodies.some((body) => body.stress) || !known.length) return null;
+  if (!hasAnyStress(picture.designs[main]) || !known.length) return null;
   const isLimit = picture.scene.bodies.some((body, i) => limits[i] !== null && body.stress_limit);
   return [
     known.length === 1 ? `${number(known[0] / 1e6, 3)} MPa` : "100 %",

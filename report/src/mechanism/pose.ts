@@ -9,6 +9,8 @@ export interface BodyPose {
   frames: Quaternion[]; // one a station
   origin: Vector3; // of the first frame
   stress: number[] | null; // at the stations [Pa]
+  /** Of a body with a surface: its frame's origin, and by how much deformation is enlarged. */
+  elastic: { coordinates: number[]; origin: Vector3; scale: number } | null;
 }
 
 interface MovingBody {
@@ -18,6 +20,7 @@ interface MovingBody {
   rotations: Float32Array;
   frameCount: number;
   stress: Float32Array | null;
+  elastic: { coordinates: Float32Array; origins: Float32Array; size: number } | null;
 }
 
 /** Motion of a design that can be asked for any instant. */
@@ -132,6 +135,7 @@ export class Motion {
             return a + part * (b - a);
           })
         : null,
+      elastic: elasticPose(body, index, next, part, scale),
     };
   }
 
@@ -181,6 +185,7 @@ export class Motion {
       rotations: new Float32Array([q.x, q.y, q.z, q.w]),
       frameCount: 1,
       stress: null,
+      elastic: null,
     };
   }
 }
@@ -193,7 +198,21 @@ function movingBody(body: NonNullable<Design["motion"]>["bodies"][number]): Movi
     rotations: unpack(body.rotations),
     frameCount: body.rotations.rows / 4,
     stress: body.stress ? unpack(body.stress) : null,
+    elastic:
+      body.coordinates && body.origins
+        ? { coordinates: unpack(body.coordinates), origins: unpack(body.origins), size: body.coordinates.rows }
+        : null,
   };
+}
+
+/** Between two frames of the motion. */
+function elasticPose(body: MovingBody, index: number, next: number, part: number, scale: number): BodyPose["elastic"] {
+  if (!body.elastic) return null;
+  const { coordinates, origins, size } = body.elastic;
+  const between = (all: Float32Array, rows: number) =>
+    Array.from({ length: rows }, (_, k) => all[index * rows + k] + part * (all[next * rows + k] - all[index * rows + k]));
+  const [x, y, z] = between(origins, 3);
+  return { coordinates: between(coordinates, size), origin: new Vector3(x, y, z), scale };
 }
 
 function quaternionOf(axes: [number, number, number][]): Quaternion {

@@ -21,6 +21,7 @@ import { inLight } from "../paper";
 import { color, onTheme, scheme } from "../theme";
 import { type Look, makeMember, type Member } from "./members";
 import { type BodyPose, Motion } from "./pose";
+import { boxCorners } from "./surface";
 import { jointSymbol, loadSymbol, repaint, type Symbol3, type View } from "./symbols";
 
 interface Actor {
@@ -214,6 +215,20 @@ export class Stage {
     return { x: box.left + ((p.x + 1) / 2) * box.width, y: box.top + ((1 - p.y) / 2) * box.height };
   }
 
+  /** Of all members from their undeformed shape, over all instants [m]. */
+  largestDeviation(): number {
+    let largest = Math.max(...this.motions.map((motion) => motion.largestDeviation()));
+    for (const { motion, members } of this.actors) {
+      const stride = Math.max(1, Math.floor(motion.time.length / 30));
+      const surfaces = members.filter((member) => member.deviation);
+      for (let i = 0; surfaces.length && i < motion.time.length; i += stride) {
+        const poses = motion.poses(motion.time[i], 1);
+        for (const member of surfaces) largest = Math.max(largest, member.deviation!(poses[member.body]));
+      }
+    }
+    return largest;
+  }
+
   resetCamera(): void {
     const side = new Vector3().crossVectors(this.view.up, this.view.normal);
     const eye = this.view.isPlanar
@@ -293,10 +308,13 @@ export class Stage {
     const points: Vector3[] = [];
     for (const motion of this.motions) {
       const stride = Math.max(1, Math.floor(motion.time.length / 50));
+      const boxes = motion.design.geometry.bodies.map(({ surface }) => (surface ? boxCorners(surface) : []));
       for (let i = 0; i < motion.time.length; i += stride) {
-        for (const pose of motion.poses(motion.time[i], 1)) {
+        motion.poses(motion.time[i], 1).forEach((pose, k) => {
           points.push(pose.points[0], pose.points[pose.points.length - 1]);
-        }
+          const origin = pose.elastic?.origin ?? pose.origin;
+          for (const corner of boxes[k]) points.push(corner.clone().applyQuaternion(pose.frames[0]).add(origin));
+        });
       }
       for (const joint of motion.design.geometry.joints) {
         for (const place of joint.places) if (place.body < 0) points.push(new Vector3(...place.at));

@@ -24,7 +24,7 @@ class Bodies {
       beam.reduction.reset();
       beam.damping = {};
       if (modes) beam.reduction = CraigBampton{*modes, {}};
-      context_.beam_effects[body.name] = decide_beam_effects(body, effects_);
+      context_.beam_effects[body.name] = decide_effects(body, effects_);
     }
     int coordinates = 0;
     for (const Body& body : sample_.scene.bodies) {
