@@ -93,7 +93,7 @@ std::vector<Group> all_groups(const ProblemFile& fixed, const Model& model) {
     const Body* body = find_named(fixed.scene.bodies, record.body);
     if (!body || is_exact(record)) continue;
     EffectSettings settings = settings_of(record.body, plain, fixed.effects.decisions);
-    const BeamEffects as_it_is = decide_effects(*body, settings);
+    const BodyEffects as_it_is = decide_effects(*body, settings);
     settings.decisions.measured[{record.body, record.name}].is_needed = !record.is_built;
     if (is_same(decide_effects(*body, settings), as_it_is)) continue;
     const auto is_its_group = [&](const Group& group) {
