@@ -128,8 +128,7 @@ FirstSteps take_first_steps(const ProblemFile& problem, const Eigen::VectorXd& x
   }
   const double rate = before > 0.0 ? std::max(0.0, (seconds - seconds_before) / (window - before))
                                    : seconds / window;
-  first.seconds =
-      seconds + rate * (end - window + periods_of_start * problem.simulation.period);
+  first.seconds = seconds + rate * (end - window + periods_of_start * problem.simulation.period);
   return first;
 }
 

@@ -20,7 +20,7 @@ TEST(Check, FindsTheDerivativesOfEveryResponseRight) {
     EXPECT_LE(derivatives.at("directions").at(0).at("error"), 1e-6) << name;
     EXPECT_GE(derivatives.at("directions").at(0).at("curve").size(), 4u);
   }
-  EXPECT_EQ(document.at("directions").at(0).size(), 2u);  // both variables together
+  EXPECT_EQ(document.at("directions").at(0).size(), 2u);           // both variables together
   for (const nlohmann::json& warning : document.at("warnings")) {  // of the model alone
     EXPECT_THAT(warning.get<std::string>(), ::testing::HasSubstr("stubby: shear"));
   }
