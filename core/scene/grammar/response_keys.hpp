@@ -52,11 +52,14 @@ void component_of_rate(Keys& keys, R& r, std::string_view sentence);
 /// A place along a beam, or one of an imported body by its name.
 void place(Keys& keys, const Body* body, R& r, std::string_view sentence = "");
 
-// beam_responses.cpp
+// stress_responses.cpp
 
 void stress(Keys& keys, R& r, const Scope& scope);
 void shear_stress(Keys& keys, R& r, const Scope& scope);
 void fatigue(Keys& keys, R& r, const Scope& scope);
+
+// beam_responses.cpp
+
 void section_force(Keys& keys, R& r, const Scope& scope);
 void buckling(Keys& keys, R& r, const Scope& scope);
 void deflection(Keys& keys, R& r, const Scope& scope);
