@@ -25,9 +25,9 @@ TEST(Show, SaysWhatJointsLeaveFreeAndHowLongItTakes) {
 TEST(Show, ExpectsTheSearchForAMotionThatRepeatsItself) {
   const TemporaryFolder folder;
   const auto expected = [&](const std::string& start) {
-    const ProgramRun run = run_program(
-        folder.path(), {"show", problem("running_press"), "-o", start + ".html", "--json", "--set",
-                        "/simulation/initial_state=" + start});
+    const ProgramRun run =
+        run_program(folder.path(), {"show", problem("running_press"), "-o", start + ".html",
+                                    "--json", "--set", "/simulation/initial_state=" + start});
     return run.document().at("seconds").at("simulate").get<double>();
   };
   EXPECT_GT(expected("periodic"), 2.0 * expected("consistent"));
