@@ -14,7 +14,7 @@ namespace pleuel {
 
 namespace {
 
-/// Of one segment, or of an imported body; and of all segments of a beam.
+/// Of one segment; and of all segments of a beam, or all points of an imported body.
 constexpr int places_of_a_part = 4, most_places = 256;
 
 /// Channels of a response that belong together: a place.
@@ -102,6 +102,15 @@ int segments_of(const ProblemFile& file, const ResponseSettings& response) {
   return response.segment ? 1 : int_size(beam->segments);
 }
 
+/// Number of points of an imported body that a response looks at; 0 if it is of another one.
+int points_of(const ProblemFile& file, const ResponseSettings& response) {
+  const auto* imported = std::get_if<ImportedBody>(&body_of(file, response).shape);
+  if (imported == nullptr) return 0;
+  const StressRecovery& stress = *imported->file->constants.stress;
+  return response.place.empty() ? int_size(stress.points)
+                                : int_size(named_points(stress, response.place));
+}
+
 void shift_channels(std::vector<Sample>& samples, Eigen::Index first) {
   for (Sample& sample : samples) sample.channel += static_cast<int>(first);
 }
@@ -157,6 +166,8 @@ int place_count(const ProblemFile& file, const ResponseSettings& response) {
   if (response.bodies.size() > 1) {
     return std::min(places_of_a_part * int_size(response.bodies), most_places);
   }
+  const int points = points_of(file, response);
+  if (points > 0) return std::min(points, most_places);
   const int segments = segments_of(file, response);
   return segments > 1 ? std::min(segments, most_places) : places_of_a_part;
 }

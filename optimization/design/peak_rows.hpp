@@ -21,8 +21,8 @@ bool has_peaks(const ResponseSettings& response);
 bool is_fatigue(const ResponseSettings& response);
 
 /// Into how many places a response of many channels is to be split, since the place of its peak
-/// changes with the design: the stress or fatigue of a whole beam into its segments, that of one segment, or
-/// of an imported body, into a few parts; buckling into both planes in which a beam bends, lateral
+/// changes with the design: the stress or fatigue of a whole beam into its segments, that of one segment
+/// into a few parts, that of an imported body into its points; buckling into both planes in which a beam bends, lateral
 /// buckling in space only; everything else is one place.
 int place_count(const ProblemFile& file, const ResponseSettings& response);
 

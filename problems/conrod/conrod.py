@@ -118,7 +118,7 @@ def model():
             "interfaces": {"big end": bore(0.0, BIG), "small end": bore(LENGTH, SMALL)}, "modes": {"inertia_responses": 2},
             "damping": "2e-6 s", "surface": 2000,
             "stress": {"nodes": {"shank": "POINTS"}, "strength": "400 MPa", "ultimate_strength": "650 MPa",
-                       "endurance_limit": "240 MPa"},
+                       "endurance_limit": "260 MPa"},
             "stiffening": {"from": "big end", "to": "small end", "elements": 8}, "plane": "z = 0"}
 
 
