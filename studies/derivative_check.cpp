@@ -84,6 +84,7 @@ class Check {
                               : magnitudes_(i) == 0.0 ? 1.0
                                                       : check.noise / magnitudes_(i);
       check.relative_noise = std::max(relative, std::numeric_limits<double>::epsilon());
+      check.derivatives = direct_.row(i);
     }
   }
 

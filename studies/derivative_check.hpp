@@ -20,6 +20,7 @@ struct DerivativeCheck {
   double adjoint_error = 0.0;   ///< of the adjoint method against direct differentiation, relative
   double noise = 0.0;           ///< of the value [SI]: see ResponseNoise::floor()
   double relative_noise = 0.0;  ///< of it; at least the round-off of one number
+  Eigen::VectorXd derivatives;  ///< by each variable [SI]
   /// One a direction: derivatives by the relative step along it [SI unit of the response].
   std::vector<JudgedDerivative> directions;
 

@@ -98,8 +98,8 @@ Examination examine(const ProblemFile& problem, const Eigen::VectorXd& x,
 Json responses_with_verdicts(const ProblemFile& problem, const Examination& findings) {
   Json document = responses_document(problem, *findings.analysis);
   for (std::size_t i = 0; i < findings.derivatives.responses.size(); ++i) {
-    document[findings.analysis->responses[i].name]["derivatives"] =
-        derivative_document(findings.derivatives.responses[i]);
+    document[findings.analysis->responses[i].name]["derivatives"] = derivative_document(
+        problem, findings.derivatives.directions, findings.derivatives.responses[i]);
   }
   for (std::size_t i = 0; i < findings.ties.size(); ++i) {
     if (!findings.ties[i]) continue;

@@ -131,7 +131,27 @@ Json directions_document(const ProblemFile& problem,
   });
 }
 
-Json derivative_document(const DerivativeCheck& check) {
+namespace {
+
+/// Each variable is in one of the directions.
+Json variables_document(const ProblemFile& problem, const std::vector<CheckedDirection>& directions,
+                        const DerivativeCheck& check) {
+  Json document = Json::object();
+  for (std::size_t k = 0; k < directions.size(); ++k) {
+    for (const Eigen::Index j : directions[k].variables) {
+      document[problem.variables[j].name] = {{"verdict", to_string(check.directions[k].verdict)},
+                                             {"derivative", check.derivatives(j)},
+                                             {"error", check.directions[k].error}};
+    }
+  }
+  return document;
+}
+
+}  // namespace
+
+Json derivative_document(const ProblemFile& problem,
+                         const std::vector<CheckedDirection>& directions,
+                         const DerivativeCheck& check) {
   const JudgedDerivative& worst = check.worst();
   return {{"verdict", to_string(worst.verdict)},
           {"error", worst.error},
@@ -140,6 +160,7 @@ Json derivative_document(const DerivativeCheck& check) {
           {"noise", check.relative_noise},
           {"digits",
            {{"value", digits_of(check.relative_noise)}, {"gradient", digits_of(worst.error)}}},
+          {"variables", variables_document(problem, directions, check)},
           {"directions", list_of(check.directions, judged_document)}};
 }
 

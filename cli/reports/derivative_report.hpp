@@ -15,8 +15,11 @@ Json directions_document(const ProblemFile& problem,
                          const std::vector<CheckedDirection>& directions);
 
 /// Of one response: {"verdict", "error", "difference_step", "adjoint_error", "noise",
-/// "digits", "directions"}
-Json derivative_document(const DerivativeCheck& check);
+/// "digits", "variables", "directions"}
+/// @param directions  of the check
+Json derivative_document(const ProblemFile& problem,
+                         const std::vector<CheckedDirection>& directions,
+                         const DerivativeCheck& check);
 
 /// A line for each response, then one for each derivative that does not agree.
 std::string derivatives_text(const ProblemFile& problem, const Analysis& analysis,

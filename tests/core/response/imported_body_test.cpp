@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
@@ -84,7 +86,8 @@ TEST_F(Exchange, LosesWithItsStiffeningWhatTheBeamLoses) {
   const ProblemFile imported = read("imported.json", exchanged(document));
   const auto changes = [](const ProblemFile& problem) {
     for (const EffectInfluence& one : effect_influences(problem, start_design(problem))) {
-      if (one.body == "rod" && one.effect == "geometric_stiffening") return one.changes;
+      const bool is_of_rod = std::ranges::find(one.bodies, "rod") != one.bodies.end();
+      if (is_of_rod && one.effect == "geometric_stiffening") return one.changes;
     }
     return Eigen::VectorXd();
   };
