@@ -17,7 +17,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadEdit{"/scene/loads", "[]", "/scene/loads must be an object {…}, got []"},
         BadEdit{
             "/scene/loads/push/place", "[0, 0, 0]",
-            R"(/scene/loads/push has the unknown key "place"; known are "type", "body", "at", "direction", "value" and "follows")"},
+            R"(/scene/loads/push has the unknown key "place"; known are "type", "body", "at", "direction", "value", "follows" and "to")"},
         BadEdit{"/scene/loads/push/body", R"("ground")",
                 R"(/scene/loads/push/body must name a body that can move, got "ground")"},
         BadEdit{"/scene/loads/push/body", R"("arn")",
