@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <ctime>
 #include <limits>
 #include <optional>
@@ -21,9 +22,9 @@
 namespace pleuel::test::chosen_setting_test {
 namespace {
 
-constexpr int scenes = 12;
+constexpr int scenes = 8;
 constexpr unsigned first_seed = 1000;
-constexpr double targets[] = {1e-2, 1e-3, 1e-4};
+constexpr double targets[] = {1e-2, 1e-3};  // of which the reference knows the error
 /// The grid: times the step and the elements of the file.
 constexpr int grid_steps = 13;
 constexpr double coarsest_step = 16.0, most_elements = 2.0, least_elements = 0.5;
@@ -123,11 +124,21 @@ class Judge {
   std::vector<Simulated> grid_;
 };
 
+void print(const Outcome& one) {
+  fmt::print("| {} | {:g} % | {} | {:.2g} % | {} | {:.1f} |\n", one.scene, 100.0 * one.target,
+             one.is_met ? "met" : "not known", 100.0 * one.error,
+             one.best_work ? fmt::format("{:.2f}", one.ratio()) : "none", one.choosing);
+  std::fflush(stdout);
+}
+
 std::vector<Outcome> outcomes_of(const std::string& name, const ProblemFile& problem) {
   const Judge judge(problem);
   std::vector<Outcome> outcomes;
   if (!judge.knows()) return outcomes;
-  for (const double target : targets) outcomes.push_back(judge.judge(name, target));
+  for (const double target : targets) {
+    outcomes.push_back(judge.judge(name, target));
+    print(outcomes.back());
+  }
   return outcomes;
 }
 
@@ -135,12 +146,6 @@ double quantile(std::vector<double> numbers, double share) {
   if (numbers.empty()) return 0.0;
   std::sort(numbers.begin(), numbers.end());
   return numbers[static_cast<std::size_t>(share * static_cast<double>(numbers.size() - 1))];
-}
-
-void print(const Outcome& one) {
-  fmt::print("| {} | {:g} % | {} | {:.2g} % | {} | {:.1f} |\n", one.scene, 100.0 * one.target,
-             one.is_met ? "met" : "not known", 100.0 * one.error,
-             one.best_work ? fmt::format("{:.2f}", one.ratio()) : "none", one.choosing);
 }
 
 /// Counts of a target.
@@ -171,7 +176,6 @@ TEST(ChosenSetting, KeepsItsTargetAtLittleWork) {
   });
   std::vector<Outcome> all;
   for (const auto& some : each) all.insert(all.end(), some.begin(), some.end());
-  for (const Outcome& one : all) print(one);
   fmt::print(
       "\n| target | reachable by the grid | met | given up | missed | work over the best of the "
       "grid, median | 95 % | choosing over one simulation, median |\n");
