@@ -52,7 +52,8 @@ class Problem:
         command = [self.program, "simulate", self.file, "--json", "--no-report", "--overwrite", "-o",
                    self.folder, *options]
         for pointer, value in overrides:
-            command += ["--set", f"{pointer}={value}"]
+            unit = " s" if pointer == "/simulation/step" else ""
+            command += ["--set", f"{pointer}={value}{unit}"]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         return done.returncode, done.stdout
 
