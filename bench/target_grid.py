@@ -52,8 +52,7 @@ class Problem:
         command = [self.program, "simulate", self.file, "--json", "--no-report", "--overwrite", "-o",
                    self.folder, *options]
         for pointer, value in overrides:
-            unit = " s" if pointer == "/simulation/step" else ""
-            command += ["--set", f"{pointer}={value}{unit}"]
+            command += ["--set", f"{pointer}={value}"]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         return done.returncode, done.stdout
 
@@ -71,7 +70,7 @@ class Problem:
         return values, best
 
     def divided(self, step, factor):
-        return [("/simulation/step", step), *self.fractions] + [
+        return [("/simulation/step", f"{step} s"), *self.fractions] + [
             (pointer, max(1, round(factor * n))) for pointer, n in self.elements.items()]
 
     def error(self, values, exact):

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -11,14 +10,13 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
-#include "core/base/int_size.hpp"
 #include "core/linear/elastic_stability.hpp"
 #include "core/linear/modes.hpp"
 #include "core/linear/turning.hpp"
-#include "core/model/state_in_space.hpp"
 #include "core/response/full_mechanism.hpp"
-#include "core/response/lateral_buckling_signal.hpp"
 #include "core/start/equilibrium.hpp"
+#include "core/trust/buckling_model.hpp"
+#include "core/trust/critical_instants.hpp"
 #include "core/trust/disturbance_growth.hpp"
 #include "core/trust/refined_runs.hpp"
 
@@ -26,194 +24,8 @@ namespace pleuel {
 
 namespace {
 
-/// Of the Euler load of two pins at the ends of a column as long as all elastic beams together.
-constexpr double harmless_press = 0.05;
 /// A disturbance that grows more makes another motion than the one that is shown.
 constexpr double harmful_growth = 10.0;
-
-/// Of two pins at the ends of the beam with its fittings, about the weakest axis of the weakest
-/// element.
-double euler_load(const LateralMember& member) {
-  const Beam<double>& beam = member.beam();
-  const double wave = std::numbers::pi / member.full_length();
-  double weakest = std::numeric_limits<double>::infinity();
-  for (const BeamElement<double>& element : beam.elements) {
-    const auto& [y, z] = std::pair(element.section.inertia_y, element.section.inertia_z);
-    weakest = std::min(weakest, element.young * std::min(y, z));
-  }
-  return wave * wave * weakest;
-}
-
-/// A beam, and how it is pressed.
-struct PressedBeam {
-  LateralMember member;
-  double euler;
-  std::vector<double> shares = {};  ///< of its Euler load, one an instant
-
-  PressedBeam(const std::string& name, const Model& model)
-      : member(name, model, BendingPlane::xy), euler(euler_load(member)) {}
-
-  void see(const State& state) {
-    const double press = std::max(0.0, -member.observe(state).topRows<2>().minCoeff());
-    shares.push_back(press / euler);
-  }
-};
-
-/// All elastic beams of a mechanism, and when they were pressed most, alone and together.
-class PressedBeams {
- public:
-  PressedBeams(const Scene& scene, const Model& model)
-      : harmless_(model.mechanism.springs.empty() ? harmless_press : 0.0) {
-    for (const Body& body : scene.bodies) {
-      if (!std::holds_alternative<BeamBody>(body.shape)) continue;
-      if (!model.parts(body.name).front()->is_elastic) continue;
-      beams_.emplace_back(body.name, model);
-      length_ += beams_.back().member.full_length();
-    }
-  }
-
-  bool is_empty() const { return beams_.empty(); }
-
-  void see(const State& state) {
-    double sum = 0.0;
-    for (PressedBeam& beam : beams_) {
-      beam.see(state);
-      sum += beam.shares.back();
-    }
-    sums_.push_back(sum);
-  }
-
-  /// Instants at which beams are pressed most, each of them and all together.
-  std::set<int> instants() const {
-    std::set<int> instants{peak(sums_)};
-    for (const PressedBeam& beam : beams_) instants.insert(peak(beam.shares));
-    return instants;
-  }
-
-  /// Whether one is pressed enough to buckle, in whatever it is a part of.
-  bool may_buckle() const {
-    return std::ranges::any_of(beams_, [&](const PressedBeam& beam) {
-      const double share = beam.member.full_length() / length_;
-      return beam.shares[peak(beam.shares)] > harmless_ * share * share;
-    });
-  }
-
- private:
-  /// Where the largest is reached, but for little: what grows has the rest of the motion.
-  static int peak(const std::vector<double>& shares) {
-    constexpr double nearly = 0.999;
-    const double enough = nearly * std::ranges::max(shares);
-    const auto first =
-        std::ranges::find_if(shares, [enough](double share) { return share >= enough; });
-    return static_cast<int>(first - shares.begin());
-  }
-
-  double harmless_;  ///< with springs, which may be as soft as they like: nothing
-  std::vector<PressedBeam> beams_;
-  double length_ = 0.0;       ///< of all [m]
-  std::vector<double> sums_;  ///< of shares of Euler loads, one an instant
-};
-
-/// Instants at which it is worth while to look: of the largest presses and of the fastest turn.
-struct CriticalInstants {
-  std::set<int> all;
-  bool may_buckle = false;  ///< by what presses alone
-};
-
-CriticalInstants critical_instants(const Scene& scene, const Analysis& analysis) {
-  PressedBeams beams(scene, analysis.model);
-  if (beams.is_empty()) return {};
-  double fastest = 0.0;
-  int when = -1;
-  State state;
-  for (int i = 0; i < int_size(analysis.trajectory.time); ++i) {
-    constexpr double more = 1.0 + 1e-6;
-    analysis.trajectory.states->load(i, state);
-    beams.see(state);
-    const double speed = fastest_turn(analysis.model.mechanism, state).omega.norm();
-    if (speed <= more * fastest) continue;
-    fastest = speed;
-    when = i;
-  }
-  CriticalInstants found{beams.instants(), beams.may_buckle()};
-  if (when >= 0) found.all.insert(when);
-  return found;
-}
-
-/// Whether the file says that something outside of the mechanism holds a body.
-bool is_held(const Body& body) {
-  const auto* beam = std::get_if<BeamBody>(&body.shape);
-  return beam != nullptr && beam->held;
-}
-
-/// A beam of one element buckles late, at 12 EI/L² between pins, or never, between clamps; with two the
-/// largest error of Euler's cases is 3 %.
-constexpr int fewest_elements_to_buckle = 2;
-
-int elements_of(const Model& model, const std::string& beam) {
-  int elements = 0;
-  for (const BodyModel* part : model.parts(beam)) elements += int_size(part->beam.elements);
-  return elements;
-}
-
-/// Whether the mesh of a body is too coarse to buckle.
-bool is_coarse(const Body& body, const Model& model) {
-  return std::holds_alternative<BeamBody>(body.shape) &&
-         model.parts(body.name).front()->is_elastic &&
-         elements_of(model, body.name) < fewest_elements_to_buckle;
-}
-
-/// Whether bodies move in space, beams have their geometric stiffening and elements enough, and nothing is
-/// held from outside.
-bool shows_buckling(const Scene& scene, const Model& model) {
-  const auto shows_it = [](const BodyModel& body) {
-    const bool is_elastic_beam = body.is_beam() && body.is_elastic;
-    return body.frame.rotation != RotationCoordinates::angle &&
-           (!is_elastic_beam || body.has_stiffening);
-  };
-  const auto prevents_it = [&](const Body& body) {
-    return is_held(body) || is_coarse(body, model);
-  };
-  return std::ranges::none_of(scene.bodies, prevents_it) &&
-         std::ranges::all_of(model.bodies, shows_it);
-}
-
-/// A point between the ends of a beam; of ends that follow different variables, as they are at a design.
-Point between(const BeamBody& beam, double share, const Design<double>& design) {
-  Point point;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Number &from = beam.from[i], &to = beam.to[i];
-    const auto mix = [share](double a, double b) { return (1.0 - share) * a + share * b; };
-    point[i] = mix(resolve(from, design), resolve(to, design));
-    const bool follow_one = !from.expression && !to.expression && from.variable == to.variable;
-    if (!follow_one) continue;
-    point[i] = from;
-    point[i].constant = mix(from.constant, to.constant);
-    point[i].factor = mix(from.factor, to.factor);
-  }
-  return point;
-}
-
-/// Joints with the ground in place of what holds beams from outside.
-void add_outside_holds(const Eigen::VectorXd& x, Scene& scene) {
-  const Design<double> design(x.begin(), x.end());
-  for (const Body& body : scene.bodies) {
-    const auto* beam = std::get_if<BeamBody>(&body.shape);
-    if (beam == nullptr || !beam->held) continue;
-    std::vector<double> places = beam->held->at;
-    constexpr int many = 8;
-    for (int i = 0; i <= many && beam->held->at.empty(); ++i) places.push_back(double(i) / many);
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      Joint joint;
-      joint.name = fmt::format("{} held {}", body.name, i);
-      joint.type = JointType::point_on_plane;
-      joint.bodies = {ground_name, body.name};
-      joint.at = between(*beam, places[i], design);
-      joint.axis = beam->held->direction;
-      scene.joints.push_back(joint);
-    }
-  }
-}
 
 constexpr const char* remedy = " Make it stiffer, or hold it.";
 
@@ -264,15 +76,15 @@ struct GrowingMode {
   bool is_followed;  ///< whether the steps are short enough for the motion to show it
 };
 
+/// @param step  of the motion that is judged [s]
 std::optional<GrowingMode> growing_mode_at(const Mechanism& mechanism, const State& state,
-                                           const Trajectory& trajectory) {
+                                           double end, double step) {
   constexpr double standing = 1e-3, longest_step = 0.5;  // [1/s], times |s|
   if (fastest_turn(mechanism, state).omega.norm() > standing) return std::nullopt;
   const auto mode = growing_mode_or_none(mechanism, state);
   if (!mode) return std::nullopt;
-  const double rest = trajectory.time(trajectory.steps()) - state.time;
-  return GrowingMode{*mode, mode->real() * rest,
-                     std::abs(*mode) * trajectory.scheme.step <= longest_step};
+  return GrowingMode{*mode, mode->real() * (end - state.time),
+                     std::abs(*mode) * step <= longest_step};
 }
 
 Finding unfollowed(const GrowingMode& grows, double time, double step) {
@@ -298,8 +110,10 @@ std::optional<int> first_doubtful(const std::set<int>& instants, const Analysis&
 }
 
 /// Of a mechanism whose model shows buckling.
+/// @param step  of the motion that is judged, of which this may be a coarser run [s]
 /// @throws SimulationError where the steps have no derivatives
-std::vector<Finding> judge_motion(const std::set<int>& instants, const Analysis& analysis) {
+std::vector<Finding> judge_motion(const std::set<int>& instants, const Analysis& analysis,
+                                  double step) {
   const Mechanism& mechanism = analysis.model.mechanism;
   const Trajectory& trajectory = analysis.trajectory;
   const std::optional<int> first = first_doubtful(instants, analysis);
@@ -314,9 +128,11 @@ std::vector<Finding> judge_motion(const std::set<int>& instants, const Analysis&
   const DisturbanceGrowth growth = disturbance_growth(mechanism, trajectory);
   if (growth.factor > harmful_growth) return {grown(growth, frozen)};
   if (frozen.is_stable) trajectory.states->load(*first, state);
-  const std::optional<GrowingMode> grows = growing_mode_at(mechanism, state, trajectory);
-  if (grows && !grows->is_followed && grows->exponent > std::log(harmful_growth)) {
-    return {unfollowed(*grows, state.time, trajectory.scheme.step)};
+  const std::optional<GrowingMode> grows =
+      growing_mode_at(mechanism, state, trajectory.time(trajectory.steps()), step);
+  const bool is_of_members = grows && (vibrates(grows->mode) || !frozen.is_stable);  // else rigid
+  if (is_of_members && !grows->is_followed && grows->exponent > std::log(harmful_growth)) {
+    return {unfollowed(*grows, state.time, step)};
   }
   if (!frozen.is_stable) return {passing(frozen, state.time, growth)};
   if (!grows || grows->exponent < std::numbers::ln2) return {};
@@ -326,41 +142,8 @@ std::vector<Finding> judge_motion(const std::set<int>& instants, const Analysis&
   return {passing(frozen, state.time, growth)};
 }
 
-/// The mechanism in space, with geometric stiffening and with elements that buckle; what holds its beams from
-/// outside holds them.
-ProblemFile problem_in_space(const TrustedRun& run) {
-  ProblemFile space = with_all_modes(run.problem);
-  space.effects.geometric_stiffening = EffectChoice::on;
-  space.simulation.moves_by_bending = true;  // it was asked already
-  space.responses.clear();
-  space.sensitivity.memory = SensitivitySettings().memory;
-  for (Body& body : space.scene.bodies) {
-    if (!is_coarse(body, run.analysis.model)) continue;
-    auto& beam = std::get<BeamBody>(body.shape);
-    beam.pieces = std::max(beam.pieces, fewest_elements_to_buckle);
-  }
-  add_outside_holds(run.x, space.scene);
-  return space;
-}
-
-/// Whether nothing may grow in space at these instants of a motion in the plane, which is one in space.
-bool is_firm_in_space(const ProblemFile& space, const TrustedRun& run,
-                      const std::set<int>& instants) {
-  const Eigen::VectorXd start_values = start_design(space);
-  const Design<double> start(start_values.begin(), start_values.end());
-  const Design<double> design(run.x.begin(), run.x.end());
-  try {
-    Model model = build_model(space.scene, space.effects, start, design);
-    return std::ranges::none_of(instants, [&](int instant) {
-      State state;
-      run.analysis.trajectory.states->load(instant, state);
-      const std::optional<State> here = state_in_space(run.analysis.model, state, model);
-      return !here || may_grow(model.mechanism, *here);
-    });
-  } catch (const SimulationError&) {  // the run in space says why
-  } catch (const InputError&) {
-  }
-  return false;
+double step_of(const TrustedRun& run) {
+  return run.analysis.trajectory.scheme.step;
 }
 
 /// @param instants  at which it is worth while to look
@@ -373,7 +156,7 @@ std::vector<Finding> judge_in_space(const TrustedRun& run, const std::set<int>& 
     const ProblemFile coarse = refined(space, {.step = step});
     try {
       const std::unique_ptr<Analysis> analysis = analyze(coarse, run.x);
-      return judge_motion(critical_instants(space.scene, *analysis).all, *analysis);
+      return judge_motion(critical_instants(space.scene, *analysis).all, *analysis, step_of(run));
     } catch (const UnstableEquilibrium& error) {
       return {{fmt::format("In space and with geometric stiffening {}.{}", error.what(), remedy),
                true}};
@@ -391,7 +174,7 @@ std::vector<Finding> judge_members(const TrustedRun& run, const CriticalInstants
   const Analysis& analysis = run.analysis;
   if (shows_buckling(run.problem.scene, analysis.model)) {
     try {
-      return judge_motion(instants.all, analysis);
+      return judge_motion(instants.all, analysis, step_of(run));
     } catch (const SimulationError& error) {
       return {not_judged(error.what())};
     }
