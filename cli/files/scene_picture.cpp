@@ -211,7 +211,14 @@ class GeometryWriter {
     return list_of(scene_.loads, [&](const Load& load) { return std::visit(*this, load.element); });
   }
 
-  Json operator()(const PointForce& load) const { return at_place(load); }
+  /// Of a spread force the middle of its stretch.
+  Json operator()(const PointForce& load) const {
+    if (!load.to) return at_place(load);
+    PointForce middle = load;
+    const Eigen::Vector3d sum = resolve_point(load.at, design_) + resolve_point(*load.to, design_);
+    middle.at = {0.5 * sum.x(), 0.5 * sum.y(), 0.5 * sum.z()};
+    return at_place(middle);
+  }
   Json operator()(const PointTorque& load) const { return at_place(load); }
   Json operator()(const SpringDamper& load) const {
     return {{"places", {place(load.bodies[0], load.at[0]), place(load.bodies[1], load.at[1])}},

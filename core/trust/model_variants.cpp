@@ -51,6 +51,7 @@ struct Variant {
   Cause cause;
   double missing;  ///< of what it changes: all that is missing
   std::vector<ConcernedBeam> (*find)(const TrustedRun&);
+  bool is_by_beam;  ///< whether one beam can have it without the others
   void (*put_in)(ProblemFile&, const std::string& beam);
   /// What else says whether it counts, where not all responses are there with it; null: nothing.
   std::vector<Finding> (*untold)(const TrustedRun&, const Names&, const std::string& why);
@@ -111,15 +112,15 @@ std::string advice_of_stretch(const ProblemFile&, const Names&, double) {
 }
 
 constexpr Variant variants[] = {
-    {"shear", Cause::left_out, 1.0, find_slenderness,
+    {"shear", Cause::left_out, 1.0, find_slenderness, true,
      [](ProblemFile& problem, const std::string& beam) { beam_of(problem, beam).has_shear = true; },
      nullptr, "is stubby: shear, which it leaves out,", "are stubby: shear, which they leave out,",
      advice_of_shear},
-    {"more_frames", Cause::not_modelled, 4.0 / 3.0, find_far_bending,
+    {"more_frames", Cause::not_modelled, 4.0 / 3.0, find_far_bending, true,
      [](ProblemFile& problem, const std::string& beam) { beam_of(problem, beam).frames *= 2; },
      check_untold_bending, "bends too far for linear elasticity in its frame: more frames",
      "bend too far for linear elasticity in their frames: more frames", advice_of_frames},
-    {"axial_elasticity", Cause::left_out, 1.0, find_unstretched,
+    {"axial_elasticity", Cause::left_out, 1.0, find_unstretched, false,
      [](ProblemFile& problem, const std::string&) {
        problem.effects.axial_elasticity = EffectChoice::on;
      },
@@ -204,7 +205,7 @@ class VariantRun {
   /// own indicator is not far below the largest.
   void share_out() {
     by_beam_.assign(beams_.size(), changes_);
-    if (beams_.size() == 1 || !is_any_told()) return;
+    if (beams_.size() == 1 || !variant_.is_by_beam || !is_any_told()) return;
     if (beams_.size() > most_told_apart) {
       for (std::size_t k = 0; k < beams_.size(); ++k) {
         if (indicators_[k] <= told_part * indicators_.front())

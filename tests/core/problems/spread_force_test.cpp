@@ -120,6 +120,21 @@ TEST(SpreadForce, HasExactGradients) {
   }
 }
 
+/// The recovery knows forces at nodes only: the moment at the clamp is p l²/12 too small with elements of
+/// the length l.
+TEST(SpreadForce, MissesItsMomentWithinElements) {
+  for (const int elements : {1, 2, 4}) {
+    const double moment =
+        value({"/scene/loads/wind/at=[0, 0, 0]",
+               R"(/scene/loads/wind/to=["= 0.6*long", "= 0.8*long", 0])",
+               "/scene/bodies/b/elements=" + std::to_string(elements),
+               R"(/responses/tip={"type": "section-force", "body": "b", "part": "moment-z", "at": 0,
+                                                    "over_time": "max-abs"})"});
+    const double l = length / elements, load = force / length;
+    EXPECT_NEAR(moment, 0.5 * force * length - load * l * l / 12.0, 1e-8 * force * length);
+  }
+}
+
 TEST(SpreadForce, NeedsTwoPoints) {
   EXPECT_THROW(problem_of({"/scene/loads/wind/to=[0.18, 0.24, 0]"}), InputError);
   EXPECT_THROW(problem_of({"/scene/loads/wind/to=[0.18, 0.25, 0]"}), InputError);
