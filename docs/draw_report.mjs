@@ -4,21 +4,10 @@
 //   ./pleuel optimize problems/slider_crank.json -o runs/picture && (cd report && npm ci --ignore-scripts)
 //   node docs/draw_report.mjs runs/picture/report.html docs/report.png
 import { writeFileSync } from "node:fs";
-import { createRequire } from "node:module";
-import { dirname, resolve } from "node:path";
-import { fileURLToPath } from "node:url";
+import { openPage } from "./open_page.mjs";
 
-const here = dirname(fileURLToPath(import.meta.url));
-const { chromium } = createRequire(resolve(here, "../report/package.json"))("playwright-core");
 const [page, picture] = process.argv.slice(2);
-const browser = await chromium.launch({
-  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-  args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
-});
-const tab = await browser.newPage({ viewport: { width: 1280, height: 940 }, reducedMotion: "reduce" });
-tab.setDefaultTimeout(120000);
-await tab.goto(`file://${resolve(page)}`);
-await tab.waitForSelector("footer");
+const { browser, tab } = await openPage(page);
 await tab.evaluate(() => window.pleuelPlayer.goTo(0.0805));
 await tab.waitForTimeout(2000);
 await tab.screenshot({ path: picture });

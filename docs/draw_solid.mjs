@@ -4,20 +4,10 @@
 //   ./pleuel optimize problems/conrod/conrod.json --allow-programs -o runs/conrod && (cd report && npm ci --ignore-scripts)
 //   node docs/draw_solid.mjs runs/conrod docs/conrod.png
 import { writeFileSync } from "node:fs";
-import { createRequire } from "node:module";
-import { dirname, resolve } from "node:path";
-import { fileURLToPath } from "node:url";
+import { openPage } from "./open_page.mjs";
 
-const here = dirname(fileURLToPath(import.meta.url));
-const { chromium } = createRequire(resolve(here, "../report/package.json"))("playwright-core");
 const [run, picture] = process.argv.slice(2);
-const browser = await chromium.launch({
-  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-  args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
-});
-const tab = await browser.newPage({ viewport: { width: 1280, height: 940 }, reducedMotion: "reduce" });
-await tab.goto(`file://${resolve(run)}/report.html`);
-await tab.waitForSelector("footer");
+const { browser, tab } = await openPage(`${run}/report.html`);
 const image = await tab.evaluate(() => {
   const instant = 0.00046; // of the largest stress [s]
   const [width, height] = [740, 300]; // the middle of a larger drawing

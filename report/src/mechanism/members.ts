@@ -20,15 +20,9 @@ import {
 } from "three";
 import type { BodyGeometry, SceneBody, Segment } from "../data";
 import { stressColor } from "../theme";
+import { type Look, showLook } from "./look";
 import { type BodyPose, type Motion, pointAlong, stressAlong } from "./pose";
 import { SurfaceMember } from "./surface";
-
-export interface Look {
-  color: [number, number, number];
-  edge: string;
-  opacity: number;
-  isGhost: boolean;
-}
 
 /** Something that stands where a pose says. */
 export interface Member {
@@ -212,16 +206,7 @@ export class BeamMember implements Member {
 
   setLook(look: Look, isSelected: boolean): void {
     this.look = look;
-    for (const segment of this.segments) {
-      const material = segment.mesh.material as MeshLambertMaterial;
-      material.opacity = look.opacity;
-      material.depthWrite = !look.isGhost;
-      segment.mesh.renderOrder = look.isGhost ? 1 : 2;
-      segment.edges.renderOrder = look.isGhost ? 1 : 3;
-      const line = segment.edges.material as LineBasicMaterial;
-      line.color.set(look.edge);
-      line.opacity = look.isGhost ? 0.55 : isSelected ? 1 : 0.5;
-    }
+    for (const segment of this.segments) showLook(segment.mesh, segment.edges, look, isSelected, 0.55);
   }
 }
 

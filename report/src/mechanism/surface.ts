@@ -14,7 +14,8 @@ import {
 } from "three";
 import { type Surface, unpack } from "../data";
 import { stressColor } from "../theme";
-import type { Look, Member } from "./members";
+import { type Look, showLook } from "./look";
+import type { Member } from "./members";
 import type { BodyPose } from "./pose";
 
 /** Of a triangle: rows that make xx, yy and xy of its strain from the displacements of its corners. */
@@ -145,14 +146,7 @@ export class SurfaceMember implements Member {
 
   setLook(look: Look, isSelected: boolean): void {
     this.look = look;
-    const material = this.mesh.material as MeshLambertMaterial;
-    material.opacity = look.opacity;
-    material.depthWrite = !look.isGhost;
-    this.mesh.renderOrder = look.isGhost ? 1 : 2;
-    this.edges.renderOrder = look.isGhost ? 1 : 3;
-    const line = this.edges.material as LineBasicMaterial;
-    line.color.set(look.edge);
-    line.opacity = look.isGhost ? 0.4 : isSelected ? 1 : 0.5;
+    showLook(this.mesh, this.edges, look, isSelected, 0.4);
   }
 
   deviation(pose: BodyPose): number {
