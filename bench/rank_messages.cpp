@@ -8,11 +8,10 @@
 #include <unistd.h>
 
 #include "cli/rank_of_job.hpp"
-#include "core/base/forked_tasks.hpp"
 #include "core/base/packed.hpp"
-#include "core/base/rank_place.hpp"
 #include "core/base/stopwatch.hpp"
-#include "core/base/task_server.hpp"
+#include "core/jobs/rank_place.hpp"
+#include "core/jobs/task_place.hpp"
 
 namespace pleuel {
 

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "cli/failure.hpp"
 #include "cli/input/parse_arguments.hpp"
 #include "cli/input/problem_input.hpp"
 #include "cli/input/run_setting.hpp"
@@ -17,8 +16,8 @@
 #include "cli/run_command.hpp"
 #include "cli/text/console.hpp"
 #include "cli/text/wrapped_text.hpp"
-#include "core/base/excerpt.hpp"
-#include "core/base/parallel.hpp"
+#include "core/base/quoted.hpp"
+#include "core/jobs/parallel.hpp"
 
 namespace pleuel {
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/base/worker.hpp"
+#include "core/jobs/worker.hpp"
 
 namespace pleuel {
 

@@ -14,7 +14,7 @@
 #include "cli/interruption.hpp"
 #include "core/base/error.hpp"
 #include "core/base/packed.hpp"
-#include "core/base/task_server.hpp"
+#include "core/jobs/rank_place.hpp"
 #include "optimization/design/multi_start.hpp"
 #include "optimization/design/size_trials.hpp"
 #include "studies/front_ends.hpp"

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "core/base/rank_place.hpp"
-#include "core/base/worker.hpp"
+#include "core/jobs/rank_place.hpp"
+#include "core/jobs/worker.hpp"
 
 namespace pleuel {
 

@@ -6,8 +6,8 @@
 
 #include "cli/commands/commands.hpp"
 #include "cli/commands/each_case.hpp"
-#include "core/base/child_program.hpp"
 #include "core/base/error.hpp"
+#include "core/jobs/child_program.hpp"
 
 namespace pleuel {
 

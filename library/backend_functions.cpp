@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "core/base/worker.hpp"
+#include "core/jobs/worker.hpp"
 #include "library/call_error.hpp"
 #include "library/called_optimizer.hpp"
 #include "library/guarded_call.hpp"

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/int_size.hpp"
-#include "library/handle_table.hpp"
+#include "library/open_problem.hpp"
 
 namespace pleuel {
 

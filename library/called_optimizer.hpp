@@ -6,7 +6,7 @@
 #include <string>
 
 #include "include/pleuel.h"
-#include "optimization/optimizer.hpp"
+#include "optimization/backends.hpp"
 
 namespace pleuel {
 

@@ -4,12 +4,40 @@
 #include <memory>
 #include <string>
 
-#include "library/last_error.hpp"
-#include "library/open_problems.hpp"
-#include "library/running_calls.hpp"
+#include "include/pleuel.h"
+#include "library/open_problem.hpp"
 
-/// What C functions do around their work: no exception leaves them, all arguments are checked.
 namespace pleuel {
+
+/// An error of a C function, taken apart.
+struct CallFailure {
+  pleuel_status kind = PLEUEL_FAULT;
+  std::string file, pointer, rule, text;
+};
+
+/// Takes a message "file: /pointer rule, got value" apart, as far as it is one.
+CallFailure divided(pleuel_status kind, const std::string& message);
+
+/// Keeps what the exception that is being handled means as the last error of this thread. To be
+/// called from a handler.
+/// @param file  of the problem that the call was about; empty: messages name it, or there is none
+/// @returns     its kind
+pleuel_status keep_failure(const std::string& file) noexcept;
+
+/// Of this thread.
+const pleuel_error* last_error() noexcept;
+
+/// A call that may be stopped, while it lasts. What was asked of the calls before is forgotten when the first
+/// one begins.
+class RunningCall {
+ public:
+  RunningCall() noexcept;
+  ~RunningCall();
+  RunningCall(const RunningCall&) = delete;
+  RunningCall& operator=(const RunningCall&) = delete;
+};
+
+// What C functions do around their work: no exception leaves them, all arguments are checked.
 
 /// Does work(); what it throws becomes the last error.
 template <class Work>

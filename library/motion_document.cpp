@@ -4,7 +4,6 @@
 
 #include "core/response/analysis.hpp"
 #include "core/scene/load_cases.hpp"
-#include "picture/frames_of_motion.hpp"
 #include "picture/motion.hpp"
 
 namespace pleuel {

@@ -6,9 +6,10 @@
 
 #include <fmt/format.h>
 
-#include "core/base/parallel.hpp"
+#include "core/jobs/parallel.hpp"
 #include "core/response/effect_measurement.hpp"
-#include "core/response/shown_history.hpp"
+#include "core/response/history_reduction.hpp"
+#include "core/scene/kind_table.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/scene/response_quantity.hpp"
@@ -24,13 +25,6 @@ ProblemFile read(const ProblemText& text, bool has_text) {
                                       : read_problem(text.file, text.overrides);
   if (text.load_case.empty()) return decided(std::move(problem));
   return decided(UndecidedProblem(problem_of_case(problem.complete(), text.load_case)));
-}
-
-template <class Thing>
-std::vector<std::string> names_of(const std::vector<Thing>& things) {
-  std::vector<std::string> names;
-  for (const Thing& thing : things) names.push_back(thing.name);
-  return names;
 }
 
 std::map<pleuel_list, std::vector<std::string>> names_in(const ProblemFile& file) {
@@ -158,6 +152,29 @@ std::optional<HistoryGradients> OpenProblem::history_gradients(const Eigen::Vect
     if (one.response == place->index) return one;
   }
   return std::nullopt;
+}
+
+namespace {
+
+/// Never destroyed: threads of the caller may outlive what the program ends with.
+HandleTable<OpenProblem>& table() {
+  static auto& one = *new HandleTable<OpenProblem>(
+      "the problem {} is not open: it was closed, or never came from pleuel_open");
+  return one;
+}
+
+}  // namespace
+
+pleuel_problem add_open_problem(std::shared_ptr<OpenProblem> problem) {
+  return table().add(std::move(problem));
+}
+
+std::shared_ptr<OpenProblem> find_open_problem(pleuel_problem number) {
+  return table().find(number);
+}
+
+void remove_open_problem(pleuel_problem number) {
+  table().remove(number);
 }
 
 }  // namespace pleuel

@@ -1,13 +1,20 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
-#include "core/scene/problem_text.hpp"
+#include <fmt/format.h>
+
+#include "core/scene/problem_reader.hpp"
 #include "include/pleuel.h"
+#include "library/call_error.hpp"
 #include "optimization/design/design_problem.hpp"
 #include "sensitivity/history_gradients.hpp"
 
@@ -55,6 +62,58 @@ class OpenProblem {
   std::unique_ptr<DesignProblem> problem_;
   Eigen::VectorXd differentiated_x_;
   std::map<std::size_t, std::vector<HistoryGradients>> differentiated_;  ///< by load case
+};
+
+// The table of problems that are open: numbers of others name nothing, whatever they are.
+
+/// @returns its number, which no other problem of this process ever has
+pleuel_problem add_open_problem(std::shared_ptr<OpenProblem> problem);
+
+/// @throws CallError if none of this number is open
+std::shared_ptr<OpenProblem> find_open_problem(pleuel_problem number);
+
+/// @throws CallError if none of this number is open
+void remove_open_problem(pleuel_problem number);
+
+/// What another program knows by numbers: none is used twice, and others name nothing, whatever they are.
+template <class Thing>
+class HandleTable {
+ public:
+  /// @param refusal  of numbers that name nothing: "the problem {} is not open"
+  explicit HandleTable(const char* refusal) : refusal_(refusal) {}
+
+  std::uint64_t add(std::shared_ptr<Thing> thing) {
+    const std::lock_guard lock(mutex_);
+    things_.emplace(++last_, std::move(thing));
+    return last_;
+  }
+
+  /// @throws CallError if there is none of this number
+  std::shared_ptr<Thing> find(std::uint64_t number) {
+    const std::lock_guard lock(mutex_);
+    return place_of(number)->second;
+  }
+
+  /// @throws CallError if there is none of this number
+  std::shared_ptr<Thing> remove(std::uint64_t number) {
+    const std::lock_guard lock(mutex_);
+    const auto place = place_of(number);
+    std::shared_ptr<Thing> removed = std::move(place->second);
+    things_.erase(place);
+    return removed;
+  }
+
+ private:
+  auto place_of(std::uint64_t number) {
+    const auto place = things_.find(number);
+    if (place == things_.end()) throw CallError(fmt::format(fmt::runtime(refusal_), number));
+    return place;
+  }
+
+  const char* refusal_;
+  std::mutex mutex_;
+  std::uint64_t last_ = 0;
+  std::unordered_map<std::uint64_t, std::shared_ptr<Thing>> things_;
 };
 
 }  // namespace pleuel

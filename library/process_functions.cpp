@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "cli/input/fingerprint.hpp"
 #include "cli/input/parse_arguments.hpp"
 #include "cli/input/run_setting.hpp"
-#include "cli/input/version_text.hpp"
 #include "cli/program.hpp"
 #include "cli/run_command.hpp"
 #include "core/base/stop.hpp"

@@ -1,7 +1,6 @@
 #include "library/search_document.hpp"
 
 #include "cli/reports/optimum_document.hpp"
-#include "cli/reports/sizes_report.hpp"
 #include "cli/reports/starts_report.hpp"
 #include "core/base/stop.hpp"
 #include "library/call_error.hpp"

@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "cli/input/solve_settings.hpp"
+#include "cli/input/run_setting.hpp"
 #include "cli/text/json.hpp"
 #include "core/base/error.hpp"
-#include "core/base/parallel.hpp"
+#include "core/jobs/parallel.hpp"
 #include "core/scene/reading/suggestion.hpp"
 
 namespace pleuel {

@@ -7,8 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "core/base/excerpt.hpp"
-#include "optimization/own_backends.hpp"
+#include "core/base/quoted.hpp"
 
 namespace pleuel {
 

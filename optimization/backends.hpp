@@ -5,9 +5,37 @@
 #include <string>
 #include <vector>
 
-#include "optimization/optimizer.hpp"
+#include <Eigen/Core>
+
+#include "optimization/scaled_problem.hpp"
 
 namespace pleuel {
+
+/// How accurately a backend works before it thinks it is done.
+struct BackendOptions {
+  /// Relative change of the objective and of the scaled variables (NLopt), or error of the scaled
+  /// optimality conditions (Ipopt), at which the backend stops. In (0, 1). Choose it above the
+  /// noise of the simulation.
+  double tolerance = 1e-6;
+};
+
+/// Where a backend stopped and what it says of it. Nobody believes it: see verdict.hpp.
+struct BackendResult {
+  Eigen::VectorXd y;
+  std::string reason;
+};
+
+/// The door to a local, gradient-based method of constrained optimization.
+class Optimizer {
+ public:
+  virtual ~Optimizer() = default;
+
+  virtual bool takes_equalities() const = 0;
+
+  /// Goes downhill from problem.start(). A failed evaluation is a wall that it steps back from; it
+  /// ends soon after problem.should_stop().
+  virtual BackendResult minimize(ScaledProblem& problem) = 0;
+};
 
 using OptimizerMaker = std::function<std::unique_ptr<Optimizer>(const BackendOptions& options)>;
 
@@ -39,5 +67,12 @@ struct BackendEnd {
 BackendEnd run_backend(EvaluationCache& cache, const EvaluatedDesign& from, const std::string& name,
                        double tolerance, const ScaledProblem::Budget& budget,
                        const Eigen::VectorXd& factors);
+
+// The backends of Pleuel itself (backends.hpp).
+
+std::unique_ptr<Optimizer> make_nlopt_mma(const BackendOptions& options);
+std::unique_ptr<Optimizer> make_nlopt_ccsaq(const BackendOptions& options);
+std::unique_ptr<Optimizer> make_nlopt_slsqp(const BackendOptions& options);
+std::unique_ptr<Optimizer> make_ipopt(const BackendOptions& options);
 
 }  // namespace pleuel

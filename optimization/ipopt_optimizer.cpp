@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/eager_matrices.hpp"
-#include "optimization/own_backends.hpp"
+#include "optimization/backends.hpp"
 
 namespace pleuel {
 

@@ -7,7 +7,7 @@
 #include <nlopt.h>
 
 #include "core/base/eager_matrices.hpp"
-#include "optimization/own_backends.hpp"
+#include "optimization/backends.hpp"
 
 namespace pleuel {
 

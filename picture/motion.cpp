@@ -1,8 +1,12 @@
 #include "picture/motion.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
+#include <numbers>
 #include <numeric>
+#include <set>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -10,6 +14,7 @@
 #include "core/base/error.hpp"
 #include "core/base/int_size.hpp"
 #include "core/frame/body_frame.hpp"
+#include "core/mobility/lock.hpp"
 #include "core/response/signal_of_body.hpp"
 
 namespace pleuel {
@@ -211,6 +216,94 @@ Motion sample_motion(const Scene& scene, const Analysis& analysis, const std::ve
   return sample_motion(scene, analysis.model, time, [&](Eigen::Index i, State& state) {
     analysis.trajectory.states->load(steps[i], state);
   });
+}
+
+namespace {
+
+constexpr double turn_of_frame = 4.0 * std::numbers::pi / 180.0;  ///< [rad]
+constexpr int fewest = 150;
+
+Eigen::Matrix3d rotation_of(const BodyModel& body, const State& state) {
+  const auto own = [&](const Eigen::VectorXd& all) -> Eigen::VectorXd {
+    return all.segment(body.frame.offset, body.frame.size());
+  };
+  const Eigen::VectorXd q = own(state.q), v = own(state.v), a = own(state.a);
+  return frame_motion<double>(body.frame, q, v, a).A;
+}
+
+double angle_between(const Eigen::Matrix3d& before, const Eigen::Matrix3d& after) {
+  const double cosine = ((before.transpose() * after).trace() - 1.0) / 2.0;
+  return std::acos(std::clamp(cosine, -1.0, 1.0));
+}
+
+/// How far the body that turns most turns [rad], looked at some hundred times.
+double largest_turn(const Analysis& analysis) {
+  const int steps = analysis.trajectory.steps();
+  const int stride = std::max(1, steps / 800);
+  std::vector<Eigen::Matrix3d> before;
+  std::vector<double> turned(analysis.model.bodies.size(), 0.0);
+  State state;
+  for (int step = 0; step <= steps; step += stride) {
+    analysis.trajectory.states->load(step, state);
+    std::vector<Eigen::Matrix3d> now;
+    for (const BodyModel& body : analysis.model.bodies) now.push_back(rotation_of(body, state));
+    for (std::size_t i = 0; i < before.size(); ++i) turned[i] += angle_between(before[i], now[i]);
+    before = std::move(now);
+  }
+  return turned.empty() ? 0.0 : *std::max_element(turned.begin(), turned.end());
+}
+
+void add_peaks(const Analysis& analysis, std::set<int>& steps) {
+  for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
+    if (!analysis.responses[i].is_peak_over_time()) continue;
+    for (const Sample& sample : analysis.reductions[i].samples) steps.insert(sample.step);
+  }
+}
+
+}  // namespace
+
+std::vector<int> frames_of_motion(const Analysis& analysis, int most) {
+  const Eigen::VectorXd& time = analysis.trajectory.time;
+  const double wanted = std::ceil(largest_turn(analysis) / turn_of_frame);
+  const int frames = static_cast<int>(
+      std::clamp(wanted, static_cast<double>(std::min(fewest, most)), static_cast<double>(most)));
+  std::set<int> steps = {0, analysis.trajectory.steps()};
+  for (int i = 1; i < frames; ++i) {
+    const double instant = time(0) + (time(time.size() - 1) - time(0)) * i / frames;
+    const auto after = std::lower_bound(time.begin(), time.end(), instant);
+    steps.insert(static_cast<int>(after - time.begin()));
+  }
+  add_peaks(analysis, steps);
+  return {steps.begin(), steps.end()};
+}
+
+RigidMotion rigid_motion(const Scene& scene, const Model& model, double end, double step) {
+  std::vector<double> time;
+  std::vector<Eigen::VectorXd> positions;
+  const auto see = [&](double now, const Eigen::VectorXd& q) {
+    time.push_back(now);
+    positions.push_back(q);
+  };
+  RigidMotion rigid{follow_drives(model, end, step, see), {}};
+  if (positions.empty()) see(0.0, model.mechanism.guess.q);
+  const Eigen::VectorXd instants = Eigen::Map<Eigen::VectorXd>(time.data(), std::ssize(time));
+  rigid.motion = sample_motion(scene, model, instants,
+                               [&](Eigen::Index i, State& state) { state.q = positions[i]; });
+  for (BodyTrack& body : rigid.motion.bodies) body.stress.resize(0, 0);
+  return rigid;
+}
+
+Motion rigid_motion(const ProblemFile& problem, const Eigen::VectorXd& x) {
+  const Eigen::VectorXd start = start_design(problem);
+  try {
+    const Model model = build_model(problem.scene, problem.effects, {start.begin(), start.end()},
+                                    {x.begin(), x.end()}, problem.sensitivity.invariants);
+    RigidMotion rigid =
+        rigid_motion(problem.scene, model, problem.simulation.end_time, problem.simulation.step);
+    return rigid.motion.time.size() > 1 ? std::move(rigid.motion) : Motion();
+  } catch (const SimulationError&) {
+    return {};
+  }
 }
 
 }  // namespace pleuel

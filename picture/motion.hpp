@@ -6,7 +6,9 @@
 
 #include <Eigen/Core>
 
+#include "core/mobility/rigid_path.hpp"
 #include "core/response/analysis.hpp"
+#include "core/scene/problem_file.hpp"
 
 namespace pleuel {
 
@@ -40,5 +42,25 @@ Motion sample_motion(const Scene& scene, const Model& model, const Eigen::Vector
 /// The motion of a simulation at some of its steps.
 /// @param steps  ascending
 Motion sample_motion(const Scene& scene, const Analysis& analysis, const std::vector<int>& steps);
+
+/// The steps of a simulation at which a moving picture is drawn: equal in time, so close that no
+/// body turns by more than some degrees from one to the next, and those at which responses have
+/// their peaks.
+/// @param most  at most so many, besides the peaks
+std::vector<int> frames_of_motion(const Analysis& analysis, int most);
+
+/// Bodies that do not deform, as the drives take them: to the end of the motion, or to where the
+/// mechanism locks.
+struct RigidMotion {
+  RigidPath path;
+  Motion motion;  ///< without stress; of one instant where nothing is driven
+};
+
+/// @param end   [s]
+/// @param step  [s] of the simulation
+RigidMotion rigid_motion(const Scene& scene, const Model& model, double end, double step);
+
+/// Of the mechanism of a problem at a design; nothing where nothing is driven or it cannot be assembled.
+Motion rigid_motion(const ProblemFile& problem, const Eigen::VectorXd& x);
 
 }  // namespace pleuel

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/scene/invariants_file.hpp"
-#include "reduction/reduction_model.hpp"
+#include "reduction/model_reader.hpp"
 
 namespace pleuel {
 

@@ -10,7 +10,7 @@
 #include "core/base/error.hpp"
 #include "core/base/int_size.hpp"
 #include "reduction/fixed_modes.hpp"
-#include "reduction/inertia_responses.hpp"
+#include "reduction/nodal_invariants.hpp"
 #include "reduction/symmetric_solver.hpp"
 
 namespace pleuel {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/scene/body_constants.hpp"
-#include "reduction/reduction_model.hpp"
+#include "reduction/model_reader.hpp"
 
 namespace pleuel {
 

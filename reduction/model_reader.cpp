@@ -1,3 +1,5 @@
+#include "reduction/model_reader.hpp"
+
 #include <algorithm>
 #include <filesystem>
 #include <numbers>
@@ -7,9 +9,8 @@
 #include "core/base/find_named.hpp"
 #include "core/base/int_size.hpp"
 #include "core/scene/reading/number_reader.hpp"
-#include "core/scene/reading/text_file.hpp"
+#include "core/scene/reading/syntax_error.hpp"
 #include "reduction/calculix_input.hpp"
-#include "reduction/reduction_model.hpp"
 
 namespace pleuel {
 

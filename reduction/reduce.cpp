@@ -8,9 +8,9 @@
 #include "core/base/error.hpp"
 #include "core/base/int_size.hpp"
 #include "reduction/body_surface.hpp"
+#include "reduction/interface.hpp"
 #include "reduction/model_check.hpp"
 #include "reduction/nodal_invariants.hpp"
-#include "reduction/plane_motion.hpp"
 #include "reduction/stress_points.hpp"
 
 namespace pleuel {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/scene/body_constants.hpp"
-#include "reduction/reduction_model.hpp"
+#include "reduction/model_reader.hpp"
 
 /// From the finite-element model of a solid to the invariants that a mechanism knows it by.
 namespace pleuel {

@@ -6,9 +6,10 @@
 
 #include <Eigen/Core>
 
-#include "reduction/solid_shape.hpp"
-
 namespace pleuel {
+
+/// Solid finite elements whose shapes are known (element_shape.hpp), by their names in CalculiX.
+enum class SolidShape { tetrahedron4, tetrahedron10, hexahedron8, hexahedron20 };
 
 /// An isotropic material, in the units of the mesh.
 struct SolidMaterial {

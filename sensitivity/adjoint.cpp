@@ -7,13 +7,11 @@
 #include "core/base/error.hpp"
 #include "core/base/stop.hpp"
 #include "core/integration/period_map.hpp"
-#include "core/integration/periodic_start.hpp"
 #include "core/integration/projection.hpp"
 #include "core/integration/step_equations.hpp"
 #include "core/mechanism/configuration.hpp"
 #include "core/mechanism/linear_solver.hpp"
 #include "sensitivity/initial_sensitivity.hpp"
-#include "sensitivity/periodic_correction.hpp"
 #include "sensitivity/periodic_sensitivity.hpp"
 
 namespace pleuel {

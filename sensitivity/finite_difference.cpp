@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/base/parallel.hpp"
+#include "core/jobs/parallel.hpp"
 
 namespace pleuel {
 

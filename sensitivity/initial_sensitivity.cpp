@@ -8,6 +8,7 @@
 #include "core/integration/damped_start.hpp"
 #include "core/mechanism/configuration.hpp"
 #include "core/mechanism/linear_solver.hpp"
+#include "core/scene/scene_rules.hpp"
 #include "core/start/equilibrium.hpp"
 #include "core/system/linear_forces.hpp"
 
@@ -179,6 +180,20 @@ StateSensitivity first_step_sensitivity(Mechanism& mechanism, const Trajectory& 
   initial.a = std::move(derivatives.a);
   initial.w = std::move(derivatives.w);
   return initial;
+}
+
+std::vector<std::string> unknown_derivatives(const ProblemFile& problem, const Design<double>& x) {
+  std::vector<std::string> sentences;
+  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
+    const DesignVariable& variable = problem.variables[i];
+    if (variable.lower < variable.upper) continue;
+    if (const auto moved = find_point_moved_along(problem.scene, x, i)) {
+      sentences.push_back(fmt::format(
+          "the derivatives with respect to \"{}\" are not those of the mechanism: it {}",
+          variable.name, *moved));
+    }
+  }
+  return sentences;
 }
 
 }  // namespace pleuel

@@ -8,7 +8,7 @@
 
 #include "core/base/stopwatch.hpp"
 #include "sensitivity/adjoint.hpp"
-#include "sensitivity/direct.hpp"
+#include "sensitivity/gradients.hpp"
 
 namespace pleuel {
 

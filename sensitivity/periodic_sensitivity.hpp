@@ -1,5 +1,10 @@
 #pragma once
 
+#include <memory>
+
+#include <Eigen/Core>
+
+#include "core/integration/period_map.hpp"
 #include "core/integration/state_sensitivity.hpp"
 #include "core/integration/trajectory.hpp"
 #include "core/mechanism/mechanism.hpp"
@@ -18,5 +23,29 @@ StateSensitivity periodic_sensitivity(Mechanism& mechanism, const Trajectory& tr
 /// The period is a number: at designs close by the motion has to repeat itself with the same one.
 /// @throws SimulationError if it does not, as where a design variable is the speed of a drive
 void require_repeated_derivatives(Mechanism& mechanism, const Trajectory& trajectory);
+
+/// The largest magnitude in each column.
+inline Eigen::RowVectorXd sizes_of(const Eigen::MatrixXd& columns) {
+  return columns.cwiseAbs().colwise().maxCoeff();
+}
+
+/// When the repeated solution with 1 − M (periodic_sensitivity.hpp) ends: where what is left is
+/// round-off, relative to the size of the whole, in each column.
+class PeriodicCorrection {
+ public:
+  /// @throws SimulationError if it no longer shrinks with a map of the motion itself, and is more
+  ///         than round-off
+  bool is_done(const Eigen::MatrixXd& left, const Eigen::RowVectorXd& sizes);
+
+  /// The map that solves: that of the search, or one of the motion itself where that is too far
+  /// from it.
+  const PeriodMap& map(Mechanism& mechanism, const Trajectory& trajectory);
+
+ private:
+  double before_ = 0.0;
+  int count_ = 0;
+  bool needs_own_map_ = false;
+  std::shared_ptr<const PeriodMap> own_map_;
+};
 
 }  // namespace pleuel

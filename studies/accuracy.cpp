@@ -14,12 +14,12 @@
 #include "core/base/stop.hpp"
 #include "core/response/analysis.hpp"
 #include "core/scene/response_parts.hpp"
-#include "core/trust/asked_responses.hpp"
+#include "core/trust/trusted_run.hpp"
 #include "studies/accuracy_run.hpp"
 
 namespace pleuel {
 
-// Parts of a study (core/base/part_store.hpp).
+// Parts of a study (core/jobs/part_store.hpp).
 
 /// But for the variation, which the file says.
 template <class Archive>

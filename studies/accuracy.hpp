@@ -7,10 +7,9 @@
 
 #include <Eigen/Core>
 
-#include "core/base/compared_times.hpp"
-#include "core/base/part_store.hpp"
+#include "core/base/stopwatch.hpp"
+#include "core/jobs/part_store.hpp"
 #include "core/scene/problem_file.hpp"
-#include "studies/accuracy_grid.hpp"
 #include "studies/accuracy_knobs.hpp"
 #include "studies/accuracy_run.hpp"
 #include "studies/row_prices.hpp"

@@ -17,7 +17,7 @@
 
 namespace pleuel {
 
-// Parts of a study (core/base/part_store.hpp).
+// Parts of a study (core/jobs/part_store.hpp).
 
 namespace {
 

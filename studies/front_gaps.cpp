@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/base/int_size.hpp"
-#include "studies/front_scale.hpp"
+#include "studies/front_ends.hpp"
 
 namespace pleuel {
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/base/compared_times.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/response/analysis.hpp"
 #include "core/scene/problem_file.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
-#include "core/base/parallel.hpp"
+#include "core/jobs/parallel.hpp"
 #include "core/response/analysis.hpp"
 #include "optimization/generic_numbers.hpp"
 #include "sensitivity/finite_difference.hpp"

@@ -8,11 +8,11 @@
 #include "core/base/dense_solvers.hpp"
 #include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
-#include "core/integration/periodic_start.hpp"
+#include "core/integration/period_map.hpp"
 #include "core/integration/repetition.hpp"
 #include "core/response/analysis.hpp"
 #include "optimization/design/size_trials.hpp"
-#include "optimization/scaling.hpp"
+#include "optimization/scaled_problem.hpp"
 #include "studies/priced_numbers.hpp"
 #include "studies/row_prices.hpp"
 

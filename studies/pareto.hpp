@@ -29,14 +29,14 @@ ProblemFile trade_off_problem(ProblemFile problem);
 /// Wismer 1971): the limit goes from `from` to `to` in equal steps. The optimizations at both ends
 /// start from the start values, each other one from the optimum of a neighbour (pareto_order()), or
 /// where that broke its limits from where that began. Each is a task of its own
-/// (core/base/tasks.hpp); the points do not depend on the number of jobs. Every point is audited
+/// (core/jobs/tasks.hpp); the points do not depend on the number of jobs. Every point is audited
 /// like any optimum. Between two responses the ends are found first: the best design for each of
 /// them, and of equally good ones (to 10⁻⁴ of their value) the best for the other; the limit on the
 /// second goes from one to the other. Where both ends are the same there is one point: nothing is
 /// to be traded. With a `gap` more points come between neighbours that are further apart
 /// (front_gaps.hpp), in rounds: where they come follows from the points before alone. Where sizes
 /// come from lists, each point is a choice of them (choose_sizes()); where nothing else is free and
-/// the choices are few, the front is that of all choices (choice_front.hpp).
+/// the choices are few, the front is that of all choices.
 /// @param problem  of two responses: that of trade_off_problem()
 /// @returns what was found before a stop, if one was asked for
 /// @throws Stopped before the first
@@ -44,5 +44,19 @@ ProblemFile trade_off_problem(ProblemFile problem);
 ///         sizes that cannot all be simulated
 ParetoFront pareto_front(const ProblemFile& problem, const SolveOptions& options,
                          const Execution& execution = {}, const ParetoObserver& observer = {});
+
+// Fronts of sizes that are chosen from lists, where all choices can be simulated.
+
+/// Whether there is nothing to design but sizes from lists, with at most 300 choices of them.
+bool is_enumerable(const ProblemFile& problem);
+
+/// Simulates every choice of sizes. The front is all of them that keep the limits and that no other
+/// dominates, to round-off: that of the problem itself, not of searches. Of a limit that goes from
+/// one value to another it is what is best at some limit between. Each point is judged like any
+/// optimum.
+/// @param problem  of two responses: that of trade_off_problem()
+/// @throws Stopped before the first point
+ParetoFront choice_front(const ProblemFile& problem, const SolveOptions& options,
+                         const Execution& execution, const ParetoObserver& observer);
 
 }  // namespace pleuel

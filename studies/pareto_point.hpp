@@ -5,7 +5,7 @@
 
 #include "optimization/prices.hpp"
 #include "optimization/result.hpp"
-#include "studies/front_scale.hpp"
+#include "studies/front_ends.hpp"
 #include "studies/sized_search.hpp"
 
 namespace pleuel {
@@ -42,5 +42,16 @@ Goals goals_of(const ParetoPoint& point, GoodSide side);
 /// Marks each point for which another one is better in one goal and not worse in the other
 /// (FrontScale). Points that break limits or have no design neither dominate nor are dominated.
 void mark_dominated(std::vector<ParetoPoint>& points, GoodSide side);
+
+/// The knee of a front: the point that is furthest from the straight line between the ends, towards
+/// what is good in both goals, each divided by its range (Das 1999, Structural Optimization 18,
+/// 107–115). With the ends at (0, 1) and (1, 0) that is the largest (1 − u − v)/√2. On either side of
+/// it a little more of one goal costs more and more of the other.
+///
+/// Counted are points within their limits that no other dominates.
+/// @param points  in the order of limits, marked by mark_dominated()
+/// @returns the index of the point; none where less than three count, or where all are within 5 % of
+///          the line: such a front is traded at one price
+std::optional<std::size_t> find_knee(const std::vector<ParetoPoint>& points, GoodSide side);
 
 }  // namespace pleuel

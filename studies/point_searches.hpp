@@ -11,7 +11,7 @@
 #include "optimization/solve.hpp"
 #include "studies/pareto_point.hpp"
 
-/// The searches for points of a front, each a task of its own (core/base/tasks.hpp).
+/// The searches for points of a front, each a task of its own (core/jobs/tasks.hpp).
 namespace pleuel {
 
 /// A point, and the design that its search began at.

@@ -14,7 +14,7 @@
 #include "core/base/error.hpp"
 #include "core/model/motion_plane.hpp"
 #include "core/response/analysis.hpp"
-#include "core/scene/bound_points.hpp"
+#include "core/scene/body_rules.hpp"
 
 namespace pleuel {
 

@@ -3,7 +3,7 @@
 #include <memory>
 #include <utility>
 
-#include "core/base/parallel.hpp"
+#include "core/jobs/parallel.hpp"
 #include "optimization/design/design_solve.hpp"
 #include "optimization/design/size_choice.hpp"
 

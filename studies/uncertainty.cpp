@@ -14,12 +14,12 @@
 #include "core/scene/sample_extent.hpp"
 #include "core/trust/checks.hpp"
 #include "optimization/design/setting_text.hpp"
-#include "optimization/stored_tasks.hpp"
+#include "optimization/evaluation_store.hpp"
 #include "optimization/verdict.hpp"
 #include "sensitivity/history_gradients.hpp"
 #include "sensitivity/method_choice.hpp"
 #include "studies/missing_settings.hpp"
-#include "studies/random_numbers.hpp"
+#include "studies/noise.hpp"
 
 namespace pleuel {
 

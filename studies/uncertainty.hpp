@@ -71,7 +71,7 @@ using SampleObserver = std::function<void(int done, double seconds_left)>;
 enum class SampledNumbers { values, histories };
 
 /// First-order second-moment analysis about the start design, and Monte Carlo with so many samples
-/// as the settings ask for as the check. Samples are tasks (core/base/tasks.hpp): those of a process
+/// as the settings ask for as the check. Samples are tasks (core/jobs/tasks.hpp): those of a process
 /// that crashes count as ones that could not be simulated.
 /// @param execution  of the samples; the numbers do not depend on it
 /// @param numbers    of samples: with histories, these have sampled deviations, too

@@ -9,7 +9,7 @@
 #include "cli/files/run_picture.hpp"
 #include "cli/files/run_record.hpp"
 #include "cli/files/run_store.hpp"
-#include "cli/input/solve_settings.hpp"
+#include "cli/input/run_setting.hpp"
 #include "cli/reports/accuracy_charts.hpp"
 #include "cli/reports/accuracy_document.hpp"
 #include "cli/reports/accuracy_report.hpp"
@@ -20,8 +20,8 @@
 #include "core/base/stop.hpp"
 #include "core/base/stopwatch.hpp"
 #include "studies/accuracy.hpp"
-#include "studies/accuracy_grid.hpp"
 #include "studies/accuracy_optimum.hpp"
+#include "studies/accuracy_run.hpp"
 
 namespace pleuel {
 

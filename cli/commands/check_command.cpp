@@ -11,8 +11,8 @@
 #include "cli/reports/analysis_report.hpp"
 #include "cli/reports/derivative_report.hpp"
 #include "cli/reports/effects_report.hpp"
+#include "cli/reports/limits_report.hpp"
 #include "cli/reports/scene_report.hpp"
-#include "cli/reports/ties.hpp"
 #include "cli/reports/warnings.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/number_text.hpp"
@@ -21,9 +21,9 @@
 #include "core/model/drive_rows.hpp"
 #include "core/scene/body_rules.hpp"
 #include "core/trust/checks.hpp"
-#include "core/trust/ranking.hpp"
+#include "core/trust/finding.hpp"
 #include "sensitivity/gradients.hpp"
-#include "sensitivity/unknown_derivatives.hpp"
+#include "sensitivity/initial_sensitivity.hpp"
 #include "studies/derivative_check.hpp"
 
 namespace pleuel {

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "cli/input/problem_input.hpp"
+#include "cli/reports/case_report.hpp"
 #include "cli/reports/limits_report.hpp"
-#include "cli/reports/over_cases_report.hpp"
 #include "cli/text/console.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/error.hpp"
@@ -18,7 +18,7 @@
 #include "core/scene/load_cases.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/scene/reading/document_reader.hpp"
-#include "core/scene/reading/text_file.hpp"
+#include "core/scene/reading/syntax_error.hpp"
 
 namespace pleuel {
 

@@ -11,8 +11,8 @@
 
 #include <fmt/format.h>
 
+#include "cli/files/csv_file.hpp"
 #include "cli/files/run_picture.hpp"
-#include "cli/files/trajectory_csv.hpp"
 #include "cli/reports/analysis_report.hpp"
 #include "cli/reports/case_report.hpp"
 #include "cli/reports/effects_report.hpp"
@@ -24,9 +24,8 @@
 #include "core/response/value_over_cases.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/shown_unit.hpp"
-#include "core/trust/case_findings.hpp"
 #include "core/trust/checks.hpp"
-#include "core/trust/ranking.hpp"
+#include "core/trust/finding.hpp"
 #include "core/trust/refined_runs.hpp"
 #include "optimization/prices.hpp"
 #include "picture/companions.hpp"

@@ -9,7 +9,6 @@
 #include "cli/commands/commands.hpp"
 #include "cli/files/csv_file.hpp"
 #include "cli/files/older_run.hpp"
-#include "cli/files/run_again.hpp"
 #include "cli/files/run_store.hpp"
 #include "cli/files/vtk_series.hpp"
 #include "cli/text/json.hpp"

@@ -2,9 +2,9 @@
 
 #include <optional>
 
-#include "cli/files/run_again.hpp"
+#include "cli/files/csv_file.hpp"
+#include "cli/files/older_run.hpp"
 #include "cli/files/run_picture.hpp"
-#include "cli/files/trajectory_csv.hpp"
 #include "cli/input/design_file.hpp"
 #include "cli/reports/case_report.hpp"
 #include "cli/reports/optimum_report.hpp"

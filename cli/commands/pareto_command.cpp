@@ -10,11 +10,10 @@
 #include "cli/files/run_picture.hpp"
 #include "cli/files/run_record.hpp"
 #include "cli/files/run_store.hpp"
-#include "cli/input/solve_settings.hpp"
+#include "cli/input/run_setting.hpp"
 #include "cli/reports/document_table.hpp"
-#include "cli/reports/error_report.hpp"
-#include "cli/reports/gaps_report.hpp"
-#include "cli/reports/sizes_report.hpp"
+#include "cli/reports/limits_report.hpp"
+#include "cli/reports/starts_report.hpp"
 #include "cli/reports/warnings.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/number_text.hpp"
@@ -24,7 +23,7 @@
 #include "core/scene/shown_unit.hpp"
 #include "studies/missing_settings.hpp"
 #include "studies/pareto.hpp"
-#include "studies/pareto_knee.hpp"
+#include "studies/pareto_point.hpp"
 #include "studies/varied_limit.hpp"
 
 namespace pleuel {

@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 #include "cli/commands/commands.hpp"
-#include "cli/files/history_meaning.hpp"
+#include "cli/files/csv_file.hpp"
 #include "cli/files/older_run.hpp"
 #include "cli/files/output_file.hpp"
 #include "cli/files/run_folder.hpp"

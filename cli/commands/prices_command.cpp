@@ -9,7 +9,7 @@
 #include "cli/files/csv_file.hpp"
 #include "cli/files/run_picture.hpp"
 #include "cli/files/run_record.hpp"
-#include "cli/input/solve_settings.hpp"
+#include "cli/input/run_setting.hpp"
 #include "cli/reports/iteration_lines.hpp"
 #include "cli/reports/warnings.hpp"
 #include "cli/text/table.hpp"

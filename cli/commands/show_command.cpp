@@ -14,7 +14,6 @@
 #include "cli/input/problem_input.hpp"
 #include "cli/reports/effects_report.hpp"
 #include "cli/reports/scene_report.hpp"
-#include "cli/reports/scene_words.hpp"
 #include "cli/reports/warnings.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/error.hpp"
@@ -23,15 +22,15 @@
 #include "core/mobility/lock.hpp"
 #include "core/model/drive_rows.hpp"
 #include "core/response/analysis.hpp"
-#include "core/response/misalignment.hpp"
+#include "core/response/monitors.hpp"
 #include "core/scene/body_rules.hpp"
 #include "core/start/degrees_of_freedom.hpp"
 #include "core/start/initial_state.hpp"
-#include "core/trust/blocked_drives.hpp"
 #include "core/trust/checks.hpp"
+#include "core/trust/joint_findings.hpp"
 #include "core/trust/proportions.hpp"
 #include "core/trust/unactuated_freedoms.hpp"
-#include "picture/rigid_motion.hpp"
+#include "picture/motion.hpp"
 
 /// The mechanism as the file places it, before anything is simulated.
 namespace pleuel {

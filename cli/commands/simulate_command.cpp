@@ -3,9 +3,9 @@
 
 #include "cli/commands/accurate_input.hpp"
 #include "cli/commands/commands.hpp"
+#include "cli/files/csv_file.hpp"
 #include "cli/files/run_picture.hpp"
 #include "cli/files/run_record.hpp"
-#include "cli/files/trajectory_csv.hpp"
 #include "cli/input/problem_input.hpp"
 #include "cli/reports/analysis_report.hpp"
 #include "cli/reports/effects_report.hpp"
@@ -19,10 +19,10 @@
 #include "core/base/number_text.hpp"
 #include "core/base/stop.hpp"
 #include "core/base/stopwatch.hpp"
-#include "core/integration/periodic_start.hpp"
+#include "core/integration/period_map.hpp"
 #include "core/trust/checks.hpp"
+#include "core/trust/finding.hpp"
 #include "core/trust/proportions.hpp"
-#include "core/trust/ranking.hpp"
 
 namespace pleuel {
 

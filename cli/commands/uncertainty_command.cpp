@@ -14,7 +14,6 @@
 #include "cli/files/run_record.hpp"
 #include "cli/files/run_store.hpp"
 #include "cli/reports/document_table.hpp"
-#include "cli/reports/error_report.hpp"
 #include "cli/reports/warnings.hpp"
 #include "core/base/number_text.hpp"
 #include "core/scene/shown_unit.hpp"

@@ -1,8 +1,14 @@
 #include "cli/files/csv_file.hpp"
 
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
+
+#include "cli/text/csv_table.hpp"
+#include "core/base/error.hpp"
+#include "core/response/history_reduction.hpp"
+#include "sensitivity/history_gradients.hpp"
 
 namespace pleuel {
 
@@ -69,6 +75,109 @@ void write_histories(const ResultFile& file, const Eigen::VectorXd& time,
     for (const auto& [name, values] : columns) csv.add(values(i));
     csv.end_row();
   }
+}
+
+namespace {
+
+std::vector<std::string> header(const Problem& problem) {
+  std::vector<std::string> titles = {"evaluation", "iteration",     "seconds", "purpose",
+                                     "request",    "max_violation", "step",    "objective"};
+  for (const Constraint& constraint : problem.constraints()) {
+    titles.push_back("constraint:" + constraint.name);
+  }
+  for (const Variable& variable : problem.variables()) {
+    titles.push_back("variable:" + variable.name);
+  }
+  titles.insert(titles.end(), {"time_step", "elements", "failure"});
+  return titles;
+}
+
+}  // namespace
+
+std::string to_string(Request request) {
+  return request == Request::values ? "values" : "gradients";
+}
+
+HistoryCsv::HistoryCsv(const ResultFile& file, const DesignProblem& problem)
+    : constraints_(problem.constraints().size()),
+      objective_sign_(problem.objective_sign()),
+      csv_(file, header(problem)) {}
+
+void HistoryCsv::add(const EvaluationRecord& record) {
+  const bool has_failed = record.has_failed();
+  const auto add_value = [&](double value) {
+    has_failed ? csv_.add(std::string()) : csv_.add(value);
+  };
+  csv_.add(record.evaluation).add(record.iteration).add(record.seconds);
+  csv_.add(to_string(record.purpose)).add(to_string(record.request));
+  add_value(record.max_violation);
+  csv_.add(record.step);
+  add_value(objective_sign_ * record.objective);
+  for (std::size_t i = 0; i < constraints_; ++i) {
+    add_value(has_failed ? 0.0 : record.constraints(i));
+  }
+  for (const double value : record.x) csv_.add(value);
+  csv_.add(record.time_step).add(record.elements).add(record.failure);
+  csv_.end_row();
+}
+
+void write_trajectory(const ResultFile& file, const Analysis& analysis,
+                      const std::vector<Eigen::VectorXd>& bands) {
+  std::vector<std::pair<std::string, Eigen::VectorXd>> columns;
+  for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
+    if (!analysis.responses[i].history()) continue;
+    columns.emplace_back(analysis.responses[i].name,
+                         shown_history(analysis.responses[i], analysis.histories[i]));
+  }
+  for (std::size_t i = 0; i < bands.size(); ++i) {
+    if (bands[i].size() != analysis.trajectory.time.size()) continue;
+    columns.emplace_back(analysis.responses[i].name + ":error", bands[i]);
+  }
+  write_histories(file, analysis.trajectory.time, columns);
+}
+
+void write_history_gradients(const ResultFile& file, const ProblemFile& problem,
+                             Analysis& analysis) {
+  std::vector<std::pair<std::string, Eigen::VectorXd>> columns;
+  for (const HistoryGradients& history : history_gradients(analysis)) {
+    const std::string& name = analysis.responses[history.response].name;
+    columns.emplace_back(name, history.values);
+    for (std::size_t j = 0; j < problem.variables.size(); ++j) {
+      columns.emplace_back(name + ":" + problem.variables[j].name, history.gradients.col(j));
+    }
+  }
+  write_histories(file, analysis.trajectory.time, columns);
+}
+
+TrajectoryBands read_bands(const std::filesystem::path& file, const Analysis& analysis) {
+  CsvTable table;
+  try {
+    table = read_csv(file);
+  } catch (const InputError& error) {
+    return {{}, error.what()};
+  }
+  const auto fault = [&](const std::string& what) {
+    return TrajectoryBands{{}, fmt::format("{}: {}", file.string(), what)};
+  };
+  const Eigen::VectorXd& time = analysis.trajectory.time;
+  if (table.columns.front().size() != time.size()) {
+    return fault(fmt::format("has {} instants, the simulation has {}", table.columns.front().size(),
+                             time.size()));
+  }
+  TrajectoryBands found;
+  found.bands.resize(analysis.responses.size());
+  bool has_bands = false;
+  for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
+    const std::string& name = analysis.responses[i].name;
+    if (!analysis.responses[i].history()) continue;
+    if (table.find(name) < 0) return fault(fmt::format("the column \"{}\" is missing", name));
+    const int band = table.find(name + ":error");
+    if (band < 0) continue;
+    found.bands[i] = table.columns[band];
+    has_bands = true;
+  }
+  if (!has_bands) found.bands.clear();
+  return found;
 }
 
 }  // namespace pleuel

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -8,6 +9,11 @@
 
 #include "cli/files/output_file.hpp"
 #include "cli/text/json.hpp"
+#include "core/response/analysis.hpp"
+#include "core/scene/problem_file.hpp"
+#include "core/scene/shown_unit.hpp"
+#include "optimization/design/design_problem.hpp"
+#include "optimization/history.hpp"
 
 namespace pleuel {
 
@@ -48,5 +54,61 @@ class DocumentCsv {
 /// A line for each instant: time, and columns of as many numbers.
 void write_histories(const ResultFile& file, const Eigen::VectorXd& time,
                      const std::vector<std::pair<std::string, Eigen::VectorXd>>& columns);
+
+/// "values" or "gradients"
+std::string to_string(Request request);
+
+/// history.csv: a line for every evaluation as it happens [SI].
+class HistoryCsv {
+ public:
+  HistoryCsv(const ResultFile& file, const DesignProblem& problem);
+  void add(const EvaluationRecord& record);
+
+ private:
+  std::size_t constraints_;
+  double objective_sign_;
+  CsvFile csv_;
+};
+
+/// One line an instant: time, then each response's history (core/response/history_reduction.hpp) [SI],
+/// and `NAME:error`, the half-width of its error band.
+/// @param bands  one a response; those that are empty are left out, as are all of none
+void write_trajectory(const ResultFile& file, const Analysis& analysis,
+                      const std::vector<Eigen::VectorXd>& bands = {});
+
+/// One line an instant: time, then each response's history and its derivatives with respect to all
+/// variables, at the place where the response is taken [SI].
+/// @throws SimulationError
+void write_history_gradients(const ResultFile& file, const ProblemFile& problem,
+                             Analysis& analysis);
+
+/// What such a file of the same simulation says of the bands.
+struct TrajectoryBands {
+  std::vector<Eigen::VectorXd> bands;  ///< one a response; empty: the file has none
+  std::string fault;                   ///< what is wrong with the file; empty: nothing
+};
+
+TrajectoryBands read_bands(const std::filesystem::path& file, const Analysis& analysis);
+
+// What a history is beside the number that is made from it.
+
+/// The unit of the history of a response: that of the number, but for an integral over time.
+inline ShownUnit history_unit(const ResponseSettings& response) {
+  if (response.over_time != OverTime::integral) return unit_of(response);
+  ResponseSettings instant = response;
+  instant.over_time = OverTime::max;
+  instant.unit.clear();
+  return unit_of(instant);
+}
+
+/// Whether a limit on the number is one on each instant of its history: so of peaks, but not of what
+/// cycles of stress, a mean or an integral make of the history.
+inline bool limits_each_instant(const ResponseSettings& response) {
+  const bool is_of_cycles =
+      response.type == ResponseType::fatigue || response.type == ResponseType::fatigue_damage;
+  const bool is_peak = response.over_time == OverTime::max || response.over_time == OverTime::min ||
+                       response.over_time == OverTime::max_abs;
+  return is_peak && !is_of_cycles;
+}
 
 }  // namespace pleuel

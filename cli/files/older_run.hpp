@@ -4,7 +4,11 @@
 #include <optional>
 #include <string>
 
+#include <Eigen/Core>
+
+#include "cli/input/arguments.hpp"
 #include "cli/text/json.hpp"
+#include "core/scene/problem_file.hpp"
 
 namespace pleuel {
 
@@ -40,5 +44,38 @@ std::optional<OlderRun> find_older_run(const std::filesystem::path& folder);
 
 /// @throws InputError if the folder is not that of a run
 OlderRun read_older_run(const std::filesystem::path& folder);
+
+// What an earlier run simulated, from its documents.
+
+/// The load case whose mechanism a page shows first; empty without cases.
+std::string shown_case(const Json& result);
+
+/// The problem as it ran: with the steps and elements that were chosen for an accuracy, and the
+/// effects that were built at the end.
+ProblemFile problem_of(const Json& card, const Json& result);
+
+/// The same of one of its load cases; of all if it is empty.
+ProblemFile problem_of(const Json& card, const Json& result, const std::string& load_case);
+
+/// The values of a document's variables; nothing if it does not have all of them.
+/// @param key  of {NAME: {key: number}}; empty for {NAME: number}
+std::optional<Eigen::VectorXd> design_in(const Json& document, const ProblemFile& problem,
+                                         const std::string& key);
+
+/// A word as a shell wants it.
+std::string shell_word(const std::string& word);
+
+/// The command line as it was typed, but for --overwrite.
+std::string typed_command(const Arguments& arguments);
+
+/// The line for a shell that runs a command on a file.
+std::string command_on(const std::string& command, const Arguments& arguments,
+                       const std::filesystem::path& file);
+
+/// The line for a shell that runs a command on the same input at the design of a file. Where the
+/// command takes gradients, they are those of the arguments.
+/// @param command  "simulate", "gradient" or "optimize"
+std::string command_at(const std::string& command, const Arguments& arguments,
+                       const std::filesystem::path& design);
 
 }  // namespace pleuel

@@ -4,20 +4,18 @@
 #include <cmath>
 #include <functional>
 
-#include "cli/files/history_meaning.hpp"
+#include "cli/files/csv_file.hpp"
 #include "cli/files/scene_picture.hpp"
 #include "cli/reports/analysis_report.hpp"
 #include "cli/text/json.hpp"
-#include "core/model/imported_constants.hpp"
+#include "core/model/imported_builder.hpp"
+#include "core/response/history_reduction.hpp"
 #include "core/response/peak_place.hpp"
-#include "core/response/shown_history.hpp"
 #include "core/scene/response_kind.hpp"
-#include "core/scene/response_names.hpp"
+#include "core/scene/response_parts.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "picture/companions.hpp"
-#include "picture/frames_of_motion.hpp"
 #include "picture/motion.hpp"
-#include "picture/rigid_motion.hpp"
 #include "picture/thinned.hpp"
 
 namespace pleuel {

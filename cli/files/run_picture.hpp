@@ -17,7 +17,7 @@ struct ShownDesign {
   std::string name;  ///< "start", "optimum"; for people, too
   Eigen::VectorXd x;
   const Analysis* analysis = nullptr;  ///< null: geometry only
-  /// Of the histories (core/trust/error_bands.hpp); empty where none is known.
+  /// Of the histories (core/trust/error_bars.hpp); empty where none is known.
   std::vector<Eigen::VectorXd> bands{};
   const DesignInfluence* influence = nullptr;  ///< of the variables; null: not known
   const Motion* rigid = nullptr;  ///< without an analysis: how drives move it; null: it stands

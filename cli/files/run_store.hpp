@@ -7,7 +7,7 @@
 
 #include "cli/files/run_record.hpp"
 #include "cli/input/problem_input.hpp"
-#include "core/base/part_store.hpp"
+#include "core/jobs/part_store.hpp"
 #include "optimization/verdict.hpp"
 #include "record/run_database.hpp"
 

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "cli/reports/scene_words.hpp"
+#include "cli/reports/scene_report.hpp"
 #include "cli/text/json.hpp"
 #include "core/base/number_text.hpp"
 #include "core/model/motion_plane.hpp"

@@ -6,7 +6,7 @@
 #include "cli/given_files.hpp"
 #include "core/base/error.hpp"
 #include "core/scene/reading/json_text.hpp"
-#include "core/scene/reading/text_file.hpp"
+#include "core/scene/reading/syntax_error.hpp"
 
 namespace pleuel {
 

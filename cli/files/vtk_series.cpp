@@ -6,9 +6,8 @@
 #include <fmt/format.h>
 
 #include "core/base/int_size.hpp"
-#include "picture/frames_of_motion.hpp"
 #include "picture/motion.hpp"
-#include "picture/swept_beam.hpp"
+#include "picture/section_outline.hpp"
 
 namespace pleuel {
 

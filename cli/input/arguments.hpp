@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/base/parallel.hpp"
-#include "core/base/tasks.hpp"
+#include "core/jobs/parallel.hpp"
+#include "core/jobs/tasks.hpp"
 #include "core/trust/trusted_run.hpp"
 
 namespace pleuel {

@@ -4,7 +4,10 @@
 #include <iterator>
 
 #include <dlfcn.h>
+#include <fmt/format.h>
 
+#include "cli/commit.hpp"
+#include "cli/versions.hpp"
 #include "core/scene/reading/document_reader.hpp"
 
 namespace pleuel {
@@ -67,6 +70,11 @@ Json fingerprints_of_files(const Json& problem, const std::filesystem::path& fil
     add_files_of_scene(of_case, file.parent_path(), fingerprints);
   }
   return fingerprints;
+}
+
+std::string version_text() {
+  return fmt::format("pleuel {} (commit {}, {}, {}, {})", versions::pleuel, versions::commit,
+                     versions::compiler, versions::build_type, versions::processor);
 }
 
 }  // namespace pleuel

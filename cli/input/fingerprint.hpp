@@ -23,4 +23,7 @@ std::string program_fingerprint();
 /// @param file     that it was read from: names are relative to its folder
 Json fingerprints_of_files(const Json& problem, const std::filesystem::path& file);
 
+/// "pleuel 0.1.0 (commit 0ce292e8, GNU 12.2.0, Release, -march=native)": what this program was made from, and how.
+std::string version_text();
+
 }  // namespace pleuel

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "cli/input/command_table.hpp"
-#include "cli/input/version_text.hpp"
+#include "cli/input/fingerprint.hpp"
 #include "cli/text/console.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/error.hpp"

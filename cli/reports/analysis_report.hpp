@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "cli/reports/error_report.hpp"
+#include "cli/reports/warnings.hpp"
 #include "cli/text/json.hpp"
 #include "core/response/analysis.hpp"
 #include "core/response/monitors.hpp"

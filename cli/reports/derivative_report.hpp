@@ -5,6 +5,7 @@
 
 #include "cli/text/json.hpp"
 #include "core/response/analysis.hpp"
+#include "sensitivity/constant_gradients.hpp"
 #include "studies/derivative_check.hpp"
 
 /// What check has to say of values and derivatives.
@@ -30,5 +31,15 @@ std::string derivatives_text(const ProblemFile& problem, const Analysis& analysi
 /// and limit, as an optimizer sees it.
 std::vector<std::string> noise_warnings(const ProblemFile& problem, const Analysis& analysis,
                                         const std::vector<DerivativeCheck>& checks);
+
+/// {"body", "responses": {NAME: {"unit", "invariants", "places", "stress", "stiffening"}}}: derivatives in the arrangement
+/// of a file of invariants (docs/invariants.md).
+Json constant_gradients_document(const ProblemFile& problem, const std::string& body,
+                                 const ConstantGradients& gradients);
+
+/// What one percent more of all inertia, stiffness or damping of the body changes of each response, a row each.
+std::string constant_gradients_text(const ProblemFile& problem, const std::string& body,
+                                    const ConstantGradients& gradients,
+                                    const Eigen::VectorXd& values);
 
 }  // namespace pleuel

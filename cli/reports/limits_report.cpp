@@ -1,6 +1,7 @@
 #include "cli/reports/limits_report.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -10,8 +11,11 @@
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/find_named.hpp"
 #include "core/base/number_text.hpp"
+#include "core/response/divided_deflection.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "optimization/verdict.hpp"
+#include "sensitivity/kinks.hpp"
+#include "studies/varied_limit.hpp"
 
 namespace pleuel {
 
@@ -163,6 +167,134 @@ std::string limits_text(const ProblemFile& problem, const Json& limits) {
 bool keeps_limits(const Json& limits) {
   return std::all_of(limits.begin(), limits.end(),
                      [](const Json& limit) { return limit.at("kept").get<bool>(); });
+}
+
+namespace {
+
+const char* cause_text(FrontGap::Cause cause) {
+  static constexpr std::array<const char*, 4> names = {"open", "jump", "failure", "narrow"};
+  return names[static_cast<std::size_t>(cause)];
+}
+
+/// Of a gap that more points do not close.
+const char* reason(FrontGap::Cause cause) {
+  if (cause == FrontGap::Cause::jump) return "the front jumps: searches found no design there";
+  if (cause == FrontGap::Cause::narrow) {
+    return "nothing was looked for: limits there are too near to each other, and the objective "
+           "cannot be limited in their place";
+  }
+  return "searches failed, or came to designs that others dominate";
+}
+
+bool is_of_gap(const ProblemFile& problem, const ParetoFront& front) {
+  return problem.pareto->gap > 0.0 && front.is_whole && !front.choices;
+}
+
+}  // namespace
+
+std::string gaps_message(const ProblemFile& problem, const ParetoFront& front,
+                         const std::string& limited) {
+  if (!is_of_gap(problem, front)) return "";
+  const double asked = problem.pareto->gap;
+  if (!front.gaps.largest && front.gaps.gaps.empty()) {
+    return "there are no neighbours: fewer than two points keep the limits and are not dominated";
+  }
+  std::string text = fmt::format("neighbours are at most {} apart, both goals over their ranges",
+                                 percent(front.gaps.largest.value_or(0.0)));
+  if (front.gaps.gaps.empty()) return fmt::format("{} ({} asked)", text, percent(asked));
+  text += fmt::format("; asked was {}", percent(asked));
+  const ShownUnit unit = unit_of(problem, problem.constraints[varied_rows(problem).front()]);
+  bool is_open = false;
+  for (const FrontGap& gap : front.gaps.gaps) {
+    is_open = is_open || gap.cause == FrontGap::Cause::open;
+    if (gap.cause == FrontGap::Cause::open) continue;
+    const auto value = [&](std::size_t i) {
+      return significant(unit.shown(front.points[i].limited_value));
+    };
+    text += fmt::format("; between {} = {} and {}{} ({}) {}", limited, value(gap.tight),
+                        value(gap.loose), unit.suffix(), percent(gap.size), reason(gap.cause));
+  }
+  if (is_open) {
+    text += fmt::format("; no more than {} points were allowed (\"most_points\")",
+                        problem.pareto->most_points);
+  }
+  return text;
+}
+
+Json gaps_document(const ProblemFile& problem, const ParetoFront& front) {
+  if (!is_of_gap(problem, front)) return nullptr;
+  Json document = {{"asked", problem.pareto->gap}, {"largest", nullptr}};
+  if (front.gaps.largest) document["largest"] = *front.gaps.largest;
+  const auto limited = [&](std::size_t i) {
+    const ParetoPoint& point = front.points[i];
+    return point.has_design() && point.keeps_limits() ? Json(point.limited_value) : Json(nullptr);
+  };
+  document["left"] = list_of(front.gaps.gaps, [&](const FrontGap& gap) {
+    return Json{{"points", {gap.tight + 1, gap.loose + 1}},
+                {"limited", {limited(gap.tight), limited(gap.loose)}},
+                {"size", gap.size},
+                {"cause", cause_text(gap.cause)}};
+  });
+  return document;
+}
+
+namespace {
+
+std::string describe(const Tie& tie, const Response& response) {
+  const PeakTie& peaks = tie.peaks;
+  return fmt::format("{}: peaks within {:.2g} %, {}; gradients differ by {:.3g} %", response.name,
+                     100 * peaks.gap, describe_tie(peaks, response), 100 * *tie.kink);
+}
+
+}  // namespace
+
+Ties find_ties(Analysis& analysis, const std::vector<DesignVariable>& variables) {
+  return make_ties(analysis, find_kinks(analysis, variables));
+}
+
+Ties make_ties(const Analysis& analysis, const std::vector<Kink>& kinks) {
+  Ties ties(analysis.responses.size());
+  for (std::size_t i = 0; i < ties.size(); ++i) {
+    const std::vector<PeakTie>& all = analysis.reductions[i].ties;
+    if (!all.empty()) ties[i] = Tie{all.front(), std::nullopt};
+  }
+  for (const Kink& kink : kinks) {
+    std::optional<Tie>& tie = ties[kink.response];
+    if (!tie || !tie->is_kink()) tie = Tie{kink.tie, kink.difference};
+  }
+  return ties;
+}
+
+Json tie_document(const Tie& tie, const Response& response) {
+  const Signal& signal = *response.history()->signal;
+  return {
+      {"times", {tie.peaks.time, tie.peaks.other_time}},
+      {"places", {signal.describe(tie.peaks.channel), signal.describe(tie.peaks.other_channel)}},
+      {"gap", tie.peaks.gap},
+      {"is_kink", tie.is_kink()}};
+}
+
+std::string ties_text(const Ties& ties, const Analysis& analysis) {
+  std::string kinks;
+  std::vector<std::string> harmless;
+  for (std::size_t i = 0; i < ties.size(); ++i) {
+    if (!ties[i]) continue;
+    const Response& response = analysis.responses[i];
+    if (ties[i]->is_kink()) {
+      kinks += fmt::format("  {}\n", describe(*ties[i], response));
+    } else {
+      harmless.push_back(response.name);
+    }
+  }
+  std::string text;
+  if (!kinks.empty()) {
+    text += "\nKinks: two peaks tie, and the gradient is that of the higher one only\n" + kinks;
+  }
+  if (!harmless.empty()) {
+    text += fmt::format("\nHarmless ties (equal peaks that move alike with the design): {}\n",
+                        fmt::join(harmless, ", "));
+  }
+  return wrapped(text, "    ");
 }
 
 }  // namespace pleuel

@@ -8,6 +8,9 @@
 #include "cli/text/json.hpp"
 #include "core/base/error_bar.hpp"
 #include "core/response/analysis.hpp"
+#include "core/scene/problem_file.hpp"
+#include "sensitivity/kinks.hpp"
+#include "studies/pareto_front.hpp"
 
 /// How one simulated design stands to the limits of its problem, without the margins that
 /// `deviations` ask for.
@@ -36,5 +39,40 @@ std::string limits_text(const ProblemFile& problem, const Json& limits);
 /// As exactly as a verified optimum does.
 /// @param limits  of limits_document()
 bool keeps_limits(const Json& limits);
+
+/// Sentences on the gaps of a front that was asked for one: how large they are, where it jumps, and
+/// what kept it from closing others. Empty of other fronts.
+/// @param limited  name of what is limited
+std::string gaps_message(const ProblemFile& problem, const ParetoFront& front,
+                         const std::string& limited);
+
+/// `largest` is null of fewer than two points.
+/// {"asked", "largest", "left": [{"points": [i, j], "limited": [a, b], "size", "cause"}]}; null of
+/// other fronts. Points are counted from 1.
+Json gaps_document(const ProblemFile& problem, const ParetoFront& front);
+
+// Maxima that two peaks share. If the peaks move alike with the design that is no harm; if not,
+// the response has a kink there, and its gradient is that of the higher peak only.
+
+struct Tie {
+  PeakTie peaks;
+  std::optional<double> kink;  ///< relative difference of the two gradients, if they differ
+
+  bool is_kink() const { return kink.has_value(); }
+};
+
+/// The tie of each response, if it has one; a kink before a harmless one.
+using Ties = std::vector<std::optional<Tie>>;
+
+/// Costs one run of direct differentiation if there is any tie.
+Ties find_ties(Analysis& analysis, const std::vector<DesignVariable>& variables);
+/// The same with kinks that are known.
+Ties make_ties(const Analysis& analysis, const std::vector<Kink>& kinks);
+
+/// {"times": [s, s], "places": ["…", "…"], "gap", "is_kink"}
+Json tie_document(const Tie& tie, const Response& response);
+
+/// A line for each kink, and one for all harmless ties; or nothing.
+std::string ties_text(const Ties& ties, const Analysis& analysis);
 
 }  // namespace pleuel

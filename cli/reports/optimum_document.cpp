@@ -6,9 +6,9 @@
 
 #include "cli/reports/analysis_report.hpp"
 #include "cli/reports/case_report.hpp"
-#include "cli/reports/error_report.hpp"
 #include "cli/reports/limits_report.hpp"
 #include "cli/reports/scene_report.hpp"
+#include "cli/reports/warnings.hpp"
 #include "core/base/number_text.hpp"
 #include "core/scene/case_goals.hpp"
 #include "core/scene/response_quantity.hpp"

@@ -3,9 +3,9 @@
 #include <string>
 
 #include "cli/text/json.hpp"
-#include "core/base/compared_times.hpp"
+#include "core/base/stopwatch.hpp"
 
-/// Times that were compared in turns (core/base/compared_times.hpp).
+/// Times that were compared in turns (core/base/stopwatch.hpp).
 namespace pleuel {
 
 /// Of the same work, whatever a clock says.

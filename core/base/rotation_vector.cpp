@@ -5,8 +5,6 @@
 #include <Eigen/Geometry>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/base/rotation_series.hpp"
-#include "core/base/skew.hpp"
 
 namespace pleuel {
 

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include "core/base/dense_solvers.hpp"
 #include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
-#include "core/beam/natural_modes.hpp"
 
 namespace pleuel {
 
@@ -248,6 +248,11 @@ MatrixXd rigid_displacements(const ElasticCoordinates& coordinates, const std::v
     set(2, 4, -place);  // about y: w = −x
   }
   return rigid;
+}
+
+NaturalModes natural_modes(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass) {
+  SymmetricModes modes = symmetric_modes(stiffness, mass);
+  return {std::move(modes.values), std::move(modes.vectors)};
 }
 
 }  // namespace pleuel

@@ -3,12 +3,12 @@
 #include <Eigen/Core>
 
 #include "core/beam/invariants.hpp"
-#include "core/effects/body_motion.hpp"
+#include "core/effects/body_equations.hpp"
 
 /// Inertia, elastic and damping forces of a body in the floating frame of reference formulation.
 ///
 /// With the local acceleration of a material point
-///     a = a₀ + X p + Y ṗ + p̈                                       (body_motion.hpp)
+///     a = a₀ + X p + Y ṗ + p̈                                       (body_equations.hpp)
 /// the virtual work of −ρ a gives, all in invariants (Shabana, Dynamics of Multibody Systems, ch.
 /// 5, written with second moments of the mass distribution):
 ///     force    f = ∫ρ a               = m a₀ + X c + Y S̄ q̇_f + S̄ q̈_f,        c = c₀ + S̄ q_f

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/beam/invariant_vector.hpp"
-#include "core/effects/body_motion.hpp"
+#include "core/effects/body_equations.hpp"
 
 namespace pleuel {
 

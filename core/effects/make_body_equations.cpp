@@ -4,7 +4,6 @@
 
 #include "core/effects/general_body_equations.hpp"
 #include "core/effects/planar_body_equations.hpp"
-#include "core/effects/translating_body_equations.hpp"
 
 namespace pleuel {
 

@@ -1,11 +1,16 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <memory>
 #include <utility>
+#include <vector>
 
 #include "core/base/int_size.hpp"
+#include "core/forces/marker_gauge.hpp"
 #include "core/frame/marker_kinematics.hpp"
 #include "core/frame/number_data.hpp"
+#include "core/system/gauge.hpp"
 #include "core/system/term.hpp"
 
 namespace pleuel {
@@ -172,5 +177,21 @@ class ForceTerm : public Term {
   std::vector<std::size_t> columns_;  ///< local coordinates that the forces depend on
   std::vector<std::pair<std::size_t, int>> pattern_;  ///< (local row, place in columns_)
 };
+
+/// A force element between two markers: what it adds to the system, and what can be read of it.
+struct ForceElement {
+  std::unique_ptr<Term> term;
+  std::unique_ptr<Gauge> gauge;
+};
+
+/// Both of one law (force_term.hpp, marker_gauge.hpp).
+template <class Law>
+ForceElement make_force_element(
+    const Law& law, const std::array<Marker, 2>& markers,
+    const typename Law::template Data<double>& data,
+    const std::vector<DesignDerivative<typename Law::template Data<double>>>& derivatives) {
+  return {std::make_unique<ForceTerm<Law>>(law, markers, data, derivatives),
+          std::make_unique<MarkerGauge<Law>>(law, markers, data, derivatives)};
+}
 
 }  // namespace pleuel

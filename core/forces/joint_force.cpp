@@ -1,8 +1,8 @@
 #include "core/forces/joint_force.hpp"
 
-#include "core/forces/damper_force.hpp"
-#include "core/forces/make_force_element.hpp"
+#include "core/forces/force_term.hpp"
 #include "core/forces/marker_gauge.hpp"
+#include "core/forces/spring_damper.hpp"
 
 namespace pleuel {
 

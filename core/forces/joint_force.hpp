@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/time_law.hpp"
-#include "core/forces/force_element.hpp"
+#include "core/forces/force_term.hpp"
 #include "core/forces/relative_kinematics.hpp"
 #include "core/frame/marker.hpp"
 

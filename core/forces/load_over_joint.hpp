@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/time_law.hpp"
-#include "core/forces/load_direction.hpp"
+#include "core/forces/point_load.hpp"
 #include "core/forces/relative_kinematics.hpp"
 #include "core/frame/marker.hpp"
 #include "core/system/term.hpp"

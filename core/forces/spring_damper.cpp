@@ -3,8 +3,7 @@
 #include <sstream>
 
 #include "core/base/error.hpp"
-#include "core/forces/damper_force.hpp"
-#include "core/forces/make_force_element.hpp"
+#include "core/forces/force_term.hpp"
 
 namespace pleuel {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/base/time_law.hpp"
-#include "core/forces/force_element.hpp"
+#include "core/forces/force_term.hpp"
 #include "core/frame/marker.hpp"
 
 namespace pleuel {
@@ -43,5 +43,13 @@ struct SpringDamperTopology {
 ForceElement make_spring_damper(
     const SpringDamperTopology& topology, const SpringDamperData<double>& data,
     const std::vector<DesignDerivative<SpringDamperData<double>>>& derivatives);
+
+/// What a damper and the resistance to a rate take: c ṡ + r(e, ṡ, t) − r(e, 0, t).
+template <class Scalar>
+Scalar damper_force(const Scalar& damping, const TimeLaw<Scalar>& resistance, double time,
+                    const Scalar& elongation, const Scalar& rate) {
+  return damping * rate + resistance.value_at(time, elongation, rate) -
+         resistance.value_at(time, elongation, Scalar(0));
+}
 
 }  // namespace pleuel

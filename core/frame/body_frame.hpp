@@ -8,7 +8,6 @@
 
 #include "core/base/dual.hpp"
 #include "core/base/rotation_vector.hpp"
-#include "core/base/skew.hpp"
 
 /// The floating frame of a body: which coordinates move it, and its kinematics.
 namespace pleuel {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/base/rotation_series.hpp"
+#include "core/base/rotation_vector.hpp"
 #include "core/frame/body_frame.hpp"
 
 namespace pleuel {

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "core/integration/step_equations.hpp"
 #include "core/mechanism/linear_solver.hpp"
@@ -66,6 +69,58 @@ class NewtonCorrector {
   Experience experience_;
   int iterations_ = 0, iterations_of_step_ = 0;
   double worst_condition_ = 0.0;
+};
+
+// What a simulation says that cannot go on.
+
+/// Where it is.
+struct StepPlace {
+  double time;  ///< [s]
+  int step, steps;
+};
+
+/// " of the body \"rod\"": what the largest entry of a residual belongs to.
+/// @param names  of equations (Mechanism::equation_names); empty text where there are none
+std::string worst_equation(const Eigen::Ref<const Eigen::VectorXd>& residual,
+                           const std::vector<std::string>& names);
+/// The same for one equation.
+std::string equation_text(Eigen::Index equation, const std::vector<std::string>& names);
+
+/// @param step          that was tried last [s]
+/// @param regular_step  [s]
+[[noreturn]] void throw_failed(const StepPlace& place, const StepFailure& failure, double step,
+                               double largest_residual, const std::string& equation,
+                               double regular_step);
+/// @param error  relative to what is allowed
+[[noreturn]] void throw_inaccurate(const StepPlace& place, double step, double error,
+                                   const std::string& equation);
+[[noreturn]] void throw_not_finite(const StepPlace& place, const std::string& equation);
+/// @param drift  [m or rad]
+[[noreturn]] void throw_drifted(const StepPlace& place, double drift, const std::string& equation);
+
+/// The pivots of a solver, shared by all checkpoints between which it did not choose others.
+class PivotRecord {
+ public:
+  using Pivots = std::shared_ptr<const LinearSolver::Pivots>;
+
+  Pivots of(const LinearSolver& solver) {
+    if (solver.pivot_choices() != choice_) {
+      pivots_ = std::make_shared<LinearSolver::Pivots>(solver.pivots());
+      choice_ = solver.pivot_choices();
+    }
+    return pivots_;
+  }
+
+  void restore(const Pivots& pivots, LinearSolver& solver) {
+    if (pivots == pivots_ && solver.pivot_choices() == choice_) return;
+    solver.use_pivots(*pivots);
+    pivots_ = pivots;
+    choice_ = solver.pivot_choices();
+  }
+
+ private:
+  Pivots pivots_;
+  int choice_ = -1;  ///< of the solver, with these pivots
 };
 
 }  // namespace pleuel

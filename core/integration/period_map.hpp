@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "core/base/dense_solvers.hpp"
@@ -63,6 +64,21 @@ class PeriodMap {
   Eigen::MatrixXd reduced_;    ///< Vᵀ M V
   Eigen::VectorXd row_scale_, column_scale_;
   std::optional<DenseLu> rest_;  ///< of 1 − Vᵀ M V, with its rows and columns scaled
+};
+
+class PeriodMap;
+
+/// How the start of a motion that repeats itself was found.
+struct PeriodicStart {
+  double period = 0.0;  ///< [s]
+  int steps = 0;        ///< of the trajectory that make the first period
+  /// For the derivatives of the start; of this motion or of one close by.
+  std::shared_ptr<const PeriodMap> map;
+  int simulations = 0;       ///< of a period
+  int differentiations = 0;  ///< of a period, for the map
+  double gap = 0.0;  ///< that is left after a period: of each coordinate relative to its scale
+  /// By what a disturbance grows in a period, in the long run (PeriodMap::growth).
+  double growth = 0.0;
 };
 
 }  // namespace pleuel

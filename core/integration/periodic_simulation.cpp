@@ -10,12 +10,11 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "core/integration/newton_corrector.hpp"
 #include "core/integration/period_map.hpp"
-#include "core/integration/periodic_start.hpp"
-#include "core/integration/plain_simulation.hpp"
 #include "core/integration/repetition.hpp"
+#include "core/integration/simulate.hpp"
 #include "core/integration/stacked_states.hpp"
-#include "core/integration/step_messages.hpp"
 #include "core/start/equilibrium.hpp"
 
 namespace pleuel {

@@ -1,7 +1,7 @@
 #include "core/integration/position_shift.hpp"
 
-#include "core/integration/matrix_entries.hpp"
-#include "core/system/matrix_slot.hpp"
+#include "core/integration/sparse_products.hpp"
+#include "core/system/system.hpp"
 
 namespace pleuel {
 

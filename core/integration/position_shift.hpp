@@ -5,7 +5,7 @@
 
 #include "core/integration/state_sensitivity.hpp"
 #include "core/mechanism/mechanism.hpp"
-#include "core/system/constraint_terms.hpp"
+#include "core/system/linear_forces.hpp"
 
 namespace pleuel {
 

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "core/base/time_integration.hpp"
+#include "core/system/term.hpp"
 
 namespace pleuel {
 
@@ -44,5 +45,10 @@ Scheme make_scheme(SchemeType type, double step, double spectral_radius);
 /// which makes this step of generalized-α Newmark's with γ = ½, β = ¼ (1 + δ²): stable however
 /// often the size changes.
 Scheme make_restarting_scheme(SchemeType type, double step, double spectral_radius);
+
+/// All that the next step of a scheme depends on.
+struct SchemeState : State {
+  Eigen::VectorXd w;  ///< algorithmic acceleration of the scheme (n)
+};
 
 }  // namespace pleuel

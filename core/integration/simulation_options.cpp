@@ -37,4 +37,63 @@ std::vector<double> regular_instants(const SimulationOptions& options) {
   return instants;
 }
 
+namespace {
+
+/// A step is halved so often at most, unless told otherwise.
+constexpr int usual_halvings = 10, most_halvings = 20;
+/// A step doubles where its error is so small, relative to what is allowed: it then is four times
+/// as large.
+constexpr double small_error = 0.15;
+
+int halvings(const SimulationOptions& options) {
+  if (options.smallest_step <= 0.0) return usual_halvings;
+  const double regular_step = options.end_time / step_count(options);
+  const double ratio = regular_step / options.smallest_step * (1 + 1e-12);
+  return std::clamp(static_cast<int>(std::floor(std::log2(ratio))), 0, most_halvings);
+}
+
+double error_of(Eigen::Index i, const State& old, const State& found, const Scheme& scheme,
+                const Eigen::VectorXd& scale) {
+  return std::abs(found.a(i) - old.a(i)) / scale(i) * std::abs(scheme.local_error) / scheme.step;
+}
+
+}  // namespace
+
+LocalErrorControl::LocalErrorControl(const Mechanism& mechanism, const SimulationOptions& options)
+    : scale_(mechanism.scale), allowed_(options.local_error), finest_level_(halvings(options)) {}
+
+int LocalErrorControl::end_of_part(int begin) {
+  while (begin % (parts() >> level_) != 0) ++level_;
+  return begin + (parts() >> level_);
+}
+
+Eigen::Index LocalErrorControl::worst_coordinate(const State& old, const State& found,
+                                                 const Scheme& scheme) const {
+  Eigen::Index worst = 0;
+  double largest = error_of(0, old, found, scheme, scale_);
+  for (Eigen::Index i = 1; i < scale_.size(); ++i) {
+    const double error = error_of(i, old, found, scheme, scale_);
+    if (error <= largest) continue;
+    worst = i;
+    largest = error;
+  }
+  return worst;
+}
+
+double LocalErrorControl::relative_error(const State& old, const State& found,
+                                         const Scheme& scheme) const {
+  const Eigen::Index worst = worst_coordinate(old, found, scheme);
+  return error_of(worst, old, found, scheme, scale_) * (1 << level_) / allowed_;
+}
+
+bool LocalErrorControl::refine() {
+  if (level_ == finest_level_) return false;
+  ++level_;
+  return true;
+}
+
+void LocalErrorControl::accept(double relative_error) {
+  if (level_ > 0 && relative_error < small_error) --level_;
+}
+
 }  // namespace pleuel

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 #include "core/system/system.hpp"
 
 namespace pleuel {
@@ -13,5 +15,15 @@ void add_products(const System::Matrix& a, const Eigen::MatrixXd& x, const Syste
 /// of_a += Aᵀ y and of_b += Bᵀ y, likewise (the first of_a.rows() columns of the matrices).
 void add_transposed_products(const System::Matrix& a, const System::Matrix& b,
                              const Eigen::MatrixXd& y, Columns of_a, Columns of_b);
+
+/// Calls visit(k, row, column) for all entries of a pattern; k counts its values.
+template <class Visit>
+void for_each_entry(const System::Matrix& matrix, Visit visit) {
+  for (int col = 0; col < matrix.cols(); ++col) {
+    for (int k = matrix.outerIndexPtr()[col]; k < matrix.outerIndexPtr()[col + 1]; ++k) {
+      visit(k, matrix.innerIndexPtr()[k], col);
+    }
+  }
+}
 
 }  // namespace pleuel

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/integration/scheme_state.hpp"
+#include "core/integration/scheme.hpp"
 #include "core/integration/state_sensitivity.hpp"
 #include "core/mechanism/mechanism.hpp"
 

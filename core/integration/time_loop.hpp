@@ -5,15 +5,12 @@
 
 #include "core/base/int_size.hpp"
 #include "core/integration/damped_start.hpp"
-#include "core/integration/local_error_control.hpp"
 #include "core/integration/newton_corrector.hpp"
-#include "core/integration/pivot_record.hpp"
 #include "core/integration/predictor.hpp"
 #include "core/integration/projection.hpp"
-#include "core/integration/scheme_state.hpp"
+#include "core/integration/scheme.hpp"
 #include "core/integration/simulation_options.hpp"
 #include "core/integration/state_window.hpp"
-#include "core/integration/step_messages.hpp"
 #include "core/integration/trajectory.hpp"
 
 namespace pleuel {

@@ -43,7 +43,7 @@ class RecomputedStates : public StateSource {
   virtual int recomputed_steps() const = 0;
 };
 
-struct PeriodicStart;  // core/integration/periodic_start.hpp
+struct PeriodicStart;  // core/integration/period_map.hpp
 
 /// All steps of a simulation. Steps are equal, but for breaks, for those that had to be split and
 /// those that were made smaller by the control of the local error.

@@ -5,7 +5,7 @@
 #include "core/base/dense_solvers.hpp"
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
-#include "core/base/skew.hpp"
+#include "core/base/rotation_vector.hpp"
 #include "core/linear/free_deformations.hpp"
 
 namespace pleuel {

@@ -2,7 +2,6 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/rotation_vector.hpp"
-#include "core/base/skew.hpp"
 
 namespace pleuel {
 

@@ -10,8 +10,8 @@
 #include "core/model/beam_shapes.hpp"
 #include "core/model/invariant_derivatives.hpp"
 #include "core/model/resolve_beam.hpp"
-#include "core/scene/attached_points.hpp"
 #include "core/scene/beam_mesh.hpp"
+#include "core/scene/held_points.hpp"
 
 namespace pleuel {
 

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "core/model/model.hpp"
+#include "core/system/term.hpp"
 
 namespace pleuel {
 
@@ -12,5 +14,8 @@ namespace pleuel {
 /// @param basis_x  its derivatives, in the order of BodyModel::beam_x
 void set_shapes(const SparseMatrix& basis, const std::vector<SparseMatrix>& basis_x,
                 BodyModel& model);
+
+/// Geometric stiffening of a body that has it.
+std::unique_ptr<Term> make_stiffening(const BodyModel& body);
 
 }  // namespace pleuel

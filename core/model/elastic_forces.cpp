@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/model/stiffening_builder.hpp"
+#include "core/model/beam_shapes.hpp"
 
 namespace pleuel {
 

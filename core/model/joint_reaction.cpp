@@ -6,7 +6,7 @@
 #include "core/base/int_size.hpp"
 #include "core/frame/marker_kinematics.hpp"
 #include "core/frame/number_data.hpp"
-#include "core/joints/joint_wrench.hpp"
+#include "core/joints/joint_term.hpp"
 
 namespace pleuel {
 

@@ -7,16 +7,14 @@
 #include <vector>
 
 #include "core/base/find_named.hpp"
-#include "core/base/table_law.hpp"
 #include "core/base/time_law.hpp"
 #include "core/beam/beam.hpp"
 #include "core/frame/body_frame.hpp"
 #include "core/scene/beam_mesh.hpp"
-#include "core/scene/body_axes.hpp"
+#include "core/scene/body_chart.hpp"
 #include "core/scene/point.hpp"
 #include "core/scene/scene.hpp"
 #include "core/section/box_section.hpp"
-#include "core/section/ellipse_section.hpp"
 #include "core/section/i_section.hpp"
 #include "core/section/rectangle_section.hpp"
 #include "core/section/round_section.hpp"
@@ -205,7 +203,7 @@ struct Pose {
   Matrix3<Scalar> rotation;  ///< body to global axes
 };
 
-/// Of a beam, or of a body that lies as one (core/scene/body_axes.hpp).
+/// Of a beam, or of a body that lies as one (core/scene/body_chart.hpp).
 template <class Scalar, class Beam>
 Pose<Scalar> beam_pose(const Beam& body, const Design<Scalar>& design) {
   return {resolve_point(body.from, design), beam_axes(body.from, body.to, body.reference, design)};

@@ -7,7 +7,6 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/beam/elastic_basis.hpp"
-#include "core/beam/natural_modes.hpp"
 #include "core/response/motion_along.hpp"
 
 namespace pleuel {
@@ -100,6 +99,15 @@ DesignConstant body_frequency(const BodyModel& body, const ModeChoice& choice, i
     frequency.derivatives(variable) = mean_form(matrix, shapes) / (2.0 * frequency.value);
   }
   return frequency;
+}
+
+VibrationState vibration_state(Mechanism& mechanism) {
+  if (mechanism.elastic.empty()) return {initial_state(mechanism), ""};
+  try {
+    return {equilibrium_state(mechanism), ""};
+  } catch (const SimulationError& error) {
+    return {initial_state(mechanism), error.what()};
+  }
 }
 
 }  // namespace pleuel

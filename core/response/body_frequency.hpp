@@ -1,8 +1,11 @@
 #pragma once
 
+#include <string>
+
 #include "core/model/model.hpp"
 #include "core/response/response.hpp"
 #include "core/scene/mode_choice.hpp"
+#include "core/start/initial_state.hpp"
 
 namespace pleuel {
 
@@ -25,5 +28,19 @@ BodyMode body_mode(const BodyModel& body, const ModeChoice& choice);
 /// @param variables  number of design variables
 /// @throws InputError if the body has no such mode
 DesignConstant body_frequency(const BodyModel& body, const ModeChoice& choice, int variables);
+
+/// The state about which a mechanism vibrates.
+struct VibrationState {
+  InitialState initial;
+  /// Why members are undeformed there, and not in equilibrium; empty if they are.
+  std::string without_equilibrium;
+};
+
+/// Members in elastic equilibrium with the motion and what acts just before t = 0, however the
+/// motion itself begins: about another state coefficients are not those of small vibrations, and
+/// depend on the mesh. Equilibria that are not stable count, too; if there is none, members are
+/// undeformed.
+/// @throws SimulationError if the mechanism cannot be started at all
+VibrationState vibration_state(Mechanism& mechanism);
 
 }  // namespace pleuel

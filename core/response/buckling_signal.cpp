@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/base/int_size.hpp"
-#include "core/response/section_stations.hpp"
+#include "core/response/section_force_signal.hpp"
 
 namespace pleuel {
 

@@ -10,7 +10,7 @@
 #include "core/base/error.hpp"
 #include "core/base/find_named.hpp"
 #include "core/base/int_size.hpp"
-#include "core/base/parallel.hpp"
+#include "core/jobs/parallel.hpp"
 #include "core/model/effect_decisions.hpp"
 
 namespace pleuel {

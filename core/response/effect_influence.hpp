@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/base/compared_times.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/response/analysis.hpp"
 
 /// What each effect brings, and what it costs.
@@ -39,7 +39,7 @@ enum class InfluenceTimes { none, measured };
 /// it is built, with it where it is not. An effect is turned round in all bodies together; where that
 /// changes a response by more than counts, or cannot be simulated, in both halves of them, and so on.
 /// Effects that another one needs are not listed, nor those that change nothing of what is built.
-/// @param times  measured: of each effect of each body, in turns (core/base/compared_times.hpp)
+/// @param times  measured: of each effect of each body, in turns (core/base/stopwatch.hpp)
 std::vector<EffectInfluence> effect_influences(const ProblemFile& problem, const Eigen::VectorXd& x,
                                                InfluenceTimes times = InfluenceTimes::none);
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "core/response/analysis.hpp"
-#include "core/scene/undecided_problem.hpp"
+#include "core/scene/problem_reader.hpp"
 
 namespace pleuel {
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/model/body_energy.hpp"
+#include "core/model/model.hpp"
 #include "core/response/signal.hpp"
 
 /// Energy of bodies (core/model/body_energy.hpp) [J]. The model must outlive the signals.
@@ -22,5 +23,11 @@ std::unique_ptr<Signal> make_elastic_energy_signal(const Model& model,
 /// what geometric stiffening stores, and the power into them [W] of all else: stiffening, joints
 /// and drives, loads, springs and dampers, damping.
 std::unique_ptr<Signal> make_energy_and_power_signal(const Model& model);
+
+/// Φ(q, t) or dΦ/dt of every equation of joints and drives, a channel each, as the joints state it:
+/// [m], [rad], or the cosine between directions that shall stay normal; rates of it per second.
+/// Equations that are left out as redundant are there, too.
+/// @param model  with constraints; must outlive the signal
+std::unique_ptr<Signal> make_drift_signal(const Model& model, DriftLevel level);
 
 }  // namespace pleuel

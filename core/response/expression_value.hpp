@@ -1,9 +1,14 @@
 #pragma once
 
+#include <cstddef>
+#include <functional>
+#include <map>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "core/base/expression.hpp"
+#include "core/response/analysis.hpp"
 #include "core/response/reduction.hpp"
 #include "core/response/response.hpp"
 
@@ -24,5 +29,53 @@ double expression_value(const std::vector<Response>& responses,
 [[noreturn]] void refuse_expression(const std::vector<Response>& responses,
                                     const std::vector<Reduction>& reductions, std::size_t response,
                                     const char* what);
+
+/// A response, and how much of its change counts.
+struct WeightedResponse {
+  std::size_t response;
+  double weight;
+};
+
+/// What a response is made from, to first order at the design of the analysis:
+///     d(response) = Σ weight · d(part) + design · dx
+struct LinearizedResponse {
+  std::vector<WeightedResponse> parts;  ///< responses that are no expressions, each once
+  Eigen::VectorXd design;               ///< explicit part, one a design variable [SI]
+};
+
+/// The derivatives of a response that is made from others by expressions of expressions: adds up by the
+/// chain rule what each of those counts that are none.
+class ChainedResponse {
+ public:
+  /// The expression of a response, none if it is no expression.
+  using ExpressionOf = std::function<const Expression*(std::size_t response)>;
+  /// An expression of a response, with its derivatives by its arguments.
+  using Evaluated = std::function<ExpressionValue(std::size_t response, const Expression&)>;
+
+  ChainedResponse(Eigen::Index variables, ExpressionOf expression_of, Evaluated evaluated);
+
+  LinearizedResponse linearized(std::size_t response) &&;
+
+ private:
+  void add(std::size_t response, double weight);
+
+  ExpressionOf expression_of_;
+  Evaluated evaluated_;
+  std::map<std::size_t, double> weights_;
+  Eigen::VectorXd design_;
+};
+
+/// By the chain rule through all expressions; of a response that is none, itself with weight 1.
+LinearizedResponse linearized(const Analysis& analysis, std::size_t response);
+
+/// @throws SimulationError where a response has no finite derivative, as sqrt(x) at 0
+void require_derivatives(const Analysis& analysis, std::size_t response);
+
+/// What errors of a response are small beside: the largest magnitude in its history, of an
+/// expression the largest share that one of its parts has in it; else its value.
+double magnitude_of(const Analysis& analysis, std::size_t response);
+
+/// Whether it has a history, or is made from a response that has one.
+bool depends_on_motion(const Analysis& analysis, std::size_t response);
 
 }  // namespace pleuel

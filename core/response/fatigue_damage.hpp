@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <vector>
+
 #include "core/integration/trajectory.hpp"
 #include "core/response/reduction.hpp"
 
@@ -28,5 +31,15 @@ Reduction reduce_damage(FatigueCriterion criterion, double exponent, const Eigen
 
 /// Whether a range is a whole number of periods of a motion that repeats itself.
 RangeEnds ends_of(const StepRange& range, const Trajectory& trajectory);
+
+/// A cycle, or half of one, between two turning points of a history.
+struct CountedCycle {
+  std::size_t from, to;  ///< indices of turning points
+  double count;          ///< 1 or ½
+};
+
+/// Rainflow counting of ASTM E1049-85 (2017), 5.4.4, in the order in which cycles close.
+/// @param turning  maxima and minima in turn, the first and the last value among them
+std::vector<CountedCycle> count_rainflow(const std::vector<double>& turning);
 
 }  // namespace pleuel

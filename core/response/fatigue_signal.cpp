@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/response/body_strengths.hpp"
-#include "core/response/section_stations.hpp"
+#include "core/response/section_force_signal.hpp"
 #include "core/response/stress_signal.hpp"
 
 namespace pleuel {

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/model/model.hpp"
-#include "core/response/vibration_state.hpp"
+#include "core/response/body_frequency.hpp"
 
 namespace pleuel {
 

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "core/response/reduced_value.hpp"
+#include "core/response/reduction.hpp"
 
 namespace pleuel {
 
@@ -29,6 +29,29 @@ class HistoryMap {
   /// What a sample of the history is made from: samples of the signal are added.
   virtual void add_observed(const Eigen::VectorXd& time, const StepRange& range,
                             const Sample& sample, std::vector<Sample>& observed) const = 0;
+};
+
+/// What is missing in a balance of an amount and its rate since the first step of the range, by the
+/// trapezoidal rule: amount(t) − amount(t₀) − ∫ rate dt. The signal observes both, one after the
+/// other.
+class BalanceMap final : public HistoryMap {
+ public:
+  std::vector<int> observed_channels(int channel) const override;
+  Eigen::MatrixXd apply(const Eigen::VectorXd& time, const StepRange& range,
+                        const Eigen::MatrixXd& observed) const override;
+  void add_observed(const Eigen::VectorXd& time, const StepRange& range, const Sample& sample,
+                    std::vector<Sample>& observed) const override;
+};
+
+/// The derivative of every channel with respect to time: of the parabola through three instants, at
+/// the first and the last instant that of the three next to it; through two where there are no more.
+class RateMap final : public HistoryMap {
+ public:
+  std::vector<int> observed_channels(int channel) const override;
+  Eigen::MatrixXd apply(const Eigen::VectorXd& time, const StepRange& range,
+                        const Eigen::MatrixXd& observed) const override;
+  void add_observed(const Eigen::VectorXd& time, const StepRange& range, const Sample& sample,
+                    std::vector<Sample>& observed) const override;
 };
 
 }  // namespace pleuel

@@ -6,9 +6,9 @@
 
 #include "core/base/int_size.hpp"
 #include "core/model/body_point.hpp"
+#include "core/response/composed_signals.hpp"
 #include "core/response/recovered_signal.hpp"
 #include "core/response/section_forces.hpp"
-#include "core/response/signal_list.hpp"
 
 namespace pleuel {
 

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "core/response/reduced_value.hpp"
+#include "core/response/reduction.hpp"
 
 namespace pleuel {
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/integration/simulate.hpp"
 #include "core/model/model.hpp"
@@ -44,5 +45,19 @@ struct Monitors {
 /// Costs 4 to 10 µs a step, 5 to 35 % of a simulation: nothing for optimizations.
 /// @param trajectory  of the mechanism of the model
 Monitors monitor(const Model& model, const Trajectory& trajectory);
+
+/// Joints that hold the same motion almost twice.
+struct Misalignment {
+  std::vector<std::string> joints;  ///< their names, in the order of the file
+  std::vector<std::string> bodies;  ///< that the blocked motion would move
+  double size = 0.0;                ///< [rad], or of the mechanism's size
+
+  /// "the joints … are out of line by …": what, where and what to do about it.
+  std::string text() const;
+};
+
+/// By nearly_redundant_constraints(); one entry for each set of joints, the smallest misalignment.
+std::vector<Misalignment> find_misalignments(const Model& model, const State& state,
+                                             double largest);
 
 }  // namespace pleuel

@@ -2,7 +2,7 @@
 
 #include "core/base/dense_solvers.hpp"
 #include "core/base/eager_matrices.hpp"
-#include "core/base/skew.hpp"
+#include "core/base/rotation_vector.hpp"
 #include "core/beam/elastic_basis.hpp"
 
 namespace pleuel {

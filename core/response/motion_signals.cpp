@@ -8,7 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "core/response/body_state.hpp"
-#include "core/response/vector_component.hpp"
+#include "core/response/composed_signals.hpp"
 
 namespace pleuel {
 

@@ -6,8 +6,8 @@
 
 #include "core/base/find_named.hpp"
 #include "core/model/body_point.hpp"
-#include "core/scene/attached_points.hpp"
 #include "core/scene/beam_mesh.hpp"
+#include "core/scene/held_points.hpp"
 #include "core/scene/response_kind.hpp"
 
 namespace pleuel {

@@ -7,8 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/response/scaled_signal.hpp"
-#include "core/response/signal_sum.hpp"
+#include "core/response/composed_signals.hpp"
 
 namespace pleuel {
 

@@ -1,6 +1,6 @@
 #include "core/response/recorder.hpp"
 
-#include "core/base/huge_pages.hpp"
+#include "core/base/machine_memory.hpp"
 
 namespace pleuel {
 

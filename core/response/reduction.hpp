@@ -6,10 +6,43 @@
 
 #include <Eigen/Core>
 
-#include "core/response/reduced_value.hpp"
 #include "core/scene/problem_file.hpp"
 
+/// What becomes of a history.
 namespace pleuel {
+
+/// One observed number that a reduced value depends on: d(value)/d(y[step, channel]) = weight.
+struct Sample {
+  int step;
+  int channel;
+  double weight;
+};
+
+/// Another peak of nearly the same height. In a periodic motion that is no harm: both move alike
+/// with the design. Where they do not, the maximum has a kink (see sensitivity/kinks.hpp).
+struct PeakTie {
+  double time = 0.0, other_time = 0.0;  ///< [s]
+  int channel = 0, other_channel = 0;
+  double gap = 0.0;                   ///< relative difference of the heights
+  std::vector<Sample> other_samples;  ///< what the other height depends on
+};
+
+/// A history reduced to one number, linearised in the observed numbers.
+struct Reduction {
+  double value = 0.0;
+  std::vector<Sample> samples;
+  std::vector<PeakTie> ties;  ///< by gap, the closest first; of many those that differ most
+};
+
+/// Steps first … last of a history.
+struct StepRange {
+  int first = 0, last = 0;
+  int steps() const { return last - first + 1; }
+};
+
+/// Whether signals may jump or have a kink at an instant, one an instant; empty: nowhere. Peaks
+/// there and beside are samples: no parabola goes through.
+using BrokenInstants = std::vector<bool>;
 
 /// The instants that lie on breaks [s].
 BrokenInstants instants_at(const std::vector<double>& breaks, const Eigen::VectorXd& time);
@@ -29,7 +62,7 @@ enum class AmongChannels {
 
 /// Reduces a history over time (and over channels: the smallest for min, the largest for the
 /// others). Peaks between steps are found by the parabola through three samples; at the ends of the
-/// range, and where the history jumps (history_jump.hpp), they are samples. Where a range begins or
+/// range, and where the history jumps (history_reduction.hpp), they are samples. Where a range begins or
 /// ends with a jump, that from within counts (limits_at_ends.hpp). rms, mean and integral use the
 /// trapezoidal rule.
 /// @param time    steps + 1 instants [s]

@@ -23,7 +23,7 @@ struct InitialMode {
   ModeChoice choice;  ///< its axis is a global one
 };
 
-/// A formula of other responses and of design variables (core/response/linearized_expression.hpp).
+/// A formula of other responses and of design variables (core/response/expression_value.hpp).
 struct ResponseExpression {
   std::shared_ptr<const Expression> expression;
 };

@@ -2,7 +2,6 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
-#include "core/response/section_stations.hpp"
 
 namespace pleuel {
 

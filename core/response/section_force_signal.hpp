@@ -1,8 +1,16 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
+#include <fmt/format.h>
+
+#include "core/base/int_size.hpp"
 #include "core/model/model.hpp"
+#include "core/response/recovered_signal.hpp"
+#include "core/response/section_forces.hpp"
 #include "core/response/signal.hpp"
 #include "core/response/station.hpp"
 
@@ -13,5 +21,116 @@ std::unique_ptr<Signal> make_section_force_signal(const BodyModel& body,
                                                   const Eigen::Vector3d& gravity,
                                                   SectionForcePart part,
                                                   const StationChoice& stations);
+
+/// What quantities have in common that have one number a section.
+struct OneASection {
+  struct Point {};
+
+  std::vector<Point> points(const BodyModel&, const SectionProperties<double>&) const {
+    return {{}};
+  }
+
+  std::string name(const SectionProperties<double>&, Point) const { return ""; }
+};
+
+/// ", y = 0.005 m, z = 0 m": where a stress point of a section is, by its number.
+inline std::string outline_point_name(int point) {
+  return fmt::format(", {} degrees from y to z", point * 360 / fixed_outline_points);
+}
+
+inline std::string stress_point_name(const SectionProperties<double>& section, int point) {
+  const StressPoint<double>& at = section.points[point];
+  return fmt::format(", y = {:.4g} m, z = {:.4g} m", at.y, at.z);
+}
+
+/// What is made of the section forces of a beam. Quantity is a formula for any scalar types, those
+/// of the beam and of the forces:
+///     using Point = …;  // a place of a section
+///     std::vector<Point> points(const BodyModel&, const SectionProperties<double>&) const;
+///     template <class Scalar, class Force> StressOf<Scalar, Force> evaluate(const Beam<Scalar>&,
+///         const SectionProperties<Scalar>&, const SectionForces<Force>&, const Point&) const;
+///     std::string name(const SectionProperties<double>&, const Point&) const;  // ", tension side"
+/// One channel a station and point.
+template <class Quantity>
+class SectionStations final : public Stations {
+ public:
+  SectionStations(const BodyModel& body, const StationChoice& choice, Quantity quantity)
+      : body_(body), quantity_(std::move(quantity)), stations_(find_stations(body, choice)) {
+    for (int s = 0; s < int_size(stations_); ++s) {
+      for (const Point& point : quantity_.points(body, section_of(body.beam, s))) {
+        channels_.push_back({s, point});
+      }
+    }
+  }
+
+  int numbers() const override { return section_force_count; }
+  Recovery recovery() const override { return section_force_recovery(body_, stations_); }
+  Recovery recovery_derivative(std::size_t k) const override {
+    return section_force_derivative(body_, stations_, k);
+  }
+
+  int channels() const override { return int_size(channels_); }
+  int station(int channel) const override { return at(channel).station; }
+  std::string describe(int channel) const override {
+    const auto& [station, point] = at(channel);
+    return pleuel::describe(stations_[station], body_) +
+           quantity_.name(section_of(body_.beam, station), point);
+  }
+
+  double value(int channel, const double* numbers) const override {
+    return evaluate(body_.beam, channel, section_forces(numbers));
+  }
+
+  Numbers slopes(int channel, const double* numbers) override {
+    std::array<ForcesDual, section_force_count> seeded;
+    for (int i = 0; i < section_force_count; ++i) {
+      seeded[i] = {numbers[i], ForcesDual::Derivatives::Unit(i)};
+    }
+    return evaluate(body_.beam, channel, section_forces(seeded.data())).derivatives();
+  }
+
+  double design_slope(int channel, const double* numbers, std::size_t k) const override {
+    return derivative_of(evaluate(body_.beam_x[k].second, channel, section_forces(numbers)));
+  }
+
+ private:
+  using ForcesDual = DualOf<section_force_count>;
+  using Point = typename Quantity::Point;
+
+  /// One number of a station.
+  struct Channel {
+    int station;
+    Point point;
+  };
+
+  const Channel& at(int channel) const { return channels_[channel]; }
+
+  template <class Scalar>
+  const SectionProperties<Scalar>& section_of(const Beam<Scalar>& beam, int station) const {
+    const int element = stations_[station].elements.front();
+    return beam.elements[element].section;
+  }
+
+  template <class Scalar, class Force>
+  StressOf<Scalar, Force> evaluate(const Beam<Scalar>& beam, int channel,
+                                   const SectionForces<Force>& forces) const {
+    const auto& [station, point] = at(channel);
+    return quantity_.evaluate(beam, section_of(beam, station), forces, point);
+  }
+
+  const BodyModel& body_;
+  Quantity quantity_;
+  std::vector<Station> stations_;
+  std::vector<Channel> channels_;
+};
+
+/// @param gravity  [m/s²], global axes
+template <class Quantity>
+std::unique_ptr<Signal> make_section_signal(const BodyModel& body, const Eigen::Vector3d& gravity,
+                                            const StationChoice& choice, Quantity quantity) {
+  return make_recovered_signal(
+      body, gravity,
+      std::make_unique<SectionStations<Quantity>>(body, choice, std::move(quantity)));
+}
 
 }  // namespace pleuel

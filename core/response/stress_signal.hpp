@@ -29,4 +29,12 @@ std::unique_ptr<Signal> make_stress_signal(const BodyModel& body, const Eigen::V
 std::vector<int> distinct_stress_points(const BodyModel& body,
                                         const SectionProperties<double>& section);
 
+/// Shear stress [Pa] of shear forces and torsion at the places of the sections of an elastic beam
+/// where it can be the largest (ShearPoint), its magnitude. Of motion in a plane the place that the
+/// shear force of this plane makes the largest.
+/// @pre all sections have such places
+std::unique_ptr<Signal> make_shear_stress_signal(const BodyModel& body,
+                                                 const Eigen::Vector3d& gravity,
+                                                 const StationChoice& stations);
+
 }  // namespace pleuel

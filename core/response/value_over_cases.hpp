@@ -5,7 +5,7 @@
 
 #include <Eigen/Core>
 
-#include "core/response/chained_response.hpp"
+#include "core/response/expression_value.hpp"
 #include "core/scene/problem_file.hpp"
 
 /// Responses that are made from those of several load cases (core/scene/load_cases.hpp).

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "core/base/int_size.hpp"
-#include "core/scene/attached_points.hpp"
+#include "core/scene/held_points.hpp"
 
 namespace pleuel {
 

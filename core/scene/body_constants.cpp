@@ -6,8 +6,8 @@
 #include "core/base/diameter.hpp"
 #include "core/base/find_named.hpp"
 #include "core/base/int_size.hpp"
-#include "core/scene/names_of.hpp"
-#include "core/scene/visit_constants.hpp"
+#include "core/scene/kind_table.hpp"
+#include "core/scene/visit_numbers.hpp"
 
 namespace pleuel {
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <utility>
 
@@ -9,9 +10,12 @@
 
 #include "core/base/dense_solvers.hpp"
 #include "core/scene/load_cases.hpp"
+#include "core/scene/reading/geometry.hpp"
+#include "core/scene/reading/sample_design.hpp"
 #include "core/scene/visit_numbers.hpp"
 
 namespace pleuel {
+
 namespace {
 
 /// Of a dimension: see find_impossible().
@@ -237,6 +241,30 @@ std::vector<std::string> impossible_corners(const ProblemFile& problem) {
     }
   }
   return sentences;
+}
+
+std::vector<Eigen::Vector3d> bound_points(const Scene& scene, const Design<double>& design) {
+  std::vector<Eigen::Vector3d> points;
+  const auto add = [&](const Point& point) {
+    if (std::any_of(point.begin(), point.end(), std::mem_fn(&Number::is_bound))) {
+      points.push_back(position(point, design));
+    }
+  };
+  for (const Body& body : scene.bodies) {
+    if (const auto* beam = std::get_if<BeamBody>(&body.shape)) {
+      add(beam->from);
+      add(beam->to);
+    } else if (const auto* imported = std::get_if<ImportedBody>(&body.shape)) {
+      add(imported->from);
+      add(imported->to);
+    } else if (const auto* rigid = std::get_if<RigidBody>(&body.shape)) {
+      add(rigid->at);
+    } else {
+      add(std::get<PointMass>(body.shape).at);
+    }
+  }
+  for (const PlacedPoint& placed : placed_points(scene)) add(*placed.point);
+  return points;
 }
 
 }  // namespace pleuel

@@ -4,7 +4,10 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "core/scene/problem_file.hpp"
+#include "core/scene/scene.hpp"
 
 /// What the numbers of one body must keep among themselves at every design.
 namespace pleuel {
@@ -42,5 +45,8 @@ std::optional<std::string> find_impossible(const Body& body, const Design<double
 /// constraint that would keep an optimizer away; one for each rule. Those that linear constraints
 /// of the problem exclude are not named.
 std::vector<std::string> impossible_corners(const ProblemFile& problem);
+
+/// Where the points of bodies, joints and loads are that depend on design variables [m].
+std::vector<Eigen::Vector3d> bound_points(const Scene& scene, const Design<double>& design);
 
 }  // namespace pleuel

@@ -4,8 +4,10 @@
 #include <type_traits>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "core/scene/joint_kind.hpp"
+#include "core/scene/scene.hpp"
 
 /// Where joints and loads hold on to bodies: the only list of it.
 namespace pleuel {
@@ -60,5 +62,14 @@ void visit_held_places(const Holder& holder, Visit&& visit) {
 inline bool has_forces(const Load& load) {
   return !std::holds_alternative<PointTorque>(load.element);
 }
+
+/// Where a joint or a load holds on to a body, or an initial deflection is given.
+struct AttachedPoint {
+  std::string name;  ///< of the joint or load, or "initial deflection"
+  Point at;          ///< at t = 0, global axes [m]
+};
+
+/// Those of a body: joints first, in the order of the file.
+std::vector<AttachedPoint> attached_points(const Scene& scene, const std::string& body);
 
 }  // namespace pleuel

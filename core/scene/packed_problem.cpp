@@ -2,8 +2,8 @@
 
 #include <set>
 
-#include "core/base/child_program.hpp"
-#include "core/scene/body_generator.hpp"
+#include "core/jobs/child_program.hpp"
+#include "core/scene/body_source.hpp"
 #include "core/scene/invariants_file.hpp"
 
 /// What does not go member by member.

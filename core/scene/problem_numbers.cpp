@@ -6,8 +6,10 @@
 #include "core/scene/material_library.hpp"
 #include "core/scene/reading/document_reader.hpp"
 #include "core/scene/scene_rules.hpp"
+#include "core/scene/visit_numbers.hpp"
 
 namespace pleuel {
+
 namespace {
 
 /// No variable can stand for these.
@@ -97,6 +99,14 @@ ProblemFile bind_numbers(const ProblemText& text, const std::vector<NumberGroup>
   ProblemFile problem = read_document(root, reader);
   check_places(problem, groups);
   return problem;
+}
+
+Scene with_fixed_numbers(Scene scene, const Design<double>& design) {
+  visit_numbers(scene, [&](const Number& number, const Quantity&) {
+    if (!number.is_bound()) return;
+    const_cast<Number&>(number) = Number(resolve(number, design));  // of the copy, which is ours
+  });
+  return scene;
 }
 
 }  // namespace pleuel

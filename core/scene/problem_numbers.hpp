@@ -4,7 +4,8 @@
 #include <vector>
 
 #include "core/scene/problem_file.hpp"
-#include "core/scene/problem_text.hpp"
+#include "core/scene/problem_reader.hpp"
+#include "core/scene/scene.hpp"
 #include "core/scene/units.hpp"
 
 /// The fixed numbers of a problem file that design variables could stand for: what a price or an
@@ -35,5 +36,9 @@ struct NumberGroup {
 /// unless a number is bound that is decided upon (a coordinate that may leave the plane).
 /// @throws InputError as read_problem_text(); if a number would move a point along an elastic beam
 ProblemFile bind_numbers(const ProblemText& text, const std::vector<NumberGroup>& groups);
+
+/// The scene with every number as it is at a design: nothing of it depends on the variables any more, so
+/// that a model of it has no derivatives.
+Scene with_fixed_numbers(Scene scene, const Design<double>& design);
 
 }  // namespace pleuel

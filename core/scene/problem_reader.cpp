@@ -13,7 +13,7 @@
 #include "core/scene/reading/document_reader.hpp"
 #include "core/scene/reading/mistakes.hpp"
 #include "core/scene/reading/shared_by_cases.hpp"
-#include "core/scene/reading/text_file.hpp"
+#include "core/scene/reading/syntax_error.hpp"
 
 namespace pleuel {
 

@@ -2,11 +2,36 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "core/scene/undecided_problem.hpp"
+#include "core/scene/problem_file.hpp"
 
 namespace pleuel {
+
+/// A problem as it is written. The arguments of read_problem_text().
+struct ProblemText {
+  std::string text;
+  std::string file;
+  std::vector<std::string> overrides = {};
+  std::string load_case = {};  ///< the one that is meant of a text with several
+};
+
+/// A problem as its file says it. Where the file has a tolerance of effects, simulations decide what
+/// that leaves out; nobody has asked them yet, so that it has to be said which model is meant:
+/// complete(), or decided() (core/response/effect_measurement.hpp).
+class UndecidedProblem {
+ public:
+  explicit UndecidedProblem(ProblemFile complete) : complete_(std::move(complete)) {}
+
+  /// With all effects that the file does not forbid, whatever its tolerance. Names, units and limits
+  /// are the same in both.
+  const ProblemFile& complete() const& { return complete_; }
+  ProblemFile complete() && { return std::move(complete_); }
+
+ private:
+  ProblemFile complete_;
+};
 
 /// Reads and checks a problem file: syntax, keys, types, units, names, and what can be said of the
 /// values without mechanics. What it returns has all defaults and is in SI units.

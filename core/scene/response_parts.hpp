@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/scene/kind_table.hpp"
 #include "core/scene/problem_file.hpp"
 
 namespace pleuel {
@@ -21,5 +22,19 @@ enum class Extreme { largest, smallest };
 /// down by all of them: the expression has a kink where two are equal, they have not.
 std::vector<std::size_t> extreme_parts(const ProblemFile& problem, std::size_t response,
                                        Extreme extreme);
+
+// The words of problem files for what responses make of a history.
+
+inline constexpr Choice<FatigueCriterion> fatigue_criteria[] = {
+    {"goodman", FatigueCriterion::goodman},
+    {"gerber", FatigueCriterion::gerber},
+    {"soderberg", FatigueCriterion::soderberg},
+};
+
+inline constexpr Choice<OverTime> over_time_kinds[] = {
+    {"max", OverTime::max},     {"min", OverTime::min},   {"max-abs", OverTime::max_abs},
+    {"rms", OverTime::rms},     {"mean", OverTime::mean}, {"integral", OverTime::integral},
+    {"final", OverTime::final},
+};
 
 }  // namespace pleuel

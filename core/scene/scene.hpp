@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/scene/body_constants.hpp"
-#include "core/scene/choices.hpp"
-#include "core/scene/number_range.hpp"
+#include "core/scene/kind_table.hpp"
+#include "core/scene/number.hpp"
 #include "core/scene/time_function.hpp"
 
 /// What the user asked for: plain structs, no mathematics. Order is the order of the file.

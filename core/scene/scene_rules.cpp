@@ -9,8 +9,8 @@
 #include "core/scene/held_points.hpp"
 #include "core/scene/reading/beam_places.hpp"
 #include "core/scene/reading/geometry.hpp"
-#include "core/scene/reading/limits.hpp"
-#include "core/scene/reading/placed_points.hpp"
+#include "core/scene/reading/mistakes.hpp"
+#include "core/scene/reading/sample_design.hpp"
 
 namespace pleuel {
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/scene/choices.hpp"
+#include "core/scene/kind_table.hpp"
 
 namespace pleuel {
 

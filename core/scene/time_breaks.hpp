@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/base/expression.hpp"
 #include "core/base/time_integration.hpp"
 #include "core/scene/scene.hpp"
 
@@ -17,5 +18,10 @@ std::vector<double> time_breaks(const Scene& scene, const TimeIntegration& integ
 /// The times up to the end at which a law may turn sharply [s], ascending: its points in every
 /// period, and kinks of formulas. None of what is a function of the state.
 std::vector<double> sharp_times(const TimeFunction& function, double end_time);
+
+/// The times from 0 to the end at which min, max or abs in an expression change sides [s],
+/// ascending: what they compare depends on time only, so that the times are those of all designs.
+/// Found by `samples` equal steps and bisection: sides that change twice within a step are not seen.
+std::vector<double> kinks_in_time(const Expression& expression, double end_time, int samples);
 
 }  // namespace pleuel

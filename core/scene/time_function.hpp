@@ -53,7 +53,7 @@ enum class Repetition {
 };
 
 /// Through points. That of a drive that is not repeated starts and ends at rest, but for straight
-/// lines (core/base/table_law.hpp). Steps and trapezoids are tables, too.
+/// lines (core/base/time_law.hpp). Steps and trapezoids are tables, too.
 struct TableFunction {
   std::vector<double> times;   ///< [s], or of what else it is a function; ascending, at least two
   std::vector<Number> values;  ///< as many

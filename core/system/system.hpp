@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cassert>
 #include <memory>
 #include <vector>
 
@@ -85,5 +87,14 @@ class System {
 
 /// Sets the rows of the equations of motion to zero in the columns of coordinates.
 void clear_dynamic_block(int coordinates, System::Matrix& matrix);
+
+/// Which of the values of a matrix stands at a place of its pattern. @pre there is one
+inline int slot_of(const System::Matrix& pattern, int row, int col) {
+  const int* begin = pattern.innerIndexPtr() + pattern.outerIndexPtr()[col];
+  const int* end = pattern.innerIndexPtr() + pattern.outerIndexPtr()[col + 1];
+  const int* found = std::lower_bound(begin, end, row);
+  assert(found != end && *found == row);
+  return static_cast<int>(found - pattern.innerIndexPtr());
+}
 
 }  // namespace pleuel

@@ -21,7 +21,7 @@ struct Trust {
   /// leaves the check of resolution out.
   std::vector<std::optional<ErrorBar>> errors;
   std::vector<std::optional<Evidence>> evidence;  ///< of the errors by steps and elements
-  std::vector<Eigen::VectorXd> bands;             ///< of histories (error_bands.hpp)
+  std::vector<Eigen::VectorXd> bands;             ///< of histories (error_bars.hpp)
   std::string failed_run;                         ///< why a run that judges failed; empty: none did
 };
 

@@ -3,10 +3,16 @@
 #include <string>
 #include <vector>
 
-#include "core/trust/concerned_beam.hpp"
 #include "core/trust/finding.hpp"
+#include "core/trust/trusted_run.hpp"
 
 namespace pleuel {
+
+/// A beam for which it may count what the model leaves out.
+struct ConcernedBeam {
+  std::string name;
+  double indicator = 0.0;  ///< of how much, beside other beams
+};
 
 /// Beams that bend or twist so far against their frames that more frames may change something, and
 /// that can be divided: not those with damping of the motion against one frame.

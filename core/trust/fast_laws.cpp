@@ -2,14 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/eager_matrices.hpp"
+#include "core/base/number_text.hpp"
 #include "core/model/scene_geometry.hpp"
+#include "core/response/peak_place.hpp"
+#include "core/scene/response_kind.hpp"
 #include "core/scene/time_breaks.hpp"
-#include "core/trust/missed_values.hpp"
+#include "core/trust/trusted_run.hpp"
 
 namespace pleuel {
 
@@ -147,6 +152,166 @@ std::vector<Finding> check_fast_laws_before(const ProblemFile& problem) {
   const Eigen::VectorXd x = start_design(problem);
   return find_fast_laws(problem.scene, Design<double>(x.begin(), x.end()),
                         Eigen::Map<const Eigen::VectorXd>(instants.data(), instants.size()));
+}
+
+namespace {
+
+/// Samples of each step, at distances that are in step with no period.
+constexpr int samples = 5;
+constexpr double golden_ratio = 0.6180339887498949;
+/// A jump at an instant belongs to neither side [steps].
+constexpr double beside = 1e-6;
+
+ObservedValues between(const ObservedValues& begin, const ObservedValues& end, double share) {
+  return {begin[0] + share * (end[0] - begin[0]), begin[1] + share * (end[1] - begin[1])};
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + std::ssize(values) / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double distance(const ObservedValues& one, const ObservedValues& other) {
+  return std::hypot(one[0] - other[0], one[1] - other[1]);
+}
+
+}  // namespace
+
+MissedValues missed_by(const Eigen::VectorXd& time, const ObservedFunction& value,
+                       const std::vector<double>& knots) {
+  const ObservedValues origin = {0.0, 0.0};
+  MissedValues missed;
+  std::vector<double> of_steps(time.size() - 1, 0.0), of_halves = of_steps;
+  double place = 0.0;
+  auto knot = knots.begin();
+  for (Eigen::Index i = 0; i + 1 < time.size(); ++i) {
+    const double h = time(i + 1) - time(i);
+    const ObservedValues begin = value(time(i) + beside * h), middle = value(time(i) + 0.5 * h),
+                         end = value(time(i + 1) - beside * h);
+    missed.scale = std::max({missed.scale, distance(begin, origin), distance(end, origin)});
+    const auto look = [&](double at) {
+      const ObservedValues here = value(time(i) + (beside + (1.0 - 2.0 * beside) * at) * h);
+      missed.scale = std::max(missed.scale, distance(here, origin));
+      const double away = distance(here, between(begin, end, at));
+      const ObservedValues of_half =
+          at < 0.5 ? between(begin, middle, 2.0 * at) : between(middle, end, 2.0 * at - 1.0);
+      of_halves[i] = std::max(of_halves[i], distance(here, of_half));
+      of_steps[i] = std::max(of_steps[i], away);
+      if (away <= missed.largest) return;
+      missed.largest = away;
+      missed.time = time(i) + at * h;
+      missed.step = h;
+    };
+    for (int k = 0; k < samples; ++k) {
+      place = std::fmod(place + golden_ratio, 1.0);
+      look(place);
+    }
+    for (; knot != knots.end() && *knot < time(i + 1); ++knot) {
+      if (*knot > time(i)) look((*knot - time(i)) / h);
+    }
+  }
+  missed.median = median(std::move(of_steps));
+  missed.median_of_halves = median(std::move(of_halves));
+  return missed;
+}
+
+void add_missed(const MissedSubject& subject, const MissedValues& missed, double scale,
+                std::vector<Finding>& findings) {
+  if (!(missed.largest > subject.most * scale)) return;
+  findings.push_back(
+      {fmt::format("{} changes faster than the steps can follow: within the step of {:.3g} s at "
+                   "t = {:.4g} s its {} is {} of the largest away from what the steps see. "
+                   "Give an oscillation 22 steps or more, a revolution 32: a smaller "
+                   "/simulation/step.",
+                   subject.who, missed.step, missed.time, subject.what,
+                   rough_percent(missed.largest / scale)),
+       true});
+}
+
+namespace {
+
+/// For so many steps behind a corner the ringing is more than a percent (0.8ⁿ).
+constexpr double restless_steps = 20.0;
+
+/// The corner that a peak belongs to [s].
+std::optional<double> corner_at(const std::vector<double>& corners, double peak, double step) {
+  for (const double corner : corners) {
+    if (peak >= corner - 1.5 * step && peak <= corner + restless_steps * step) return corner;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<Finding> check_jerks_at_corners(const TrustedRun& run) {
+  const Trajectory& trajectory = run.analysis.trajectory;
+  if (run.problem.simulation.formulation.constraints == ConstraintForm::index_1) return {};
+  std::vector<double> corners;
+  for (const Joint& joint : run.problem.scene.joints) {
+    if (!joint.drive) continue;
+    const std::vector<double> times =
+        sharp_times(joint.drive->motion, trajectory.time(trajectory.steps()));
+    corners.insert(corners.end(), times.begin(), times.end());
+  }
+  std::vector<Finding> findings;
+  for (const std::size_t i : asked_parts(run.problem)) {
+    const std::optional<ResponseType> rate_of = kind_of(run.problem.responses[i].type).rate_of;
+    const bool is_jerk =
+        rate_of == ResponseType::acceleration || rate_of == ResponseType::angular_acceleration;
+    const auto peak = is_jerk ? find_peak(run.problem, run.analysis, i) : std::nullopt;
+    if (!peak) continue;
+    const auto corner = corner_at(corners, peak->time, trajectory.scheme.step);
+    if (!corner) continue;
+    const std::string& name = run.analysis.responses[i].name;
+    findings.push_back(
+        {fmt::format(
+             "the peak of the jerk \"{}\" is at a corner in the acceleration of a drive (t = "
+             "{:.4g} s): the accelerations ring there, and the jerk is wrong by up to a "
+             "third of its jump there with any step. Take the /simulation/formulation \"index-1\", "
+             "or a law "
+             "without a corner there.",
+             name, *corner),
+         true,
+         {name}});
+  }
+  return findings;
+}
+
+namespace {
+
+/// A direction is known from what it was a step before [rad].
+constexpr double most_turned = 0.5 * std::numbers::pi;
+
+}  // namespace
+
+std::vector<Finding> check_fast_turning(const TrustedRun& run) {
+  const Trajectory& trajectory = run.analysis.trajectory;
+  double most = most_turned, step_size = 0.0, time = 0.0;
+  const BodyModel* fastest = nullptr;
+  State state;
+  for (int step = 1; step <= trajectory.steps(); ++step) {
+    trajectory.states->load(step, state);
+    for (const BodyModel& body : run.analysis.model.bodies) {
+      const BodyFrame& frame = body.frame;
+      const double speed =
+          state.v.segment(frame.offset + frame.translations(), frame.rotations()).norm();
+      const double turned = speed * trajectory.step_size(step);
+      if (!(turned > most)) continue;
+      most = turned;
+      step_size = trajectory.step_size(step);
+      time = trajectory.time(step);
+      fastest = &body;
+    }
+  }
+  if (fastest == nullptr) return {};
+  return {
+      {fmt::format("\"{}\" turns by {:.3g} deg within the step of {:.3g} s at t = {:.4g} s: what "
+                   "its direction changes is not seen. Give a revolution 32 steps: a "
+                   "/simulation/step of {:.2g} s.",
+                   fastest->name, most * 180.0 / std::numbers::pi, step_size, time,
+                   step_size * 2.0 * std::numbers::pi / (32.0 * most)),
+       true}};
 }
 
 }  // namespace pleuel

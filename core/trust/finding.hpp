@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "core/scene/problem_file.hpp"
+
 namespace pleuel {
 
 /// What is behind a finding. What is wrong in one class makes numbers wrong that those after it look at.
@@ -28,5 +30,17 @@ struct Finding {
   std::vector<std::string> bodies{};
   Cause cause = Cause::left_out;
 };
+
+/// Sorts findings by class, within a class the serious ones first: so the cause is told before what
+/// follows from it.
+void rank_findings(std::vector<Finding>& findings);
+
+/// How many of ranked findings follow from those before them: those of lower classes than the highest
+/// one with a serious finding, or with numbers that lack a unit.
+int count_consequences(const std::vector<Finding>& findings);
+
+/// Findings of several load cases, one list a case, as one list, ranked.
+std::vector<Finding> joined_findings(const ProblemFile& problem,
+                                     const std::vector<std::vector<Finding>>& of_cases);
 
 }  // namespace pleuel

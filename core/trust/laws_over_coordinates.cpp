@@ -9,8 +9,8 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/model/scene_geometry.hpp"
-#include "core/response/gauge_signal.hpp"
-#include "core/trust/missed_values.hpp"
+#include "core/response/force_signals.hpp"
+#include "core/trust/fast_laws.hpp"
 
 namespace pleuel {
 

@@ -11,7 +11,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/find_named.hpp"
 #include "core/beam/beam_shape.hpp"
-#include "core/model/shear_area.hpp"
+#include "core/model/resolve_beam.hpp"
 #include "core/trust/beam_state.hpp"
 
 namespace pleuel {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/trust/concerned_beam.hpp"
+#include "core/trust/far_bending.hpp"
 
 namespace pleuel {
 

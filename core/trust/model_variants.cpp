@@ -14,14 +14,14 @@
 #include "core/base/find_named.hpp"
 #include "core/base/int_size.hpp"
 #include "core/base/number_text.hpp"
-#include "core/base/parallel.hpp"
 #include "core/base/quoted.hpp"
+#include "core/jobs/parallel.hpp"
 #include "core/scene/body_groups.hpp"
 #include "core/trust/far_bending.hpp"
 #include "core/trust/low_slenderness.hpp"
+#include "core/trust/refined_runs.hpp"
 #include "core/trust/response_changes.hpp"
 #include "core/trust/round_off.hpp"
-#include "core/trust/variant_basis.hpp"
 
 namespace pleuel {
 
@@ -298,6 +298,31 @@ LeftOut compare_variants(const TrustedRun& run) {
     if (!beams.empty()) VariantRun(run, variant, beams).find(found);
   }
   return found;
+}
+
+const ProblemFile& problem_of_variants(const TrustedRun& run) {
+  SharedFindings& basis = *run.shared;
+  if (basis.problem) return *basis.problem;
+  basis.problem = refined(run.problem, {2.0, 1.0});
+  basis.problem->simulation.moves_by_bending = true;  // whether it moves at all was asked before
+  try {
+    basis.analysis = analyze(*basis.problem, run.x, &run.analysis.trajectory);
+  } catch (const SimulationError&) {
+    basis.problem = run.problem;
+  } catch (const InputError&) {  // a window without steps
+    basis.problem = run.problem;
+  }
+  return *basis.problem;
+}
+
+const Analysis& basis_of_variants(const TrustedRun& run) {
+  problem_of_variants(run);
+  return run.shared->analysis ? *run.shared->analysis : run.analysis;
+}
+
+std::unique_ptr<Analysis> analyze_variant(const TrustedRun& run, const ProblemFile& variant) {
+  return analyze(with_steps_of(basis_of_variants(run).trajectory, variant), run.x,
+                 &run.analysis.trajectory);
 }
 
 }  // namespace pleuel

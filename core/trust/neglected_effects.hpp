@@ -30,4 +30,8 @@ std::vector<Finding> check_lost_stiffening(const TrustedRun& run);
 void add_neglected_effects(const TrustedRun& run, const CompleteRun& complete,
                            std::vector<std::optional<ErrorBar>>& errors);
 
+/// Beams with modal damping and geometric stiffening that bend far: their axial displacements hold
+/// the shortening by bending, which a ratio of the axial modes damps as if it were stretch.
+std::vector<Finding> check_modal_damping(const TrustedRun& run);
+
 }  // namespace pleuel

@@ -8,8 +8,8 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/base/int_size.hpp"
-#include "core/base/parallel.hpp"
 #include "core/integration/simulation_options.hpp"
+#include "core/jobs/parallel.hpp"
 #include "core/model/divided_beams.hpp"
 #include "core/scene/beam_mesh.hpp"
 

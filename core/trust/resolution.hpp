@@ -15,7 +15,7 @@ struct Resolution {
   /// One a response; none of those that are errors themselves, or round-off.
   std::vector<std::optional<ErrorBar>> bars;
   std::vector<std::optional<Evidence>> evidence;  ///< what the bars are made from
-  std::vector<Eigen::VectorXd> bands;             ///< of histories (error_bands.hpp)
+  std::vector<Eigen::VectorXd> bands;             ///< of histories (error_bars.hpp)
   std::string failure;                            ///< of a run that could not be made; empty: none
 };
 
@@ -33,5 +33,10 @@ Resolution judge_resolution(const TrustedRun& run);
 /// from ten percent on of a response that is minimized or limited; of any in a file that
 /// minimizes nothing.
 std::vector<Finding> check_resolution(const TrustedRun& run, const Resolution& found);
+
+/// Energy that comes from nowhere: steps too long for what moves, or a drive that jumps. Serious
+/// from a tenth of the largest energy on: sudden loads on members that vibrate within a step give a
+/// steady, wrong answer at any step that long.
+std::vector<Finding> check_energy_balance(const TrustedRun& run);
 
 }  // namespace pleuel

@@ -14,12 +14,12 @@
 #include "core/base/relative_error.hpp"
 #include "core/integration/simulation_options.hpp"
 #include "core/response/effect_measurement.hpp"
-#include "core/trust/asked_responses.hpp"
 #include "core/trust/checks.hpp"
 #include "core/trust/error_bars.hpp"
-#include "core/trust/fast_turning.hpp"
+#include "core/trust/fast_laws.hpp"
 #include "core/trust/laws_over_coordinates.hpp"
 #include "core/trust/refinement_set.hpp"
+#include "core/trust/trusted_run.hpp"
 
 namespace pleuel {
 
@@ -49,7 +49,7 @@ constexpr double share_of_bars = 0.35;
 /// Of steps that are doubted for another reason than errors. Where these do not help, as of undamped
 /// vibrations after jumps, more would not.
 constexpr int most_halvings = 3;
-/// A third of what is serious (energy_balance.hpp): the designs of an optimization differ from this.
+/// A third of what is serious (resolution.hpp): the designs of an optimization differ from this.
 constexpr double most_missing_energy = 0.03;
 
 /// Of the target, for effects that are left out.

@@ -45,7 +45,7 @@ enum class JudgedBy {
 Refinement coarse_setting(const ProblemFile& problem);
 
 /// Chooses steps and elements such that the errors of all responses that are asked for
-/// (asked_responses.hpp) are within the target at this design, relative to their values
+/// (trusted_run.hpp) are within the target at this design, relative to their values
 /// (core/base/relative_error.hpp). From `first` on steps and elements are refined as order 2 says,
 /// until error bars (error_bars.hpp) are within the target and a run at a quarter of the step, or
 /// at the step of the file if that is smaller, agrees: steps that are far too large may agree with

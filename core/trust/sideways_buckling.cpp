@@ -4,11 +4,15 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "core/base/eager_matrices.hpp"
+#include "core/base/int_size.hpp"
+#include "core/linear/elastic_stability.hpp"
 #include "core/response/lateral_buckling_signal.hpp"
+#include "core/trust/stability.hpp"
 
 namespace pleuel {
 
@@ -204,6 +208,109 @@ std::vector<Finding> check_sideways_buckling(const TrustedRun& run) {
     if (told != nullptr) findings.push_back(told->finding());
   }
   return findings;
+}
+
+namespace {
+
+/// When a history is largest, within the window of its response.
+int instant_of_peak(const TrustedRun& run, std::size_t response) {
+  const ResponseSettings& settings = run.problem.responses[response];
+  const Eigen::VectorXd& time = run.analysis.trajectory.time;
+  const Eigen::MatrixXd& history = run.analysis.histories[response];
+  int peak = -1;
+  for (int n = 0; n < int_size(time); ++n) {
+    const bool is_within =
+        time(n) >= settings.from.value_or(time(n)) && time(n) <= settings.to.value_or(time(n));
+    if (is_within && (peak < 0 || history(0, n) > history(0, peak))) peak = n;
+  }
+  return peak;
+}
+
+/// The smallest upper limit on a response, or one half.
+double largest_allowed(const ProblemFile& problem, const std::string& response) {
+  std::optional<double> allowed;
+  for (const ConstraintSettings& limit : problem.constraints) {
+    if (limit.response != response || !limit.upper) continue;
+    allowed = std::min(allowed.value_or(*limit.upper), *limit.upper);
+  }
+  return allowed.value_or(0.5);
+}
+
+}  // namespace
+
+std::vector<Finding> check_promised_buckling(const TrustedRun& run) {
+  constexpr double notable = 1.1;
+  const auto& responses = run.problem.responses;
+  const bool is_asked = std::any_of(responses.begin(), responses.end(), [](const auto& response) {
+    return response.type == ResponseType::buckling;
+  });
+  if (!is_asked) return {};
+  const LoadFactor load_factor(run.problem, run.x, run.analysis);
+  if (!load_factor.is_known()) return {};
+  std::vector<Finding> findings;
+  for (std::size_t i = 0; i < responses.size(); ++i) {
+    const ResponseSettings& response = responses[i];
+    if (response.type != ResponseType::buckling) continue;
+    const int peak = instant_of_peak(run, i);
+    if (peak < 0) continue;
+    const double promised = run.analysis.histories[i](0, peak);
+    const double factor = load_factor.at(peak);
+    const double allowed = largest_allowed(run.problem, response.name);
+    if (!(factor > 0.0) || 1.0 / factor < std::max(allowed, notable * promised)) continue;
+    findings.push_back(
+        {fmt::format(
+             "\"{0}\" takes \"{1}\" by itself, pinned at both ends: it would buckle at "
+             "{2:.3g} times what presses it at t = {3:.4g} s. Together with the bodies that "
+             "it is connected to, something buckles at {4:.3g} times the loads of that "
+             "instant. For {5:.3g} times limit \"{0}\" to some {6:.2g}.",
+             response.name, response.bodies.front(), 1.0 / promised,
+             run.analysis.trajectory.time(peak), factor, 1.0 / allowed,
+             promised * factor * allowed),
+         false,
+         {response.name}});
+  }
+  return findings;
+}
+
+namespace {
+
+/// The model without weight and loads.
+Model unloaded_model(const ProblemFile& problem, const Eigen::VectorXd& x,
+                     EffectChoice spatial_motion) {
+  Scene scene = problem.scene;
+  scene.gravity = {0.0, 0.0, 0.0};
+  scene.loads.clear();
+  EffectSettings effects = problem.effects;
+  effects.spatial_motion = spatial_motion;
+  const Eigen::VectorXd start = start_design(problem);
+  return build_model(scene, effects, {start.begin(), start.end()}, {x.begin(), x.end()});
+}
+
+}  // namespace
+
+LoadFactor::LoadFactor(const ProblemFile& problem, const Eigen::VectorXd& x,
+                       const Analysis& analysis)
+    : analysis_(analysis) {
+  const Mechanism& mechanism = analysis.model.mechanism;
+  const int coordinates = mechanism.system->coordinates(),
+            multipliers = mechanism.system->multipliers();
+  if (!mechanism.springs.empty() || coordinates > most_judged_coordinates) return;
+  // What moves in space because of its loads may move in a plane without.
+  for (const EffectChoice choice : {problem.effects.spatial_motion, EffectChoice::on}) {
+    Model model = unloaded_model(problem, x, choice);
+    const System& system = *model.mechanism.system;
+    if (system.coordinates() != coordinates || system.multipliers() != multipliers) continue;
+    free_ = std::move(model);
+    return;
+  }
+}
+
+double LoadFactor::at(int instant) const {
+  const Mechanism& mechanism = analysis_.model.mechanism;
+  State loaded;
+  analysis_.trajectory.states->load(instant, loaded);
+  const State unloaded = without_forces(mechanism, loaded);
+  return buckling_load_factor({free_->mechanism, unloaded}, {mechanism, loaded}, 1.0);
 }
 
 }  // namespace pleuel

@@ -15,7 +15,6 @@
 #include "core/linear/turning.hpp"
 #include "core/response/full_mechanism.hpp"
 #include "core/start/equilibrium.hpp"
-#include "core/trust/buckling_model.hpp"
 #include "core/trust/critical_instants.hpp"
 #include "core/trust/disturbance_growth.hpp"
 #include "core/trust/refined_runs.hpp"

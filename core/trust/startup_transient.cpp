@@ -7,9 +7,9 @@
 
 #include "core/base/error.hpp"
 #include "core/base/number_text.hpp"
-#include "core/trust/asked_responses.hpp"
+#include "core/trust/model_variants.hpp"
 #include "core/trust/round_off.hpp"
-#include "core/trust/variant_basis.hpp"
+#include "core/trust/trusted_run.hpp"
 
 namespace pleuel {
 

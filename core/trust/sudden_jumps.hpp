@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "core/integration/trajectory.hpp"
 #include "core/response/analysis.hpp"
 
 namespace pleuel {
@@ -25,5 +26,18 @@ std::vector<SuddenJump> sudden_jumps(const Analysis& analysis);
 /// that jumps some.
 std::vector<SuddenJump> different_jumps(std::vector<SuddenJump> jumps,
                                         const std::vector<StepRange>& windows);
+
+/// Short steps from an instant of a trajectory on, where something jumps.
+struct ShorterSteps {
+  double begin, end;  ///< [s]
+  double step;        ///< [s]
+};
+
+/// The instants of a trajectory, and more of them: steps are short between begin and end, and grow
+/// behind it, slowly enough for the scheme to go on as it is. One short step goes before each begin
+/// (of that of a motion that repeats itself at the end of its period), since a step knows the force
+/// at its end: a long one would take up half of the jump.
+std::vector<double> instants_with(const Trajectory& trajectory,
+                                  const std::vector<ShorterSteps>& stretches);
 
 }  // namespace pleuel

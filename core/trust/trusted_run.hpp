@@ -9,9 +9,24 @@
 #include "core/base/error_bar.hpp"
 #include "core/response/analysis.hpp"
 #include "core/response/monitors.hpp"
-#include "core/trust/largest_deformation.hpp"
+#include "core/scene/problem_file.hpp"
 
 namespace pleuel {
+
+/// Indices of the responses whose accuracy is asked for: those that are minimized or limited, or
+/// listed in the block `accuracy`; of a file that does nothing of this, all.
+std::vector<std::size_t> asked_responses(const ProblemFile& problem);
+
+/// Those of them that are no expressions, and what their expressions are made from, each once.
+std::vector<std::size_t> asked_parts(const ProblemFile& problem);
+
+/// Instants (steps of a trajectory) at which a beam is deformed most, and how far.
+struct LargestDeformation {
+  int bending_step = 0, twist_step = 0, strain_step = 0;
+  double bending = 0.0;  ///< rotation against the frame, without twist [rad]
+  double twist = 0.0;    ///< about the axis [rad]
+  double strain = 0.0;   ///< |Δu|/ℓ of an element
+};
 
 /// How much a judgement of errors may cost.
 enum class Scrutiny {
@@ -22,7 +37,7 @@ enum class Scrutiny {
 
 /// What several findings ask for, each made when the first of them does.
 struct SharedFindings {
-  /// What variants are compared with (variant_basis.hpp): null is the run that is judged.
+  /// What variants are compared with (model_variants.hpp): null is the run that is judged.
   std::optional<ProblemFile> problem{};
   std::unique_ptr<Analysis> analysis{};
   std::optional<std::vector<bool>> is_round_off{};  ///< round_off.hpp

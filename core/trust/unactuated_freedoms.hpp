@@ -1,5 +1,10 @@
 #pragma once
 
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/scene/scene.hpp"
 #include "core/trust/finding.hpp"
 #include "core/trust/trusted_run.hpp"
 
@@ -22,5 +27,14 @@ std::vector<Finding> check_unactuated_freedoms(const TrustedRun& run);
 /// Bodies without a way of joints and springs to the ground, where others have one, that nobody has
 /// given a velocity or a load.
 std::vector<Finding> check_unconnected_bodies(const TrustedRun& run);
+
+/// Names of the bodies that joints, springs and each other tie to the ground.
+std::set<std::string> grounded_bodies(const Scene& scene);
+
+/// Whether the file gives a body a velocity at the start.
+bool has_given_velocity(const Body& body, const std::vector<double>& design);
+
+/// Whether a force or a torque acts on a body.
+bool has_load(const Scene& scene, const std::string& body);
 
 }  // namespace pleuel

@@ -14,11 +14,10 @@
 #include "core/base/number_text.hpp"
 #include "core/integration/fast_vibration.hpp"
 #include "core/response/fatigue.hpp"
-#include "core/trust/asked_responses.hpp"
 #include "core/trust/refined_runs.hpp"
 #include "core/trust/round_off.hpp"
-#include "core/trust/shorter_steps.hpp"
 #include "core/trust/sudden_jumps.hpp"
+#include "core/trust/trusted_run.hpp"
 
 namespace pleuel {
 

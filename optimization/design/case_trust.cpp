@@ -9,7 +9,7 @@
 #include "core/base/error.hpp"
 #include "core/response/monitors.hpp"
 #include "core/scene/load_cases.hpp"
-#include "core/trust/case_findings.hpp"
+#include "core/trust/finding.hpp"
 
 namespace pleuel {
 

@@ -7,7 +7,7 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
-#include "core/base/parallel.hpp"
+#include "core/jobs/parallel.hpp"
 #include "core/scene/load_cases.hpp"
 
 namespace pleuel {

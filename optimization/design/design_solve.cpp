@@ -9,20 +9,19 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/number_text.hpp"
-#include "core/response/describe_tie.hpp"
+#include "core/response/divided_deflection.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/response_parts.hpp"
 #include "core/trust/refined_runs.hpp"
 #include "optimization/broken_limits.hpp"
 #include "optimization/design/linear_limits.hpp"
 #include "optimization/design/margin_problem.hpp"
-#include "optimization/design/meeting_frequencies.hpp"
 #include "optimization/design/number_judgement.hpp"
 #include "optimization/design/peak_problem.hpp"
 #include "optimization/design/peak_windows.hpp"
 #include "optimization/find_optimum.hpp"
 #include "optimization/prices.hpp"
-#include "optimization/scaling.hpp"
+#include "optimization/scaled_problem.hpp"
 #include "sensitivity/kinks.hpp"
 
 namespace pleuel {

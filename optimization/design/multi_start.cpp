@@ -8,15 +8,15 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
-#include "core/base/parallel.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/jobs/parallel.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/packed_problem.hpp"
+#include "optimization/evaluation_store.hpp"
 #include "optimization/result.hpp"
-#include "optimization/scaling.hpp"
+#include "optimization/scaled_problem.hpp"
 #include "optimization/solve.hpp"
 #include "optimization/starts.hpp"
-#include "optimization/stored_tasks.hpp"
 
 namespace pleuel {
 

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/trust/asked_responses.hpp"
 #include "core/trust/checks.hpp"
-#include "core/trust/ranking.hpp"
+#include "core/trust/finding.hpp"
+#include "core/trust/trusted_run.hpp"
 #include "optimization/design/case_trust.hpp"
-#include "optimization/design/margin_check.hpp"
+#include "optimization/design/margin_problem.hpp"
 #include "optimization/design/optimum_error.hpp"
-#include "optimization/scaling.hpp"
+#include "optimization/scaled_problem.hpp"
 
 namespace pleuel {
 

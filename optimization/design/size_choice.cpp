@@ -12,10 +12,10 @@
 #include "core/base/number_text.hpp"
 #include "core/base/stopwatch.hpp"
 #include "optimization/broken_limits.hpp"
-#include "optimization/design/size_model.hpp"
+#include "optimization/design/size_lists.hpp"
 #include "optimization/design/size_trials.hpp"
 #include "optimization/linear_choice.hpp"
-#include "optimization/scaling.hpp"
+#include "optimization/scaled_problem.hpp"
 
 namespace pleuel {
 

@@ -42,7 +42,7 @@ bool keeps_choices(const ProblemFile& file, const Eigen::VectorXd& x);
 ///   model favours.
 ///
 /// The other variables are optimized for each choice. Each choice is a task of its own
-/// (core/base/tasks.hpp): the answer does not depend on the number of jobs.
+/// (core/jobs/tasks.hpp): the answer does not depend on the number of jobs.
 /// @param solution  the continuous optimum; becomes the choice: `verified` if it is the best of all, or
 ///                  if no neighbour is better
 /// @throws Stopped, and as solve()

@@ -8,7 +8,7 @@
 
 #include "optimization/design/staged_solve.hpp"
 
-/// Choices of sizes that are tried, each a task of its own (core/base/tasks.hpp).
+/// Choices of sizes that are tried, each a task of its own (core/jobs/tasks.hpp).
 namespace pleuel {
 
 /// A choice that was tried.

@@ -10,10 +10,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/base/parallel.hpp"
 #include "core/base/relative_error.hpp"
-#include "core/trust/asked_responses.hpp"
+#include "core/jobs/parallel.hpp"
 #include "core/trust/setting_choice.hpp"
+#include "core/trust/trusted_run.hpp"
 #include "tests/random/simulated_scene.hpp"
 
 /// Whether the setting that an accuracy chooses is right and cheap: beside a grid of 39 settings whose

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "core/base/parallel.hpp"
+#include "core/jobs/parallel.hpp"
 #include "core/response/analysis.hpp"
 #include "tests/honesty/honesty_table.hpp"
 #include "tests/honesty/judged_values.hpp"

@@ -4,7 +4,7 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
-#include "core/trust/jerk_at_corners.hpp"
+#include "core/trust/fast_laws.hpp"
 #include "sensitivity/gradients.hpp"
 #include "sensitivity/sampled_gradients.hpp"
 #include "tests/laws/law_gradients.hpp"

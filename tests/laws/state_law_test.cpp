@@ -5,7 +5,7 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
-#include "core/trust/joint_turns.hpp"
+#include "core/trust/joint_findings.hpp"
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/laws/law_gradients.hpp"

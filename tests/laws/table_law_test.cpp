@@ -1,11 +1,10 @@
-#include "core/base/table_law.hpp"
-
 #include <algorithm>
 #include <random>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "core/base/time_law.hpp"
 #include "tests/support/differences.hpp"
 
 namespace pleuel::test::table_law_test {

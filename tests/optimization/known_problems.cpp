@@ -7,7 +7,7 @@
 
 #include "complex_step.hpp"
 #include "core/base/eager_matrices.hpp"
-#include "optimization/scaling.hpp"
+#include "optimization/scaled_problem.hpp"
 
 namespace pleuel::test {
 

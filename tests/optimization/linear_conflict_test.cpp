@@ -1,11 +1,10 @@
-#include "optimization/linear_conflict.hpp"
-
 #include <limits>
 #include <random>
 
 #include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
+#include "optimization/linear_choice.hpp"
 
 namespace pleuel::test::linear_conflict_test {
 namespace {

@@ -1,10 +1,9 @@
-#include "optimization/nonnegative_least_squares.hpp"
-
 #include <random>
 
 #include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
+#include "optimization/kkt_audit.hpp"
 
 namespace pleuel::test::nonnegative_least_squares_test {
 namespace {

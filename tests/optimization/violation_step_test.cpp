@@ -1,11 +1,10 @@
-#include "optimization/violation_step.hpp"
-
 #include <random>
 
 #include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
-#include "optimization/nonnegative_least_squares.hpp"
+#include "optimization/kkt_audit.hpp"
+#include "optimization/phase_one.hpp"
 
 namespace pleuel::test::violation_step_test {
 namespace {

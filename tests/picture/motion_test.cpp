@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
-#include "picture/frames_of_motion.hpp"
 #include "tests/picture/picture_problems.hpp"
 #include "tests/support/parameter_name.hpp"
 

@@ -1,10 +1,9 @@
-#include "picture/rigid_motion.hpp"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
+#include "picture/motion.hpp"
 #include "tests/picture/picture_problems.hpp"
 
 namespace pleuel::test::rigid_motion_test {

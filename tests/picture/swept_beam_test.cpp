@@ -1,11 +1,10 @@
-#include "picture/swept_beam.hpp"
-
 #include <cmath>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
+#include "picture/section_outline.hpp"
 #include "tests/picture/picture_problems.hpp"
 
 namespace pleuel::test::swept_beam_test {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/base/parallel.hpp"
+#include "core/jobs/parallel.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "optimization/design/design_solve.hpp"

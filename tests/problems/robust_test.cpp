@@ -5,7 +5,7 @@
 #include "core/scene/problem_reader.hpp"
 #include "optimization/design/design_problem.hpp"
 #include "optimization/design/design_solve.hpp"
-#include "optimization/design/margin_check.hpp"
+#include "optimization/design/margin_problem.hpp"
 #include "studies/uncertainty.hpp"
 #include "tests/support/source_folder.hpp"
 

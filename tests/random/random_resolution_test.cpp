@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/base/parallel.hpp"
 #include "core/base/relative_error.hpp"
+#include "core/jobs/parallel.hpp"
 #include "core/response/monitors.hpp"
 #include "core/trust/checks.hpp"
 #include "core/trust/refined_runs.hpp"

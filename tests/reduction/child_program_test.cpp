@@ -1,4 +1,4 @@
-#include "core/base/child_program.hpp"
+#include "core/jobs/child_program.hpp"
 
 #include <chrono>
 

@@ -6,10 +6,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/base/child_program.hpp"
 #include "core/base/error.hpp"
+#include "core/jobs/child_program.hpp"
 #include "core/scene/aligned_body.hpp"
-#include "core/scene/body_generator.hpp"
+#include "core/scene/body_source.hpp"
 #include "core/scene/continued_body.hpp"
 #include "core/scene/invariants_file.hpp"
 #include "tests/support/temporary_folder.hpp"

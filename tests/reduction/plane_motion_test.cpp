@@ -1,5 +1,3 @@
-#include "reduction/plane_motion.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -7,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "reduction/interface.hpp"
 #include "reduction/reduce.hpp"
 #include "tests/reduction/solid_block.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "core/base/error.hpp"
-#include "core/integration/checkpoint_plan.hpp"
+#include "core/integration/checkpointed_loop.hpp"
 #include "sensitivity/gradients.hpp"
 #include "sensitivity/method_choice.hpp"
 #include "tests/support/problem_runs.hpp"

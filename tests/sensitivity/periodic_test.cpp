@@ -11,7 +11,7 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
-#include "core/integration/periodic_start.hpp"
+#include "core/integration/period_map.hpp"
 #include "core/response/analysis.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "sensitivity/gradients.hpp"

@@ -1,5 +1,3 @@
-#include "studies/choice_front.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,7 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "core/scene/problem_reader.hpp"
-#include "studies/front_scale.hpp"
+#include "studies/front_ends.hpp"
 #include "studies/pareto.hpp"
 
 /// Fronts of sizes from lists.

@@ -1,8 +1,8 @@
-#include "studies/derivative_verdict.hpp"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
+
+#include "studies/derivative_check.hpp"
 
 namespace pleuel::test::derivative_verdict_test {
 namespace {

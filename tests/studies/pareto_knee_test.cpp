@@ -1,5 +1,3 @@
-#include "studies/pareto_knee.hpp"
-
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -7,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
+#include "studies/pareto_point.hpp"
 
 namespace pleuel::test::pareto_knee_test {
 namespace {

@@ -1,10 +1,10 @@
-#include "studies/random_numbers.hpp"
-
 #include <algorithm>
 #include <array>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "studies/noise.hpp"
 
 namespace pleuel::test::random_numbers_test {
 namespace {

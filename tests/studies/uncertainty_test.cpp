@@ -10,7 +10,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/find_named.hpp"
 #include "core/scene/problem_reader.hpp"
-#include "studies/random_numbers.hpp"
+#include "studies/noise.hpp"
 #include "tests/studies/quick_problem.hpp"
 
 namespace pleuel::test::uncertainty_test {

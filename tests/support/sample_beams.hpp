@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/beam/beam_invariants.hpp"
-#include "core/beam/natural_modes.hpp"
+#include "core/beam/elastic_basis.hpp"
 #include "core/section/rectangle_section.hpp"
 #include "core/section/round_section.hpp"
 #include "tests/support/dense.hpp"

@@ -9,9 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include "core/scene/choices.hpp"
+#include "core/scene/kind_table.hpp"
 #include "core/scene/number.hpp"
-#include "core/scene/number_range.hpp"
 #include "core/scene/units.hpp"
 
 /// The keys of an object of the problem file. Each struct has one table, which says of every key its

@@ -5,8 +5,8 @@
 #include "core/base/find_named.hpp"
 #include "core/base/int_size.hpp"
 #include "core/scene/grammar/response_keys.hpp"
-#include "core/scene/names_of.hpp"
-#include "core/scene/response_names.hpp"
+#include "core/scene/kind_table.hpp"
+#include "core/scene/response_parts.hpp"
 
 namespace pleuel::response_tables {
 

@@ -2,16 +2,16 @@
 
 #include <vector>
 
-#include "core/scene/along_coordinate.hpp"
-#include "core/scene/body_generator.hpp"
+#include "core/scene/body_source.hpp"
 #include "core/scene/grammar/keys.hpp"
+#include "core/scene/point.hpp"
 #include "core/scene/problem_file.hpp"
 #include "core/scene/scene.hpp"
 
 /// The tables of keys (keys.hpp), one a struct.
 namespace pleuel {
 
-// section_keys.cpp
+// mechanism_keys.cpp
 
 const std::vector<ObjectKind<Section>>& section_kinds();
 void describe(Keys& keys, Section& section);
@@ -37,11 +37,11 @@ void describe(Keys& keys, InitialDeflection& deflection);
 void describe(Keys& keys, CraigBampton& reduction);
 void describe(Keys& keys, Segment& segment);
 
-// joint_keys.cpp: those of its type
+// mechanism_keys.cpp: those of its type
 
 void describe(Keys& keys, Joint& joint);
 
-// load_keys.cpp: what acts along a coordinate measures what that says.
+// mechanism_keys.cpp: what acts along a coordinate measures what that says.
 
 void describe(Keys& keys, PointForce& force);
 void describe(Keys& keys, PointTorque& torque);
@@ -51,7 +51,7 @@ void describe(Keys& keys, MotorControl& control, const AlongCoordinate& along);
 void describe(Keys& keys, FrictionLaw& law, const AlongCoordinate& along);
 void describe(Keys& keys, ClearanceLaw& law, const AlongCoordinate& along);
 
-// function_keys.cpp: `value` is what the function itself measures.
+// mechanism_keys.cpp: `value` is what the function itself measures.
 
 void describe(Keys& keys, ConstantFunction& function, const Quantity& value);
 void describe(Keys& keys, ConstantSpeedDrive& function, const Quantity& value);

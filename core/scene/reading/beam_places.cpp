@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 
 #include "core/base/int_size.hpp"
-#include "core/scene/attached_points.hpp"
+#include "core/scene/held_points.hpp"
 #include "core/scene/reading/geometry.hpp"
-#include "core/scene/reading/limits.hpp"
-#include "core/scene/reading/placed_points.hpp"
+#include "core/scene/reading/mistakes.hpp"
+#include "core/scene/reading/sample_design.hpp"
 
 namespace pleuel {
 

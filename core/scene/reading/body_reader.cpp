@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "core/scene/reading/limits.hpp"
+#include "core/scene/reading/mistakes.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 
 namespace pleuel {

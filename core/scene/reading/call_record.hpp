@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/base/fingerprint.hpp"
-#include "core/scene/body_generator.hpp"
+#include "core/scene/body_source.hpp"
 
 namespace pleuel {
 

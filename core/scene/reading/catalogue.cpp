@@ -5,9 +5,8 @@
 #include <fmt/format.h>
 
 #include "core/scene/reading/scene_reader.hpp"
-#include "core/scene/reading/section_check.hpp"
 #include "core/scene/reading/section_choices.hpp"
-#include "core/scene/reading/text_file.hpp"
+#include "core/scene/reading/syntax_error.hpp"
 
 namespace pleuel {
 namespace {

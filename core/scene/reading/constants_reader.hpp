@@ -13,4 +13,12 @@ BodyConstants read_constants(const JsonNode& node, int coordinates);
 /// The same blocks of a derivative; what is missing is zero. @throws InputError
 BodyConstants read_derivative(const JsonNode& node, const BodyConstants& of);
 
+/// What the numbers of a body must fulfil, whoever wrote them.
+/// @param node  the file, to say where it is wrong
+/// @throws InputError
+void check_constants(const JsonNode& node, const BodyConstants& constants);
+
+/// The same of a derivative: symmetry, and S_xx + S_yy + S_zz = mass matrix.
+void check_derivative(const JsonNode& node, const BodyConstants& change);
+
 }  // namespace pleuel

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "core/scene/reading/text_file.hpp"
+#include "core/scene/reading/syntax_error.hpp"
 
 namespace pleuel {
 namespace {

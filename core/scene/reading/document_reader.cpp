@@ -9,7 +9,6 @@
 #include "core/base/machine_memory.hpp"
 #include "core/scene/reading/across_cases.hpp"
 #include "core/scene/reading/catalogue.hpp"
-#include "core/scene/reading/effects_reader.hpp"
 #include "core/scene/reading/goal_reader.hpp"
 #include "core/scene/reading/mistakes.hpp"
 #include "core/scene/reading/override.hpp"
@@ -17,7 +16,6 @@
 #include "core/scene/reading/scene_check.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 #include "core/scene/reading/settings_reader.hpp"
-#include "core/scene/reading/simulation_reader.hpp"
 #include "core/scene/reading/variable_reader.hpp"
 #include "core/scene/scene_rules.hpp"
 

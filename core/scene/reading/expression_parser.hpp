@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/reading/read_expression.hpp"
+#include "core/scene/reading/expression_builder.hpp"
 
 /// Reads formulas such as "2*width + 1 mm".
 namespace pleuel {

@@ -6,12 +6,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/base/child_program.hpp"
 #include "core/base/error.hpp"
 #include "core/base/int_size.hpp"
-#include "core/base/parallel.hpp"
+#include "core/jobs/child_program.hpp"
+#include "core/jobs/parallel.hpp"
 #include "core/scene/aligned_body.hpp"
-#include "core/scene/body_generator.hpp"
+#include "core/scene/body_source.hpp"
 #include "core/scene/invariants_file.hpp"
 #include "core/scene/reading/call_record.hpp"
 #include "core/scene/reading/json_text.hpp"

@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "core/scene/body_axes.hpp"
+#include "core/scene/body_chart.hpp"
 #include "core/scene/held_points.hpp"
 
 namespace pleuel {

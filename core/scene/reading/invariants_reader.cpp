@@ -1,11 +1,14 @@
+#include "core/scene/reading/invariants_reader.hpp"
+
+#include <string>
+
 #include <fmt/format.h>
 
 #include "core/base/int_size.hpp"
 #include "core/scene/invariants_file.hpp"
-#include "core/scene/reading/constants_check.hpp"
 #include "core/scene/reading/constants_reader.hpp"
-#include "core/scene/reading/surface_reader.hpp"
-#include "core/scene/reading/text_file.hpp"
+#include "core/scene/reading/imported_body_reader.hpp"
+#include "core/scene/reading/syntax_error.hpp"
 
 namespace pleuel {
 
@@ -86,6 +89,180 @@ InvariantsFile read_invariants_text(const std::string& text, const std::string& 
 
 InvariantsFile read_invariants(const std::filesystem::path& path) {
   return read_invariants_text(read_text_file(path), path.string());
+}
+
+namespace {
+
+template <class Derived>
+Json vector_json(const Eigen::MatrixBase<Derived>& vector) {
+  Json json = Json::array();
+  for (const double number : vector) json.push_back(number);
+  return json;
+}
+
+Json rows_json(const Eigen::MatrixXd& matrix) {
+  Json json = Json::array();
+  for (const auto& row : matrix.rowwise()) json.push_back(vector_json(row));
+  return json;
+}
+
+/// [row, column, value] of every entry that is not zero.
+Json entries_json(const SparseMatrix& matrix) {
+  Json json = Json::array();
+  for (int row = 0; row < matrix.outerSize(); ++row) {
+    for (SparseMatrix::InnerIterator entry(matrix, row); entry; ++entry) {
+      if (entry.value() != 0.0) json.push_back({row, entry.col(), entry.value()});
+    }
+  }
+  return json;
+}
+
+Json invariants_json(const BodyConstants& constants) {
+  Json json;
+  json["mass"] = constants.mass;
+  json["first_moment"] = vector_json(constants.first_moment);
+  json["second_moment"] = rows_json(constants.second_moment);
+  json["shape"] = entries_json(constants.shape);
+  json["mixed"] = entries_json(constants.mixed);
+  for (std::size_t i = 0; i < moment_pairs.size(); ++i) {
+    const auto [k, l] = moment_pairs[i];
+    json[fmt::format("moment_{}{}", "xyz"[k], "xyz"[l])] = entries_json(constants.moments[i]);
+  }
+  json["mass_matrix"] = entries_json(constants.mass_matrix);
+  json["stiffness"] = entries_json(constants.stiffness);
+  json["damping"] = entries_json(constants.damping);
+  return json;
+}
+
+Json places_json(const BodyConstants& constants) {
+  Json json = Json::object();
+  for (const BodyPlace& place : constants.places) {
+    json[place.name] = {{"position", vector_json(place.position)},
+                        {"displacement", entries_json(place.displacement)},
+                        {"rotation", entries_json(place.rotation)}};
+  }
+  return json;
+}
+
+Json groups_json(const StressRecovery& stress) {
+  Json json = Json::object();
+  for (const PointGroup& group : stress.groups) {
+    json[group.name] = Json::array();
+    for (const int point : group.points) json[group.name].push_back(stress.points[point]);
+  }
+  return json;
+}
+
+Json stress_json(const StressRecovery& stress, bool is_derivative) {
+  Json json = Json::object();
+  if (!is_derivative) {
+    json["points"] = stress.points;
+    if (!stress.groups.empty()) json["groups"] = groups_json(stress);
+  }
+  for (const auto& [word, member] : strength_members<double>) {
+    const double strength = stress.strengths.*member;
+    if (strength != 0.0) json[std::string(word)] = strength;
+  }
+  if (!is_derivative && stress.strengths.fatigue_exponent > 0.0) {
+    json[std::string(fatigue_exponent_word)] = stress.strengths.fatigue_exponent;
+  }
+  json["of_coordinates"] = entries_json(stress.of_coordinates);
+  json["of_accelerations"] = entries_json(stress.of_accelerations);
+  if (stress.of_stretching.cols() > 0) {
+    json["of_stretching"] = entries_json(stress.of_stretching);
+  }
+  return json;
+}
+
+Json stiffening_json(const Stretching& stretching, bool is_derivative) {
+  Json json = Json::object();
+  json["damping"] = stretching.damping;
+  if (!is_derivative) json["size"] = stretching.displacements.rows();
+  json["displacements"] = entries_json(stretching.displacements);
+  json["elements"] = Json::array();
+  for (const StretchedElement& element : stretching.elements) {
+    Json item = Json::object();
+    if (!is_derivative) {
+      item["displacements"] = element.displacements;
+      item["elongation"] = vector_json(element.elongation);
+    }
+    item["axial_stiffness"] = element.axial_stiffness;
+    item["slopes"] = rows_json(element.slopes);
+    json["elements"].push_back(std::move(item));
+  }
+  return json;
+}
+
+/// For pictures: single precision is enough.
+double rounded(double number) {
+  return std::stod(fmt::format("{:.7g}", number));
+}
+
+Json surface_json(const BodySurface& surface) {
+  Json json = {{"young", surface.young}, {"poisson", surface.poisson}};
+  const Eigen::Matrix3Xd positions = surface.positions.unaryExpr(&rounded);
+  json["positions"] = rows_json(positions.transpose());
+  json["triangles"] = surface.triangles;
+  const Eigen::MatrixXd displacement = surface.displacement.unaryExpr(&rounded);
+  json["displacement"] = rows_json(displacement);
+  return json;
+}
+
+Json blocks_json(const BodyConstants& constants, bool is_derivative) {
+  Json json;
+  json["invariants"] = invariants_json(constants);
+  json["places"] = places_json(constants);
+  if (constants.stress) json["stress"] = stress_json(*constants.stress, is_derivative);
+  if (constants.stretching) {
+    json["stiffening"] = stiffening_json(*constants.stretching, is_derivative);
+  }
+  return json;
+}
+
+/// Objects over several lines, each list on one.
+void write(const Json& json, const std::string& indent, std::string& text) {
+  if (!json.is_object() || json.empty()) {
+    text += json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    return;
+  }
+  text += "{\n";
+  std::size_t left = json.size();
+  for (const auto& [key, value] : json.items()) {
+    text += indent + "  " + Json(key).dump(-1, ' ', false, Json::error_handler_t::replace) + ": ";
+    write(value, indent + "  ", text);
+    text += --left > 0 ? ",\n" : "\n";
+  }
+  text += indent + "}";
+}
+
+}  // namespace
+
+Json derivative_json(const BodyConstants& change) {
+  return blocks_json(change, true);
+}
+
+std::string write_invariants(const InvariantsFile& file) {
+  Json json;
+  json["format"] = "pleuel-invariants";
+  json["version"] = 1;
+  json["body"] = file.body;
+  if (!file.description.empty()) json["description"] = file.description;
+  json["units"] = "SI";
+  json["reference_condition"] = file.reference_condition;
+  json["coordinates"] = file.coordinates;
+  json.update(blocks_json(file.constants, false));
+  if (file.surface) json["surface"] = surface_json(*file.surface);
+  json["design"] = Json::object();
+  for (const ConstantsDerivative& of : file.design) {
+    json["design"][of.variable] = {{"value", of.value}, {"unit", of.unit}};
+  }
+  json["derivatives"] = Json::object();
+  for (const ConstantsDerivative& of : file.design) {
+    if (of.derivative) json["derivatives"][of.variable] = derivative_json(*of.derivative);
+  }
+  std::string text;
+  write(json, "", text);
+  return text + "\n";
 }
 
 }  // namespace pleuel

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
-#include "core/base/excerpt.hpp"
+#include "core/base/quoted.hpp"
 #include "core/scene/reading/suggestion.hpp"
 
 namespace pleuel {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/scene/choices.hpp"
+#include "core/scene/kind_table.hpp"
 #include "core/scene/reading/json_text.hpp"
 
 namespace pleuel {

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "core/scene/reading/mistakes.hpp"
 #include "core/scene/reading/suggestion.hpp"
-#include "core/scene/reading/tolerance.hpp"
 
 namespace pleuel {
 

@@ -1,14 +1,17 @@
+#include "core/scene/reading/load_reader.hpp"
+
 #include <algorithm>
 #include <optional>
 
 #include <fmt/format.h>
 
 #include "core/scene/joint_kind.hpp"
-#include "core/scene/reading/joint_type.hpp"
+#include "core/scene/reading/joint_reader.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 #include "core/scene/reading/time_function_reader.hpp"
 
 namespace pleuel {
+
 namespace {
 
 enum class LoadType { force, torque, spring, joint };
@@ -160,6 +163,12 @@ Load read_load(const std::string& name, const JsonNode& node, const Scene& scene
       break;
   }
   return {name, read_joint_force(node, scene, numbers)};
+}
+
+void LawSource::allow_keys(std::vector<std::string_view> keys) const {
+  keys.insert(keys.begin(), "type");
+  keys.insert(keys.end(), other_keys.begin(), other_keys.end());
+  node.allow_keys(keys);
 }
 
 }  // namespace pleuel

@@ -65,4 +65,25 @@ std::vector<std::string> mistakes_of(const InputError& error);
 /// @throws InputError or Mistakes
 [[noreturn]] void fail_with(std::vector<std::string> texts);
 
+// Limits of a problem file that several readers share.
+
+/// Numbers of a file are written rounded: what is off by less than this share is meant to agree.
+inline constexpr double rounding_tolerance = 1e-9;
+
+/// Points may be off a beam by this share of its length, and off a point mass by this share of the
+/// scene: far more than what rounding of written numbers costs, far less than what is meant.
+inline constexpr double placement_tolerance = 1e-6;
+
+inline constexpr int most_elements = 10000;  ///< of a segment
+inline constexpr int most_modes = 1000;      ///< of a body
+inline constexpr int most_iterations = 1000000;
+
+/// A relative error: a tolerance of one or more asks for nothing. @throws InputError
+inline double read_tolerance(const JsonNode& node) {
+  if (node.number() <= 0.0 || node.number() >= 1.0) {
+    node.fail_with_value("must be greater than 0 and less than 1");
+  }
+  return node.number();
+}
+
 }  // namespace pleuel

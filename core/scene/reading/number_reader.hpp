@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "core/scene/number.hpp"
-#include "core/scene/number_range.hpp"
 #include "core/scene/reading/expression_parser.hpp"
 #include "core/scene/reading/json_node.hpp"
 #include "core/scene/units.hpp"

@@ -1,16 +1,23 @@
 #include "core/scene/reading/response_reader.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/base/find_named.hpp"
+#include "core/base/int_size.hpp"
 #include "core/scene/grammar/response_table.hpp"
-#include "core/scene/reading/expression_response_reader.hpp"
-#include "core/scene/reading/joint_type.hpp"
+#include "core/scene/reading/joint_reader.hpp"
 #include "core/scene/reading/key_reader.hpp"
 #include "core/scene/reading/mistakes.hpp"
+#include "core/scene/reading/scene_reader.hpp"
+#include "core/scene/reading/shared_by_cases.hpp"
+#include "core/scene/reading/symbols.hpp"
 #include "core/scene/response_kind.hpp"
+#include "core/scene/response_quantity.hpp"
 
 namespace pleuel {
+
 namespace {
 
 /// Names of columns in files of histories (docs/reference/responses.md).
@@ -64,6 +71,220 @@ std::vector<ResponseSettings> read_responses(const JsonNode& node, const Scene& 
   }
   mistakes.fail_if_any();
   return responses;
+}
+
+namespace {
+
+using Kind = ExpressionArgument::Kind;
+
+bool is_frequency(const ResponseSettings& response) {
+  const Quantity quantity = quantity_of(response);
+  return quantity.name == quantities::angular_frequency.name &&
+         quantity.unit == quantities::angular_frequency.unit;
+}
+
+/// Of responses that are read: an expression without formula is not.
+std::vector<Symbol> symbols_of(const std::vector<ResponseSettings>& responses,
+                               const NumberReader& numbers) {
+  std::vector<Symbol> symbols;
+  for (std::size_t i = 0; i < responses.size(); ++i) {
+    const bool is_read = responses[i].type != ResponseType::expression || responses[i].expression;
+    if (!is_read) continue;
+    symbols.push_back({responses[i].name, numbers.dimension_of(quantity_of(responses[i])),
+                       std::nullopt, ExpressionArgument{Kind::response, i}});
+  }
+  return symbols;
+}
+
+/// rad/s made from frequencies is a frequency: limits on it take Hz, as on its parts.
+void name_frequency(Expression& expression, const std::vector<ResponseSettings>& known) {
+  if (expression.unit != quantities::angular_frequency.unit) return;
+  const bool is_one =
+      std::any_of(expression.arguments.begin(), expression.arguments.end(),
+                  [&](const ExpressionArgument& argument) {
+                    return argument.kind == Kind::response && is_frequency(known[argument.index]);
+                  });
+  if (is_one) expression.quantity = quantities::angular_frequency.name;
+}
+
+ResponseSettings make_response(const std::string& name, const JsonNode& value,
+                               const std::vector<ResponseSettings>& known, NumberReader& numbers) {
+  Expression expression = *numbers.formula(value, symbols_of(known, numbers)).expression;
+  name_frequency(expression, known);
+  if (expression.arguments.empty()) {
+    value.fail_with_value("must depend on a response or on a design variable");
+  }
+  ResponseSettings response;
+  response.name = name;
+  response.type = ResponseType::expression;
+  response.expression = std::make_shared<const Expression>(std::move(expression));
+  return response;
+}
+
+/// The steps that the extreme of a formula is taken of, from the left to the right.
+void add_leaves(const Expression& whole, int step, Operation extreme, std::vector<int>& leaves) {
+  const ExpressionStep& one = whole.steps[step];
+  if (one.operation != extreme) {
+    leaves.push_back(step);
+    return;
+  }
+  add_leaves(whole, one.first, extreme, leaves);
+  add_leaves(whole, one.second, extreme, leaves);
+}
+
+/// The part of a formula that ends with this step.
+class Extract {
+ public:
+  Extract(const Expression& whole, std::string text) : whole_(whole) {
+    part_.text = std::move(text);
+    part_.quantity = whole.quantity;
+    part_.unit = whole.unit;
+  }
+
+  Expression ending_with(int step) && {
+    add(step);
+    return std::move(part_);
+  }
+
+ private:
+  int add(int step) {
+    ExpressionStep copy = whole_.steps[step];
+    if (copy.operation == Operation::argument) {
+      copy.first = argument(whole_.arguments[copy.first]);
+    } else {
+      if (copy.first >= 0) copy.first = add(copy.first);
+      if (copy.second >= 0) copy.second = add(copy.second);
+    }
+    part_.steps.push_back(copy);
+    return int_size(part_.steps) - 1;
+  }
+
+  int argument(const ExpressionArgument& asked) {
+    for (std::size_t i = 0; i < part_.arguments.size(); ++i) {
+      const ExpressionArgument& known = part_.arguments[i];
+      if (known.kind == asked.kind && known.index == asked.index) return static_cast<int>(i);
+    }
+    part_.arguments.push_back(asked);
+    return int_size(part_.arguments) - 1;
+  }
+
+  const Expression& whole_;
+  Expression part_;
+};
+
+/// "a" and "2*b" of "max(a, 2*b)".
+std::vector<std::string> operand_texts(const std::string& formula) {
+  std::vector<std::string> texts(1);
+  int depth = 0;
+  for (const char c : formula) {
+    if (c == ')') --depth;
+    if (c == ',' && depth == 1) {
+      texts.emplace_back();
+    } else if (depth >= 1) {
+      texts.back() += c;
+    }
+    if (c == '(') ++depth;
+  }
+  for (std::string& text : texts) {
+    const std::size_t first = text.find_first_not_of(' '), last = text.find_last_not_of(' ');
+    text = first == std::string::npos ? "" : text.substr(first, last - first + 1);
+  }
+  return texts;
+}
+
+bool is_response(const Expression& expression, int step) {
+  const ExpressionStep& one = expression.steps[step];
+  return one.operation == Operation::argument &&
+         expression.arguments[one.first].kind == Kind::response;
+}
+
+/// A formula max(…) or min(…) as that of responses: parts that are formulas themselves become responses
+/// of their own, before it, so that each can be pressed upon by itself (response_parts.hpp).
+void split_extreme(ResponseSettings& whole, std::vector<ResponseSettings>& responses) {
+  const Expression& expression = *whole.expression;
+  const Operation extreme = expression.steps.back().operation;
+  if (extreme != Operation::larger && extreme != Operation::smaller) return;
+  std::vector<int> leaves;
+  add_leaves(expression, int_size(expression.steps) - 1, extreme, leaves);
+  std::vector<std::string> texts = operand_texts(whole.name);
+  const bool has_texts = texts.size() == leaves.size();
+  std::vector<ResponseSettings> parts;
+  Expression of_parts = expression;
+  of_parts.arguments.clear();
+  of_parts.steps.clear();
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    ExpressionArgument argument{Kind::response, responses.size() + parts.size()};
+    if (is_response(expression, leaves[i])) {
+      const auto& step = expression.steps[leaves[i]];
+      argument = expression.arguments[step.first];
+    } else {
+      ResponseSettings part;
+      const bool is_variable = expression.steps[leaves[i]].operation == Operation::argument;
+      part.name = has_texts && !is_variable ? texts[i] : fmt::format("{} [{}]", whole.name, i + 1);
+      part.type = ResponseType::expression;
+      part.expression =
+          std::make_shared<const Expression>(Extract(expression, part.name).ending_with(leaves[i]));
+      const bool is_known = find_named(responses, part.name) || find_named(parts, part.name);
+      if (part.expression->arguments.empty() || is_known) return;
+      parts.push_back(std::move(part));
+    }
+    of_parts.arguments.push_back(argument);
+    of_parts.steps.push_back({Operation::argument, 0.0, static_cast<int>(i)});
+    const int here = int_size(of_parts.steps) - 1;
+    if (i > 0) of_parts.steps.push_back({extreme, 0.0, here - 1, here});
+  }
+  whole.expression = std::make_shared<const Expression>(std::move(of_parts));
+  for (ResponseSettings& part : parts) responses.push_back(std::move(part));
+}
+
+/// "= a - b" → "a - b"
+std::string formula_name(const JsonNode& node) {
+  const std::string text = node.text();
+  const std::size_t first = text.find_first_not_of(" =");
+  return first == std::string::npos ? text : text.substr(first);
+}
+
+}  // namespace
+
+ResponseSettings read_expression_response(const std::string& name, const JsonNode& node,
+                                          const std::vector<ResponseSettings>& known,
+                                          NumberReader& numbers) {
+  node.allow_keys({"type", "value", "unit", "over_time"});
+  if (const auto over_time = node.find("over_time")) {
+    over_time->fail(
+        "is not for an expression, which is made from responses that are reduced over time");
+  }
+  ResponseSettings response = make_response(name, node.at("value"), known, numbers);
+  if (const auto unit = node.find("unit")) {
+    response.unit = unit->text();
+    try {
+      response.unit_scale = numbers.scale(response.unit, quantity_of(response));
+    } catch (const UnitError& error) {
+      unit->fail_with_value(fmt::format("must be a unit of {}, which the formula is",
+                                        describe(quantity_of(response))),
+                            fmt::format(": {}", error.what()));
+    }
+  }
+  return response;
+}
+
+ResponseSettings& read_response_or_formula(const JsonNode& node,
+                                           std::vector<ResponseSettings>& responses,
+                                           NumberReader& numbers) {
+  if (!is_formula(node)) {
+    for (const std::string& name : {node.text(), spaced_case(node.text())}) {
+      if (ResponseSettings* known = find_named(responses, name)) return *known;
+    }
+    return *find_named(responses, read_known_name(node, "response", names_of(responses)));
+  }
+  std::string name = formula_name(node);
+  if (numbers.find_variable(name))
+    name = "(" + name + ")";  // formulas mean the variable by its name
+  if (ResponseSettings* known = find_named(responses, name)) return *known;
+  ResponseSettings response = make_response(name, node, responses, numbers);
+  split_extreme(response, responses);
+  responses.push_back(std::move(response));
+  return responses.back();
 }
 
 }  // namespace pleuel

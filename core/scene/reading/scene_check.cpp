@@ -1,18 +1,24 @@
 #include "core/scene/reading/scene_check.hpp"
 
 #include <algorithm>
+#include <optional>
+#include <set>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "core/scene/body_rules.hpp"
+#include "core/scene/held_points.hpp"
+#include "core/scene/joint_kind.hpp"
+#include "core/scene/reading/beam_places.hpp"
 #include "core/scene/reading/geometry.hpp"
-#include "core/scene/reading/limits.hpp"
-#include "core/scene/reading/mechanism_check.hpp"
-#include "core/scene/reading/placement_check.hpp"
+#include "core/scene/reading/mistakes.hpp"
 #include "core/scene/reading/sample_design.hpp"
-#include "core/scene/reading/section_check.hpp"
+#include "core/scene/reading/scene_reader.hpp"
+#include "core/scene/reading/section_choices.hpp"
 
 namespace pleuel {
+
 namespace {
 
 /// A beam, or a body that lies as one.
@@ -105,6 +111,204 @@ void check_scene(const JsonNode& node, const ProblemFile& problem) {
   check_bodies(node.at("bodies"), problem.scene, samples);
   check_placement(node, problem.scene, samples);
   check_deflections(node.at("bodies"), problem);
+}
+
+namespace {
+
+constexpr double parallel_tolerance = 1e-9;  // sine of the angle between axes: rounding
+
+void check_that_something_acts_on_every_body(const JsonNode& node, const Scene& scene) {
+  std::set<std::string> touched;
+  const auto touch = [&](const std::string& body, const Point&, const PointKey&) {
+    touched.insert(body);
+  };
+  for (const Joint& joint : scene.joints) visit_held_points(joint, touch);
+  for (const Load& load : scene.loads) visit_held_points(load, touch);
+  for (const Body& body : scene.bodies) {
+    if (touched.count(body.name) > 0) continue;
+    node.at("bodies").at(body.name).fail("is not connected to anything by a joint or a load");
+  }
+}
+
+void check_that_bodies_can_turn(const JsonNode& node, const Scene& scene, const Joint& joint) {
+  for (const std::string& name : joint.bodies) {
+    const Body* body = find_named(scene.bodies, name);
+    if (body == nullptr || !std::holds_alternative<PointMass>(body->shape)) continue;
+    node.fail(fmt::format("needs two bodies that can turn, but \"{}\" is a point mass", name));
+  }
+}
+
+/// The coordinate of a joint that a load acts along, or is a function of.
+std::optional<JointCoordinate> coordinate_of(const Load& load) {
+  if (const auto* force = std::get_if<PointForce>(&load.element)) return force->over;
+  if (const auto* torque = std::get_if<PointTorque>(&load.element)) return torque->over;
+  const auto* force = std::get_if<JointForce>(&load.element);
+  if (force == nullptr) return std::nullopt;
+  return JointCoordinate{force->joint, force->coordinate};
+}
+
+void check_turning(const JsonNode& node, const Scene& scene) {
+  for (const Joint& joint : scene.joints) {
+    if (!is_driven(joint, DrivenCoordinate::angle)) continue;
+    check_that_bodies_can_turn(node.at("joints").at(joint.name).at("drive"), scene, joint);
+  }
+  for (const Load& load : scene.loads) {
+    const std::optional<JointCoordinate> along = coordinate_of(load);
+    if (!along || along->coordinate != DrivenCoordinate::angle) continue;
+    check_that_bodies_can_turn(node.at("loads").at(load.name), scene,
+                               *find_named(scene.joints, along->joint));
+  }
+}
+
+bool have_same_bodies(const Joint& a, const Joint& b) {
+  return a.bodies == b.bodies || (a.bodies[0] == b.bodies[1] && a.bodies[1] == b.bodies[0]);
+}
+
+bool have_parallel_axes(const Joint& a, const Joint& b) {
+  const Eigen::Vector3d first(a.axis[0], a.axis[1], a.axis[2]);
+  const Eigen::Vector3d second(b.axis[0], b.axis[1], b.axis[2]);
+  return first.stableNormalized().cross(second.stableNormalized()).norm() <= parallel_tolerance;
+}
+
+/// Drives of distances, and of points on lines, may act side by side, as in a hexapod.
+bool drive_the_same(const Joint& a, const Joint& b) {
+  if (a.drive->coordinate != b.drive->coordinate) return false;
+  if (!have_same_bodies(a, b) || !have_parallel_axes(a, b)) return false;
+  return a.drive->coordinate == DrivenCoordinate::angle ||
+         (kind_of(a.type).is_guide() && kind_of(b.type).is_guide());
+}
+
+void check_that_no_motion_is_driven_twice(const JsonNode& node, const Scene& scene) {
+  for (std::size_t i = 0; i < scene.joints.size(); ++i) {
+    const Joint& joint = scene.joints[i];
+    if (!joint.drive) continue;
+    for (std::size_t k = 0; k < i; ++k) {
+      const Joint& other = scene.joints[k];
+      if (!other.drive || !drive_the_same(joint, other)) continue;
+      node.at("joints")
+          .at(joint.name)
+          .at("drive")
+          .fail(fmt::format("prescribes the same motion as the drive of the joint \"{}\"",
+                            other.name));
+    }
+  }
+}
+
+}  // namespace
+
+void check_mechanism(const JsonNode& node, const Scene& scene) {
+  check_that_something_acts_on_every_body(node, scene);
+  check_turning(node, scene);
+  check_that_no_motion_is_driven_twice(node, scene);
+}
+
+namespace {
+
+/// Two points that define a direction.
+struct PointPair {
+  JsonNode node;
+  const Point *first, *second;
+  std::string rule;
+};
+
+/// The node of a placed point.
+JsonNode node_of(const JsonNode& scene, const PlacedPoint& place) {
+  JsonNode node = scene;
+  for (const std::string& key : place.path) {
+    node = node.value().is_array() ? node.items().at(std::stoul(key)) : node.at(key);
+  }
+  return node;
+}
+
+std::vector<PointPair> pairs_of(const JsonNode& node, const Scene& scene) {
+  std::vector<PointPair> pairs;
+  for (const Joint& joint : scene.joints) {
+    if (!kind_of(joint.type).has_length()) continue;
+    pairs.push_back({node.at("joints").at(joint.name).at("to"), &joint.at, &joint.to,
+                     "must not be the same point as \"at\""});
+  }
+  for (const Load& load : scene.loads) {
+    const JsonNode place = node.at("loads").at(load.name);
+    if (const auto* spring = std::get_if<SpringDamper>(&load.element)) {
+      pairs.push_back(
+          {place.at("at"), &spring->at[0], &spring->at[1], "must be two different points"});
+    }
+    const auto* force = std::get_if<PointForce>(&load.element);
+    if (force == nullptr || !force->to) continue;
+    pairs.push_back(
+        {place.at("to"), &force->at, &*force->to, "must not be the same point as \"at\""});
+  }
+  return pairs;
+}
+
+void check_on_beam(const JsonNode& node, const PlacedPoint& place, PlacesOfBeams& places,
+                   const std::vector<SampleDesign>& samples) {
+  const auto& beam = std::get<BeamBody>(place.body->shape);
+  const Design<double>& start = samples.front().design;
+  const Eigen::Vector3d at_start = position(*place.point, start);
+  const double share = nearest_share(beam, at_start, start);
+  if (!is_on_beam(beam, share, at_start, start)) {
+    node.fail(
+        fmt::format("must be on the axis of the beam \"{}\", the nearest point is {} [m], got {}",
+                    place.body->name, describe(point_at(beam, share, start)), describe(at_start)));
+  }
+  if (samples.size() == 1) return;  // nothing varies
+  const BeamPlaces& of_beam = places.of(*place.body);
+  for (const SampleDesign& sample : samples) {
+    const auto found = of_beam.find_misplaced(*place.point, sample.design);
+    if (!found) continue;
+    node.fail(fmt::format("{}, got {}{}", *found, describe(position(*place.point, sample.design)),
+                          sample.where));
+  }
+}
+
+void check_on_imported(const JsonNode& node, const PlacedPoint& place,
+                       const std::vector<SampleDesign>& samples) {
+  const Design<double>& start = samples.front().design;
+  for (const SampleDesign& sample : samples) {
+    const auto found = find_off_place(*place.body, *place.point, start, sample.design);
+    if (found) node.fail(*found + sample.where);
+  }
+}
+
+void check_on_mass(const JsonNode& node, const PlacedPoint& place, const PointMass& mass,
+                   const Scene& scene, const std::vector<SampleDesign>& samples) {
+  for (const SampleDesign& sample : samples) {
+    const Eigen::Vector3d at = position(*place.point, sample.design);
+    if (is_on_mass(mass, at, scene, sample.design)) continue;
+    const Eigen::Vector3d point = position(mass.at, sample.design);
+    node.fail(fmt::format("must be where the point mass \"{}\" is, {} [m], got {}{}",
+                          place.body->name, describe(point), describe(at), sample.where));
+  }
+}
+
+void check_pair(const PointPair& pair, const std::vector<SampleDesign>& samples) {
+  for (const SampleDesign& sample : samples) {
+    const Eigen::Vector3d first = position(*pair.first, sample.design);
+    const Eigen::Vector3d second = position(*pair.second, sample.design);
+    const double size = std::max(first.stableNorm(), second.stableNorm());
+    if ((second - first).stableNorm() > rounding_tolerance * size) continue;
+    pair.node.fail_with_value(pair.rule, sample.where);
+  }
+}
+
+}  // namespace
+
+void check_placement(const JsonNode& node, const Scene& scene,
+                     const std::vector<SampleDesign>& samples) {
+  PlacesOfBeams places(scene, samples.front().design);
+  for (const PlacedPoint& place : placed_points(scene)) {
+    if (place.body == nullptr) continue;
+    const JsonNode at = node_of(node, place);
+    if (const auto* beam = std::get_if<BeamBody>(&place.body->shape)) {
+      if (!beam->is_rigid) check_on_beam(at, place, places, samples);
+    } else if (const auto* mass = std::get_if<PointMass>(&place.body->shape)) {
+      check_on_mass(at, place, *mass, scene, samples);
+    } else if (std::holds_alternative<ImportedBody>(place.body->shape)) {
+      check_on_imported(at, place, samples);
+    }
+  }
+  for (const PointPair& pair : pairs_of(node, scene)) check_pair(pair, samples);
 }
 
 }  // namespace pleuel

@@ -6,9 +6,12 @@
 
 #include <fmt/format.h>
 
+#include "core/scene/body_rules.hpp"
+#include "core/scene/reading/mistakes.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 
 namespace pleuel {
+
 namespace {
 
 /// Of a section without variables [m²].
@@ -169,6 +172,13 @@ void expand_section_choices(Json& document, const std::vector<SectionReference>&
     *reference.section = list->second.section();
   }
   for (const auto& [name, list] : lists) document["variables"][name] = list.variable();
+}
+
+void check_section(const JsonNode& node, const Section& section, const Design<double>& start) {
+  for (const SectionRule& rule : section_rules(section)) {
+    const auto broken = complaint(rule, start, rounding_tolerance);
+    if (broken) node.at(rule.key).fail(*broken);
+  }
 }
 
 }  // namespace pleuel

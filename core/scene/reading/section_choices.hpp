@@ -3,7 +3,9 @@
 #include <string>
 #include <vector>
 
+#include "core/scene/reading/json_node.hpp"
 #include "core/scene/reading/json_text.hpp"
+#include "core/scene/scene.hpp"
 #include "core/scene/units.hpp"
 
 /// Sections that are chosen from a list: a beam has "section": {"variable": "tube"}, and the
@@ -27,5 +29,10 @@ struct SectionReference {
 void expand_section_choices(Json& document, const std::vector<SectionReference>& references,
                             const std::string& file, const Json& catalogue,
                             const UnitSystem& units);
+
+/// That walls fit into the outline (core/scene/body_rules.hpp), at the start. At other designs
+/// build_model() looks.
+/// @param node  of the section. @throws InputError
+void check_section(const JsonNode& node, const Section& section, const Design<double>& start);
 
 }  // namespace pleuel

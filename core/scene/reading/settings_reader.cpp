@@ -1,20 +1,22 @@
 #include "core/scene/reading/settings_reader.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
 #include "core/base/int_size.hpp"
 #include "core/base/machine_memory.hpp"
 #include "core/scene/reading/key_reader.hpp"
-#include "core/scene/reading/limits.hpp"
+#include "core/scene/reading/mistakes.hpp"
 #include "core/scene/reading/sample_design.hpp"
-#include "core/scene/reading/tolerance.hpp"
 #include "core/scene/sample_extent.hpp"
 #include "core/scene/shown_unit.hpp"
 
 namespace pleuel {
+
 namespace {
 
 constexpr int most_samples = 10000000;
@@ -170,6 +172,99 @@ UncertaintySettings read_uncertainty(const JsonNode& node, const NumberReader& n
     settings.seed = static_cast<unsigned>(seed->whole_number(0, most_samples));
   }
   return settings;
+}
+
+namespace {
+
+enum class InitialState { consistent, quasi_static, periodic };
+
+/// The end is a whole number of periods up to round-off: it becomes exact.
+void fit_to_end(const JsonNode& node, SimulationSettings& settings) {
+  constexpr double round_off = 1e-6;
+  const double periods = settings.end_time / settings.period, whole = std::round(periods);
+  if (whole < 1.0 || std::abs(periods - whole) > round_off * whole) {
+    node.fail_with_value(fmt::format(
+        "must fit into /simulation/end_time a whole number of times, and does so {:.6g} times",
+        periods));
+  }
+  settings.period = settings.end_time / whole;
+}
+
+/// What a motion that repeats itself cannot be combined with.
+void check_periodic(const JsonNode& node, const SimulationSettings& settings) {
+  const Formulation& formulation = settings.formulation;
+  if (formulation.constraints == ConstraintForm::index_1 && formulation.baumgarte == 0.0 &&
+      !formulation.is_projected) {
+    node.fail(
+        "is \"periodic\", but with the formulation \"index-1\" joints drift apart, which does not "
+        "repeat itself: add \"projection\": true or \"baumgarte\", or take another formulation");
+  }
+  if (settings.local_error > 0.0) {
+    node.fail(
+        "is \"periodic\", which needs the same steps in each period: leave out \"local_error\"");
+  }
+}
+
+void read_initial_state(const JsonNode& node, const NumberReader& numbers,
+                        SimulationSettings& settings) {
+  const bool is_object = node.value().is_object();
+  if (is_object) node.allow_keys({"type", "period"});
+  const auto type = read_choice<InitialState>(is_object ? node.at("type") : node,
+                                              {{"consistent", InitialState::consistent},
+                                               {"quasi-static", InitialState::quasi_static},
+                                               {"periodic", InitialState::periodic}});
+  settings.quasi_static_start = type == InitialState::quasi_static;
+  const auto period = is_object ? node.find("period") : std::nullopt;
+  if (type != InitialState::periodic) {
+    if (period) period->fail("is for the initial state \"periodic\" only");
+    return;
+  }
+  check_periodic(node, settings);
+  settings.period = settings.end_time;
+  if (!period) return;
+  settings.period = numbers.fixed(*period, quantities::time, Range::positive);
+  fit_to_end(*period, settings);
+}
+
+}  // namespace
+
+SimulationSettings read_simulation(const JsonNode& node, NumberReader& numbers) {
+  SimulationSettings settings;
+  read_keys(node, numbers, settings);
+  if (const auto state = node.find("initial_state")) read_initial_state(*state, numbers, settings);
+  return settings;
+}
+
+void check_effects(const JsonNode& node, const ProblemFile& problem) {
+  const EffectSettings& effects = problem.effects;
+  const bool has_elastic_body =
+      std::any_of(problem.scene.bodies.begin(), problem.scene.bodies.end(), [](const Body& body) {
+        const auto* beam = std::get_if<BeamBody>(&body.shape);
+        return std::holds_alternative<ImportedBody>(body.shape) || (beam && !beam->is_rigid);
+      });
+  const bool is_rigid = effects.elasticity == EffectChoice::off;
+  for (const auto& [key, choice] :
+       {std::pair("elasticity", effects.elasticity),
+        std::pair("axial_elasticity", effects.axial_elasticity),
+        std::pair("torsional_elasticity", effects.torsional_elasticity),
+        std::pair("geometric_stiffening", effects.geometric_stiffening)}) {
+    if (choice != EffectChoice::on) continue;
+    if (!has_elastic_body) node.at(key).fail("is \"on\", but all bodies are rigid");
+    if (is_rigid) node.at(key).fail("is \"on\", but /effects/elasticity is \"off\"");
+  }
+  if (effects.geometric_stiffening == EffectChoice::on &&
+      effects.axial_elasticity == EffectChoice::off) {
+    node.at("geometric_stiffening")
+        .fail(
+            "is \"on\", but /effects/axial_elasticity is \"off\": the axial force that stiffens "
+            "comes from axial strain; leave out \"axial_elasticity\", or set it to \"on\"");
+  }
+}
+
+EffectSettings read_effects(const JsonNode& node, NumberReader& numbers) {
+  EffectSettings effects;
+  read_keys(node, numbers, effects);
+  return effects;
 }
 
 }  // namespace pleuel

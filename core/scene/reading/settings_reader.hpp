@@ -19,4 +19,14 @@ AccuracySettings read_accuracy(const JsonNode& node, const std::vector<ResponseS
 UncertaintySettings read_uncertainty(const JsonNode& node, const NumberReader& numbers,
                                      const std::vector<DesignVariable>& variables);
 
+/// Times, scheme, formulation and start. @throws InputError
+SimulationSettings read_simulation(const JsonNode& node, NumberReader& numbers);
+
+// Which effects are simulated. Both throw InputError.
+
+EffectSettings read_effects(const JsonNode& node, NumberReader& numbers);
+
+/// What is asked for in so many words has to be possible with the bodies that there are.
+void check_effects(const JsonNode& node, const ProblemFile& problem);
+
 }  // namespace pleuel

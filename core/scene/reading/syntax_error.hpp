@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 
 namespace pleuel {
@@ -17,5 +18,8 @@ namespace pleuel {
 /// @param said      by the parser
 std::string describe_syntax_error(const std::string& text, std::size_t position,
                                   const std::string& said);
+
+/// The text of a file. @throws InputError if there is none, or it cannot be read or is huge.
+std::string read_text_file(const std::filesystem::path& path);
 
 }  // namespace pleuel

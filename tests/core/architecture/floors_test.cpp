@@ -70,7 +70,8 @@ const std::map<std::string, Names>& permitted() {
   static const std::map<std::string, Names> floors = [] {
     std::map<std::string, Names> below = {
         {"core/base", {}},
-        {"core/scene", {"core/base"}},
+        {"core/jobs", {"core/base"}},
+        {"core/scene", {"core/jobs"}},
         {"core/section", {"core/base"}},
         {"core/beam", {"core/section"}},
         {"core/frame", {"core/base"}},
@@ -90,7 +91,7 @@ const std::map<std::string, Names>& permitted() {
          {"core/mobility", "core/model", "core/scene", "core/beam", "core/integration"}},
         {"core/trust", {"core/response"}},
         {"sensitivity", {"core/response"}},
-        {"optimization", {"core/base"}},
+        {"optimization", {"core/jobs"}},
         {"optimization/design", {"optimization", "sensitivity", "core/trust"}},
         {"record", {"optimization"}},
         {"reduction", {"core/scene"}},

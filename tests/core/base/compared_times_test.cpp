@@ -1,8 +1,8 @@
-#include "core/base/compared_times.hpp"
-
 #include <random>
 
 #include <gtest/gtest.h>
+
+#include "core/base/stopwatch.hpp"
 
 namespace pleuel::test::compared_times_test {
 namespace {

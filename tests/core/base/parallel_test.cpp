@@ -1,4 +1,4 @@
-#include "core/base/parallel.hpp"
+#include "core/jobs/parallel.hpp"
 
 #include <atomic>
 #include <stdexcept>

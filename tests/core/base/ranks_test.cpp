@@ -9,9 +9,8 @@
 #include <unistd.h>
 
 #include "core/base/error.hpp"
-#include "core/base/rank_place.hpp"
-#include "core/base/task_server.hpp"
-#include "core/base/tasks.hpp"
+#include "core/jobs/rank_place.hpp"
+#include "core/jobs/tasks.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 /// Tasks on other ranks, which here are processes of this machine at the other end of a socket.

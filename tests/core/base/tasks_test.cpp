@@ -1,4 +1,4 @@
-#include "core/base/tasks.hpp"
+#include "core/jobs/tasks.hpp"
 
 #include <csignal>
 #include <fstream>

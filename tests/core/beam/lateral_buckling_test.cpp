@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/section/ellipse_section.hpp"
 #include "core/section/rectangle_section.hpp"
+#include "core/section/round_section.hpp"
 #include "tests/support/parameter_name.hpp"
 
 namespace pleuel::test::lateral_buckling_test {

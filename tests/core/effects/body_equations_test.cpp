@@ -4,8 +4,8 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/effects/general_body_equations.hpp"
+#include "core/effects/make_body_equations.hpp"
 #include "core/effects/planar_body_equations.hpp"
-#include "core/effects/translating_body_equations.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/sample_beams.hpp"
 

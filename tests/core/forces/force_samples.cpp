@@ -6,8 +6,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/rotation_vector.hpp"
 #include "core/forces/joint_force.hpp"
-#include "core/forces/point_force.hpp"
-#include "core/forces/point_torque.hpp"
+#include "core/forces/point_load.hpp"
 #include "core/forces/spring_damper.hpp"
 #include "core/frame/number_data.hpp"
 

@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/beam/natural_modes.hpp"
+#include "core/beam/elastic_basis.hpp"
 #include "core/effects/floating_frame_body.hpp"
 #include "core/forces/joint_force.hpp"
-#include "core/forces/point_force.hpp"
+#include "core/forces/point_load.hpp"
 #include "core/forces/spring_damper.hpp"
 #include "core/system/system.hpp"
 

@@ -1,9 +1,8 @@
-#include "core/integration/checkpoint_plan.hpp"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
+#include "core/integration/checkpointed_loop.hpp"
 #include "tests/support/parameter_name.hpp"
 
 namespace pleuel::test::checkpoint_plan_test {

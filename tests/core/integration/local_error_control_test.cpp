@@ -1,10 +1,9 @@
-#include "core/integration/local_error_control.hpp"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
+#include "core/integration/simulation_options.hpp"
 
 namespace pleuel::test::local_error_control_test {
 namespace {

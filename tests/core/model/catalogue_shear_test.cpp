@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "core/model/shear_area.hpp"
+#include "core/model/resolve_beam.hpp"
 #include "tests/support/source_folder.hpp"
 
 namespace pleuel::test::catalogue_shear_test {

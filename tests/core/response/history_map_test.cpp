@@ -8,8 +8,6 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
-#include "core/response/balance_map.hpp"
-#include "core/response/rate_map.hpp"
 
 namespace pleuel::test::history_map_test {
 namespace {

@@ -1,9 +1,8 @@
-#include "core/response/largest_signal.hpp"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
+#include "core/response/composed_signals.hpp"
 
 namespace pleuel::test::largest_signal_test {
 namespace {

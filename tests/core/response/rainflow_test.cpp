@@ -1,5 +1,3 @@
-#include "core/response/rainflow.hpp"
-
 #include <array>
 #include <cmath>
 #include <map>

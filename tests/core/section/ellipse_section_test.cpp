@@ -1,5 +1,3 @@
-#include "core/section/ellipse_section.hpp"
-
 #include <gtest/gtest.h>
 
 #include "core/section/round_section.hpp"

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/section/ellipse_section.hpp"
 #include "core/section/round_section.hpp"
 
 namespace pleuel::test::section_stress_test {

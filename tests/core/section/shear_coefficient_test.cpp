@@ -1,6 +1,6 @@
-#include "core/section/shear_coefficient.hpp"
-
 #include <gtest/gtest.h>
+
+#include "core/section/section_properties.hpp"
 
 namespace pleuel::test::shear_coefficient_test {
 namespace {

@@ -1,5 +1,3 @@
-#include "core/system/constraint_terms.hpp"
-
 #include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"

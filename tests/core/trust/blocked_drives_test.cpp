@@ -1,8 +1,7 @@
-#include "core/trust/blocked_drives.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/trust/joint_findings.hpp"
 #include "tests/core/trust/crank_rocker.hpp"
 #include "tests/core/trust/findings_of.hpp"
 #include "tests/support/problem_runs.hpp"

@@ -1,12 +1,11 @@
 /// Energy that is missing.
 
-#include "core/trust/energy_balance.hpp"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
+#include "core/trust/resolution.hpp"
 #include "tests/core/trust/crank_rocker.hpp"
 #include "tests/core/trust/findings_of.hpp"
 

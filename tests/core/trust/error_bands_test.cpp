@@ -1,5 +1,3 @@
-#include "core/trust/error_bands.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -7,9 +5,10 @@
 #include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/response/shown_history.hpp"
+#include "core/response/history_reduction.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/trust/checks.hpp"
+#include "core/trust/error_bars.hpp"
 #include "tests/support/source_folder.hpp"
 
 /// Bands around histories against runs at an eighth of the step with four times the elements.

@@ -1,11 +1,10 @@
 /// Bodies from files, at other designs than the file's.
 
-#include "core/trust/extrapolation.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
+#include "core/trust/not_modelled.hpp"
 #include "tests/core/trust/crank_rocker.hpp"
 #include "tests/core/trust/findings_of.hpp"
 

@@ -1,7 +1,7 @@
-#include "core/trust/far_bounds.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "core/trust/lint.hpp"
 
 namespace pleuel::test::far_bounds_test {
 namespace {

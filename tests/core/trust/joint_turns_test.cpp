@@ -1,11 +1,10 @@
 /// Springs in joints that turn.
 
-#include "core/trust/joint_turns.hpp"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/trust/joint_findings.hpp"
 #include "tests/core/trust/findings_of.hpp"
 
 namespace pleuel::test::joint_turns_test {

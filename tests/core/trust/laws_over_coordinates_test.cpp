@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/trust/fast_turning.hpp"
+#include "core/trust/fast_laws.hpp"
 #include "tests/core/trust/findings_of.hpp"
 
 /// Forces over the angle of a joint, and rotors, that turn too far in a step.

@@ -1,9 +1,8 @@
-#include "core/trust/lost_places.hpp"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/trust/lint.hpp"
 #include "tests/core/trust/findings_of.hpp"
 
 namespace pleuel::test::lost_places_test {

@@ -1,12 +1,11 @@
 /// Joints whose axes do not fit together.
 
-#include "core/trust/misaligned_joints.hpp"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/base/error.hpp"
+#include "core/trust/joint_findings.hpp"
 #include "tests/core/trust/crank_rocker.hpp"
 #include "tests/core/trust/findings_of.hpp"
 #include "tests/support/parameter_name.hpp"

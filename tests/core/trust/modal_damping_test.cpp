@@ -1,10 +1,9 @@
-#include "core/trust/modal_damping.hpp"
-
 #include <numbers>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "core/trust/neglected_effects.hpp"
 #include "tests/core/trust/findings_of.hpp"
 
 namespace pleuel::test::modal_damping_test {

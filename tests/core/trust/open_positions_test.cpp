@@ -1,10 +1,9 @@
-#include "core/trust/open_positions.hpp"
-
 #include <cmath>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "core/trust/start_positions.hpp"
 #include "tests/core/trust/findings_of.hpp"
 
 namespace pleuel::test::open_positions_test {

@@ -1,11 +1,10 @@
-#include "core/trust/other_side.hpp"
-
 #include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/trust/start_positions.hpp"
 #include "tests/core/trust/findings_of.hpp"
 
 namespace pleuel::test::other_side_test {

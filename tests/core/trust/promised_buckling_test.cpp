@@ -1,5 +1,3 @@
-#include "core/trust/promised_buckling.hpp"
-
 #include <cmath>
 #include <numbers>
 
@@ -7,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/trust/sideways_buckling.hpp"
 #include "tests/core/trust/findings_of.hpp"
 
 /// A hydraulic cylinder: a barrel and a rod of 0.5 m each, which slides in the barrel's end, held by a

@@ -1,7 +1,7 @@
-#include "core/trust/ranking.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "core/trust/finding.hpp"
 
 namespace pleuel::test::ranking_test {
 namespace {

@@ -12,9 +12,8 @@
 #include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/integration/periodic_start.hpp"
+#include "core/integration/period_map.hpp"
 #include "core/scene/problem_reader.hpp"
-#include "core/trust/energy_balance.hpp"
 #include "core/trust/refined_runs.hpp"
 #include "core/trust/round_off.hpp"
 #include "tests/support/problem_runs.hpp"

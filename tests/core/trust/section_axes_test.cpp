@@ -1,9 +1,8 @@
-#include "core/trust/section_axes.hpp"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/trust/lint.hpp"
 #include "tests/core/trust/findings_of.hpp"
 
 /// A post of 0.5 m along z whose tip a variable moves aside, pushed along y: 10 N · 0.5 m over W of 10 × 30 mm

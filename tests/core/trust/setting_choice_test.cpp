@@ -9,7 +9,7 @@
 #include "core/base/relative_error.hpp"
 #include "core/response/monitors.hpp"
 #include "core/scene/problem_reader.hpp"
-#include "core/trust/asked_responses.hpp"
+#include "core/trust/trusted_run.hpp"
 
 /// Chosen settings are compared with runs at an eighth of their step and four times their elements.
 namespace pleuel::test::setting_choice_test {

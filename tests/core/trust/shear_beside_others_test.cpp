@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/section/shear_coefficient.hpp"
+#include "core/section/section_properties.hpp"
 #include "tests/core/trust/sheared_beam.hpp"
 
 /// Stubby beams beside others and springs: what shear passes on, and what it is measured by.

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/section/shear_coefficient.hpp"
+#include "core/section/section_properties.hpp"
 #include "tests/core/trust/sheared_beam.hpp"
 
 namespace pleuel::test::shear_range_test {

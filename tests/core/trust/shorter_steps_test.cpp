@@ -1,10 +1,9 @@
-#include "core/trust/shorter_steps.hpp"
-
 #include <algorithm>
 
 #include <gmock/gmock.h>
 
 #include "core/base/eager_matrices.hpp"
+#include "core/trust/sudden_jumps.hpp"
 
 namespace pleuel::test::shorter_steps_test {
 namespace {

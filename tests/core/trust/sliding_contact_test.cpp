@@ -1,11 +1,10 @@
 /// What slides along beams.
 
-#include "core/trust/sliding_contact.hpp"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/trust/not_modelled.hpp"
 #include "tests/core/trust/findings_of.hpp"
 
 namespace pleuel::test::sliding_contact_test {

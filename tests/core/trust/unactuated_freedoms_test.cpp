@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/scene/problem_reader.hpp"
-#include "core/trust/misaligned_joints.hpp"
+#include "core/trust/joint_findings.hpp"
 #include "core/trust/proportions.hpp"
 #include "tests/core/trust/crank_rocker.hpp"
 #include "tests/core/trust/findings_of.hpp"

@@ -1,8 +1,7 @@
-#include "core/trust/undetermined_reactions.hpp"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "core/trust/joint_findings.hpp"
 #include "tests/core/trust/findings_of.hpp"
 
 namespace pleuel::test::undetermined_reactions_test {

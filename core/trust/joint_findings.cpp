@@ -1,0 +1,322 @@
+#include "core/trust/joint_findings.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/base/eager_matrices.hpp"
+#include "core/base/find_named.hpp"
+#include "core/frame/body_frame.hpp"
+#include "core/model/drive_rows.hpp"
+#include "core/model/scene_geometry.hpp"
+#include "core/response/monitors.hpp"
+#include "core/start/degrees_of_freedom.hpp"
+#include "core/trust/trusted_run.hpp"
+
+namespace pleuel {
+
+namespace {
+
+/// Nobody means less; more may be the breadth of a bearing.
+constexpr double hardly_meant = 1e-3;
+/// Of joints that lock a body altogether.
+constexpr double locking = 3e-2;
+/// [rad], or of the mechanism's size.
+constexpr double idle_way = 1e-3;
+
+struct BodyPose {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+};
+
+BodyPose pose_of(const std::string& body, const Model& model, const State& state) {
+  if (body == ground_name) return {};
+  const BodyFrame& frame = model.parts(body).front()->frame;
+  const auto part = [&](const Eigen::VectorXd& of) {
+    return of.segment(frame.offset, frame.size());
+  };
+  const FrameMotion<double> motion =
+      frame_motion<double>(frame, part(state.q), part(state.v), part(state.a));
+  return {motion.r, motion.A};
+}
+
+/// Of the second body of a joint as the first one sees it.
+BodyPose relative_pose(const Joint& joint, const Model& model, const State& state) {
+  const BodyPose first = pose_of(joint.bodies[0], model, state),
+                 second = pose_of(joint.bodies[1], model, state);
+  return {first.rotation.transpose() * (second.position - first.position),
+          first.rotation.transpose() * second.rotation};
+}
+
+/// Whether the bodies of a joint move against each other.
+bool moves(const Joint& joint, const TrustedRun& run) {
+  const Trajectory& trajectory = run.analysis.trajectory;
+  const Model& model = run.analysis.model;
+  const double size = model.mechanism.scale.maxCoeff();
+  State state;
+  trajectory.states->load(0, state);
+  const BodyPose start = relative_pose(joint, model, state);
+  for (int step = 1; step <= trajectory.steps(); ++step) {
+    trajectory.states->load(step, state);
+    const BodyPose pose = relative_pose(joint, model, state);
+    const double way = (pose.position - start.position).lpNorm<Eigen::Infinity>() / size;
+    const double turn = (pose.rotation - start.rotation).lpNorm<Eigen::Infinity>();
+    if (std::max(way, turn) > idle_way) return true;
+  }
+  return false;
+}
+
+/// Whether any of these joints does what it is there for.
+bool any_moves(const std::vector<std::string>& names, const TrustedRun& run) {
+  return std::any_of(run.problem.scene.joints.begin(), run.problem.scene.joints.end(),
+                     [&](const Joint& joint) {
+                       return std::find(names.begin(), names.end(), joint.name) != names.end() &&
+                              moves(joint, run);
+                     });
+}
+
+}  // namespace
+
+std::vector<Finding> check_misaligned_joints(const TrustedRun& run) {
+  State start;
+  run.analysis.trajectory.states->load(0, start);
+  const Model& model = run.analysis.model;
+  std::vector<Finding> findings;
+  for (const Misalignment& found : find_misalignments(model, start, locking)) {
+    if (found.size > hardly_meant && any_moves(found.joints, run)) continue;
+    findings.push_back({found.text(), true});
+  }
+  return findings;
+}
+
+namespace {
+
+/// The angle about a joint's axis by which the frame of its second body has turned against that of
+/// the first since the start; that of deformation is left out. In (−π, π].
+class JointAngle {
+ public:
+  JointAngle(const Model& model, const Joint& joint, const State& start)
+      : first_(frame_of(model, joint.bodies[0])), second_(frame_of(model, joint.bodies[1])) {
+    const Eigen::Vector3d axis = to_vector(joint.axis).normalized();
+    const Eigen::Vector3d across = axis.unitOrthogonal();
+    const Eigen::Matrix3d one = rotation(first_, start), other = rotation(second_, start);
+    from_ = one.transpose() * across;
+    beside_ = one.transpose() * axis.cross(across);
+    turned_ = other.transpose() * across;
+  }
+
+  double at(const State& state) const {
+    const Eigen::Matrix3d one = rotation(first_, state);
+    const Eigen::Vector3d now = rotation(second_, state) * turned_;
+    return std::atan2(now.dot(one * beside_), now.dot(one * from_));
+  }
+
+ private:
+  static std::optional<BodyFrame> frame_of(const Model& model, const std::string& body) {
+    if (body == ground_name) return std::nullopt;
+    return model.parts(body).front()->frame;
+  }
+
+  static Eigen::Matrix3d rotation(const std::optional<BodyFrame>& frame, const State& state) {
+    if (!frame) return Eigen::Matrix3d::Identity();
+    const auto of = [&](const Eigen::VectorXd& all) {
+      return Coordinates<double>(all.segment(frame->offset, frame->size()));
+    };
+    return frame_motion<double>(*frame, of(state.q), of(state.v), of(state.a)).A;
+  }
+
+  std::optional<BodyFrame> first_, second_;
+  Eigen::Vector3d from_, beside_, turned_;
+};
+
+/// The first time at which the angle jumps from one end of its range to the other.
+std::optional<double> jump_of(const TrustedRun& run, const Joint& joint) {
+  const Trajectory& trajectory = run.analysis.trajectory;
+  State state;
+  trajectory.states->load(0, state);
+  const JointAngle angle(run.analysis.model, joint, state);
+  double before = 0.0;
+  for (int step = 1; step <= trajectory.steps(); ++step) {
+    trajectory.states->load(step, state);
+    const double now = angle.at(state);
+    if (std::abs(now - before) > std::numbers::pi) return trajectory.time(step);
+    before = now;
+  }
+  return std::nullopt;
+}
+
+/// Whether a law has another value after a whole turn.
+bool jumps(const TimeFunction& function, const Design<double>& design, double end_time,
+           double rest) {
+  if (!depends_on_state(function)) return false;
+  constexpr double pi = std::numbers::pi;
+  constexpr int samples = 7;
+  const TimeLaw<double> law = resolve_time_law(function, design);
+  double difference = 0.0, size = 0.0;
+  for (int i = 0; i < samples; ++i) {
+    const double time = end_time * i / samples, rate = (i % 2 == 0 ? 1.0 : -1.0) * i;
+    const double after = law.value_at(time, pi - rest, rate),
+                 before = law.value_at(time, -pi - rest, rate);
+    difference = std::max(difference, std::abs(after - before));
+    size = std::max({size, std::abs(after), std::abs(before)});
+  }
+  return difference > 1e-9 * std::max(size, 1.0);
+}
+
+bool jumps(const JointForce& force, const Design<double>& design, double end_time) {
+  const double rest = resolve(force.rest, design);
+  return resolve(force.stiffness, design) != 0.0 || force.control ||
+         (force.motor && jumps(*force.motor, design, end_time, 0.0)) ||
+         (force.resistance && jumps(*force.resistance, design, end_time, rest));
+}
+
+/// The joint that a load counts the angle of, if what the load does jumps after half a turn.
+std::optional<std::string> find_counted_joint(const Load& load, const Design<double>& design,
+                                              double end_time) {
+  const auto of_value = [&](const auto& point) -> std::optional<std::string> {
+    if (!point.over || point.over->coordinate != DrivenCoordinate::angle) return std::nullopt;
+    if (!jumps(point.value, design, end_time, 0.0)) return std::nullopt;
+    return point.over->joint;
+  };
+  if (const auto* force = std::get_if<PointForce>(&load.element)) return of_value(*force);
+  if (const auto* torque = std::get_if<PointTorque>(&load.element)) return of_value(*torque);
+  const auto* force = std::get_if<JointForce>(&load.element);
+  if (!force || force->coordinate != DrivenCoordinate::angle) return std::nullopt;
+  if (!jumps(*force, design, end_time)) return std::nullopt;
+  return force->joint;
+}
+
+/// What its author calls it.
+const char* kind_of(const JointForce& force) {
+  if (force.motor || force.control) return "motor";
+  return force.resistance ? "resistance" : "spring";
+}
+
+bool is_in_space(const Model& model) {
+  return std::any_of(model.bodies.begin(), model.bodies.end(), [](const BodyModel& body) {
+    return body.frame.rotation == RotationCoordinates::rotation_vector;
+  });
+}
+
+}  // namespace
+
+std::vector<Finding> check_joint_turns(const TrustedRun& run) {
+  if (!is_in_space(run.analysis.model)) return {};
+  const Design<double> design(run.x.begin(), run.x.end());
+  const Scene& scene = run.problem.scene;
+  std::vector<Finding> findings;
+  for (const Load& load : scene.loads) {
+    const auto name = find_counted_joint(load, design, run.problem.simulation.end_time);
+    if (!name) continue;
+    const Joint* joint = find_named(scene.joints, *name);
+    const std::optional<double> time = jump_of(run, *joint);
+    if (!time) continue;
+    const auto* in_joint = std::get_if<JointForce>(&load.element);
+    findings.push_back(
+        {fmt::format("the joint \"{}\" turns by more than half a turn, at t = {:.4g} s; in space "
+                     "the {} \"{}\" counts its angle from -180 to 180 deg, and {} "
+                     "jumps there. Only motion in a plane counts whole turns.",
+                     joint->name, *time, in_joint ? kind_of(*in_joint) : "load", load.name,
+                     in_joint ? "its moment" : "it"),
+         true});
+  }
+  return findings;
+}
+
+namespace {
+
+std::string names_of_drives(const Model& model) {
+  std::vector<std::string> names;
+  for (const JointModel& joint : model.joints) {
+    if (joint.drive_row >= 0) names.push_back(fmt::format("\"{}\"", joint.name));
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+}  // namespace
+
+std::string blocked_drives_text(const Model& model, const State& state) {
+  const std::vector<int> drives = drive_rows(model);
+  const int blocked = blocked_drives(model.mechanism, state, drives);
+  if (blocked == 0) return "";
+  const std::string what =
+      drives.size() == 1
+          ? fmt::format("the joints leave no motion to the drive of {}", names_of_drives(model))
+          : fmt::format("there {} more than the joints leave motions to (drives: {})",
+                        blocked == 1 ? "is one drive" : fmt::format("are {} drives", blocked),
+                        names_of_drives(model));
+  return what +
+         ": what moves does so only because bodies bend. If that is not meant, a joint has a "
+         "freedom "
+         "too few (fixed instead of revolute, an axis in another direction, one joint too many), "
+         "or "
+         "a drive is too many";
+}
+
+std::vector<Finding> check_blocked_drives(const TrustedRun& run) {
+  State start;
+  run.analysis.trajectory.states->load(0, start);
+  const std::string text = blocked_drives_text(run.analysis.model, start);
+  if (!text.empty()) return {{text}};
+  if (run.analysis.rigid_path.end != RigidPath::End::bends) return {};
+  return {
+      {fmt::format("rigid bodies cannot follow the drive of {} from the start: what moves does "
+                   "so only because bodies bend. If that is not meant, look at the axes of the "
+                   "joints",
+                   names_of_drives(run.analysis.model))}};
+}
+
+std::vector<Finding> check_rest(const TrustedRun& run) {
+  const Model& model = run.analysis.model;
+  const Mechanism& mechanism = model.mechanism;
+  const RigidPath& path = run.analysis.rigid_path;
+  const bool is_driven = drive_rows(model).empty() || path.time == 0.0 || path.travel > 0.0;
+  if (is_driven || !model.terms.loads.empty() || !model.gravity.isZero(0.0) ||
+      !mechanism.guess.v.isZero(0.0) || !mechanism.bent_starts.empty()) {
+    return {};
+  }
+  return {
+      {fmt::format("nothing moves: the drive of {} stands still, and no load, weight or initial "
+                   "velocity acts. All numbers of the motion are round-off",
+                   names_of_drives(model)),
+       true}};
+}
+
+std::vector<Finding> check_undetermined_reactions(const TrustedRun& run) {
+  if (std::ranges::none_of(run.analysis.model.effects, [](const EffectRecord& effect) {
+        return effect.name == "redundant_constraints";
+      })) {
+    return {};
+  }
+  const Trajectory& trajectory = run.analysis.trajectory;
+  State state;
+  trajectory.states->load(trajectory.steps() / 2, state);
+  Finding finding;
+  std::string names;
+  for (const std::size_t i : asked_parts(run.problem)) {
+    const Response& response = run.analysis.responses[i];
+    if (!response.history() || response.history()->signal->is_determined(state)) continue;
+    finding.responses.push_back(response.name);
+    names += fmt::format("{}\"{}\"", names.empty() ? "" : ", ", response.name);
+  }
+  if (names.empty()) return {};
+  const bool is_one = finding.responses.size() == 1;
+  finding.text = fmt::format(
+      "{} {} not determined by the motion: joints hold more than they have to (`pleuel check` "
+      "names "
+      "them), and of all reactions that do so the smallest ones are shown. Real ones depend on how "
+      "stiff each bearing is. Let joints hold what they do in the machine: of the two bearings of "
+      "a "
+      "shaft, for one, the first as \"spherical\", the second as \"point-on-line\".",
+      names, is_one ? "is" : "are");
+  return {finding};
+}
+
+}  // namespace pleuel
