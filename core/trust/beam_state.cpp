@@ -53,19 +53,27 @@ void record_imported(const BodyModel& body, const State& state, int step,
   keep_larger(turned, step, largest.bending, largest.bending_step);
 }
 
+}  // namespace
+
+void record_deformation(const BodyModel& body, const State& state, int step,
+                        LargestDeformation& largest) {
+  if (!body.is_elastic || body.elastic_size() == 0) return;
+  if (body.is_imported()) {
+    record_imported(body, state, step, largest);
+  } else {
+    record_beam(body, state, step, largest);
+  }
+}
+
+namespace {
+
 std::vector<LargestDeformation> find_largest(const Model& model, const Trajectory& trajectory) {
   std::vector<LargestDeformation> all(model.bodies.size());
   State state;
   for (int step = 0; step <= trajectory.steps(); ++step) {
     trajectory.states->load(step, state);
     for (std::size_t i = 0; i < all.size(); ++i) {
-      const BodyModel& body = model.bodies[i];
-      if (!body.is_elastic || body.elastic_size() == 0) continue;
-      if (body.is_imported()) {
-        record_imported(body, state, step, all[i]);
-      } else {
-        record_beam(body, state, step, all[i]);
-      }
+      record_deformation(model.bodies[i], state, step, all[i]);
     }
   }
   return all;

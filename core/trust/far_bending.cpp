@@ -22,7 +22,8 @@ constexpr double small_bending = 0.05, small_twist = 0.004, no_bending = 1e-3;
 /// Of the deflection of a cantilever under a force at its tip, 0.45 θ² is missed; of others less.
 constexpr double error_per_square = 0.45;
 
-/// The same body of the scene, of all of its frames what deforms most.
+/// The same body of the scene, of all of its frames what deforms most: in the motion, and in the
+/// equilibrium about which natural frequencies are those of small vibrations.
 std::map<std::string, LargestDeformation> largest_of_bodies(const TrustedRun& run) {
   const Model& model = run.analysis.model;
   const auto& largest = largest_deformations(run);
@@ -34,6 +35,12 @@ std::map<std::string, LargestDeformation> largest_of_bodies(const TrustedRun& ru
     most.bending = std::max(most.bending, largest[i].bending);
     most.twist = std::max(most.twist, largest[i].twist);
     most.strain = std::max(most.strain, largest[i].strain);
+  }
+  const Analysis& analysis = run.analysis;
+  if (!analysis.vibrating) return of_bodies;
+  for (const BodyModel& body : model_of_modes(analysis).bodies) {
+    if (!body.is_elastic) continue;
+    record_deformation(body, analysis.vibrating->initial.state, 0, of_bodies[body.name]);
   }
   return of_bodies;
 }

@@ -74,57 +74,6 @@ void add_missing_stress(const TrustedRun& run, const std::vector<const Response*
                       true, names_of(responses)});
 }
 
-/// The problem with beams counted in other body frames, which leaves the mechanism the same.
-ProblemFile with_other_frames(const ProblemFile& problem) {
-  ProblemFile other = problem;
-  for (Body& body : other.scene.bodies) {
-    auto* beam = std::get_if<BeamBody>(&body.shape);
-    if (!beam) continue;
-    const bool is_mean = beam->frame == ReferenceCondition::mean_axis;
-    beam->frame = is_mean ? ReferenceCondition::chord : ReferenceCondition::mean_axis;
-  }
-  return other;
-}
-
-/// Of the same mechanism. @throws SimulationError if there is no equilibrium
-Eigen::VectorXd frequencies_in_equilibrium(const ProblemFile& problem, const Eigen::VectorXd& x) {
-  const Eigen::VectorXd start = start_design(problem);
-  const auto full = make_full_mechanism(problem, Design<double>(start.begin(), start.end()),
-                                        Design<double>(x.begin(), x.end()));
-  if (!full->vibrating->initial.is_equilibrium) {
-    throw SimulationError(full->vibrating->without_equilibrium);
-  }
-  return mechanism_frequencies(full->model.mechanism, full->vibrating->initial.state);
-}
-
-/// What moments do to the stiffness of a member that is bent or twisted is in the equations only as far as
-/// its frame turns with it: of first order in the load, and in none of the error bars of steps and
-/// elements. Other frames have another part of it.
-void add_frames(const TrustedRun& run, const std::vector<const Response*>& responses,
-                std::vector<Finding>& findings) {
-  const VibrationState& vibrating = *run.analysis.vibrating;
-  if (!vibrating.initial.is_equilibrium || !run.analysis.modes_left_out.empty()) return;
-  if (!vibrating.initial.state.v.isZero(0.0)) return;  // where axes matter, too
-  Eigen::VectorXd found;
-  try {
-    found = frequencies_in_equilibrium(with_other_frames(run.problem), run.x);
-  } catch (const SimulationError&) {
-    return;
-  } catch (const InputError&) {  // reduced to modes that the frame has to suit
-    return;
-  }
-  for (const auto& [response, shown, other] : shifts(run, responses, found)) {
-    findings.push_back(
-        {fmt::format("the frequency \"{}\" is {} with the body frames as they are, and "
-                     "{} with \"mean-axis\" ones (\"chord\" in place of those): "
-                     "members are bent or twisted so much at the start that what it does to their "
-                     "stiffness is not resolved. Divide them: \"frames\".",
-                     response->name, shown, other),
-         true,
-         {response->name}});
-  }
-}
-
 /// Small motions have constant coefficients only in axes that turn with the mechanism.
 void add_turning(const TrustedRun& run, const std::vector<const Response*>& responses,
                  std::vector<Finding>& findings) {
@@ -171,7 +120,6 @@ std::vector<Finding> check_frequencies(const TrustedRun& run) {
   if (responses.empty()) return findings;
   add_turning(run, responses, findings);
   add_missing_stress(run, responses, findings);
-  add_frames(run, responses, findings);
   return findings;
 }
 
