@@ -14,7 +14,7 @@
 
 #include "core/response/analysis.hpp"
 #include "core/scene/problem_reader.hpp"
-#include "sensitivity/gradients.hpp"
+#include "sensitivity/direct.hpp"
 #include "studies/stability.hpp"
 
 namespace pleuel {

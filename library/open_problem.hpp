@@ -12,7 +12,7 @@
 
 #include <fmt/format.h>
 
-#include "core/scene/problem_reader.hpp"
+#include "core/scene/problem_text.hpp"
 #include "include/pleuel.h"
 #include "library/call_error.hpp"
 #include "optimization/design/design_problem.hpp"

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/base/eager_matrices.hpp"
-#include "optimization/scaled_problem.hpp"
+#include "optimization/scaling.hpp"
 
 namespace pleuel {
 

@@ -12,7 +12,7 @@
 #include "optimization/backends.hpp"
 #include "optimization/prices.hpp"
 #include "optimization/problem_decorator.hpp"
-#include "optimization/scaled_problem.hpp"
+#include "optimization/scaling.hpp"
 
 namespace pleuel {
 

@@ -8,7 +8,7 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "optimization/generic_numbers.hpp"
-#include "optimization/scaled_problem.hpp"
+#include "optimization/scaling.hpp"
 
 namespace pleuel {
 

@@ -8,7 +8,7 @@
 
 #include "core/base/dense_solvers.hpp"
 #include "core/base/eager_matrices.hpp"
-#include "optimization/scaled_problem.hpp"
+#include "optimization/scaling.hpp"
 
 namespace pleuel {
 

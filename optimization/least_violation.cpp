@@ -6,7 +6,8 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "optimization/phase_one.hpp"
-#include "optimization/scaled_problem.hpp"
+#include "optimization/phase_one_problem.hpp"
+#include "optimization/scaling.hpp"
 #include "optimization/solve.hpp"
 
 namespace pleuel {

@@ -6,8 +6,8 @@
 
 #include "core/base/dense_solvers.hpp"
 #include "core/base/eager_matrices.hpp"
-#include "optimization/polish.hpp"
-#include "optimization/scaled_problem.hpp"
+#include "optimization/lowest_curvature.hpp"
+#include "optimization/scaling.hpp"
 
 namespace pleuel {
 

@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "core/base/eager_matrices.hpp"
-#include "optimization/phase_one.hpp"
-#include "optimization/scaled_problem.hpp"
+#include "optimization/phase_one_problem.hpp"
+#include "optimization/scaling.hpp"
+#include "optimization/violation_step.hpp"
 
 namespace pleuel {
 

@@ -13,7 +13,7 @@
 #include "optimization/backends.hpp"
 #include "optimization/polish.hpp"
 #include "optimization/prices.hpp"
-#include "optimization/scaled_problem.hpp"
+#include "optimization/scaling.hpp"
 
 namespace pleuel {
 

@@ -10,7 +10,7 @@
 #include "optimization/broken_limits.hpp"
 #include "optimization/gradient_check.hpp"
 #include "optimization/neighbourhood.hpp"
-#include "optimization/scaled_problem.hpp"
+#include "optimization/scaling.hpp"
 
 namespace pleuel {
 

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "reduction/solid_mesh.hpp"
+#include "reduction/solid_shape.hpp"
 
 /// Shape functions of solid elements in the order of nodes of CalculiX (Dhondt 2004, The Finite
 /// Element Method for Three-dimensional Thermomechanical Applications, §2.1): corners first, then

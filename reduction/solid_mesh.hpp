@@ -6,10 +6,9 @@
 
 #include <Eigen/Core>
 
-namespace pleuel {
+#include "reduction/solid_shape.hpp"
 
-/// Solid finite elements whose shapes are known (element_shape.hpp), by their names in CalculiX.
-enum class SolidShape { tetrahedron4, tetrahedron10, hexahedron8, hexahedron20 };
+namespace pleuel {
 
 /// An isotropic material, in the units of the mesh.
 struct SolidMaterial {

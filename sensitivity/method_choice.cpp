@@ -8,7 +8,7 @@
 
 #include "core/base/stopwatch.hpp"
 #include "sensitivity/adjoint.hpp"
-#include "sensitivity/gradients.hpp"
+#include "sensitivity/direct.hpp"
 
 namespace pleuel {
 

@@ -5,11 +5,11 @@
 #include <optional>
 
 #include "core/base/int_size.hpp"
-#include "core/response/expression_value.hpp"
 #include "core/response/history_reduction.hpp"
+#include "core/response/linearized_expression.hpp"
 #include "sensitivity/adjoint.hpp"
+#include "sensitivity/direct.hpp"
 #include "sensitivity/frequency_sensitivity.hpp"
-#include "sensitivity/gradients.hpp"
 #include "sensitivity/initial_sensitivity.hpp"
 
 namespace pleuel {

@@ -12,7 +12,7 @@
 #include "core/integration/repetition.hpp"
 #include "core/response/analysis.hpp"
 #include "optimization/design/size_trials.hpp"
-#include "optimization/scaled_problem.hpp"
+#include "optimization/scaling.hpp"
 #include "studies/priced_numbers.hpp"
 #include "studies/row_prices.hpp"
 

@@ -19,7 +19,7 @@
 #include "optimization/design/size_choice.hpp"
 #include "optimization/design/size_lists.hpp"
 #include "optimization/design/size_trials.hpp"
-#include "optimization/scaled_problem.hpp"
+#include "optimization/scaling.hpp"
 #include "studies/front_ends.hpp"
 #include "studies/missing_settings.hpp"
 #include "studies/varied_limit.hpp"

@@ -9,7 +9,7 @@
 #include "optimization/design/peak_windows.hpp"
 #include "optimization/kkt_audit.hpp"
 #include "optimization/prices.hpp"
-#include "optimization/scaled_problem.hpp"
+#include "optimization/scaling.hpp"
 
 namespace pleuel {
 

@@ -10,8 +10,8 @@
 #include "core/model/divided_beams.hpp"
 #include "core/response/analysis.hpp"
 #include "core/response/body_export.hpp"
-#include "core/scene/dimension.hpp"
 #include "core/scene/invariants_file.hpp"
+#include "core/scene/variable_quantity.hpp"
 
 namespace pleuel {
 

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "cli/commands/commands.hpp"
-#include "cli/files/older_run.hpp"
+#include "cli/files/command_text.hpp"
 #include "cli/files/starters.hpp"
 #include "cli/text/table.hpp"
 #include "core/base/error.hpp"

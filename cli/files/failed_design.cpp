@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "cli/files/command_text.hpp"
 #include "cli/files/csv_file.hpp"
-#include "cli/files/older_run.hpp"
 #include "cli/reports/scene_report.hpp"
 #include "cli/text/wrapped_text.hpp"
 

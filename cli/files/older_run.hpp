@@ -6,7 +6,6 @@
 
 #include <Eigen/Core>
 
-#include "cli/input/arguments.hpp"
 #include "cli/text/json.hpp"
 #include "core/scene/problem_file.hpp"
 
@@ -61,21 +60,5 @@ ProblemFile problem_of(const Json& card, const Json& result, const std::string& 
 /// @param key  of {NAME: {key: number}}; empty for {NAME: number}
 std::optional<Eigen::VectorXd> design_in(const Json& document, const ProblemFile& problem,
                                          const std::string& key);
-
-/// A word as a shell wants it.
-std::string shell_word(const std::string& word);
-
-/// The command line as it was typed, but for --overwrite.
-std::string typed_command(const Arguments& arguments);
-
-/// The line for a shell that runs a command on a file.
-std::string command_on(const std::string& command, const Arguments& arguments,
-                       const std::filesystem::path& file);
-
-/// The line for a shell that runs a command on the same input at the design of a file. Where the
-/// command takes gradients, they are those of the arguments.
-/// @param command  "simulate", "gradient" or "optimize"
-std::string command_at(const std::string& command, const Arguments& arguments,
-                       const std::filesystem::path& design);
 
 }  // namespace pleuel

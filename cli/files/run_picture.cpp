@@ -8,7 +8,7 @@
 #include "cli/files/scene_picture.hpp"
 #include "cli/reports/analysis_report.hpp"
 #include "cli/text/json.hpp"
-#include "core/model/imported_builder.hpp"
+#include "core/model/imported_constants.hpp"
 #include "core/response/history_reduction.hpp"
 #include "core/response/peak_place.hpp"
 #include "core/scene/response_kind.hpp"

@@ -6,7 +6,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
-#include "cli/files/older_run.hpp"
+#include "cli/files/command_text.hpp"
 #include "cli/input/fingerprint.hpp"
 #include "cli/text/console.hpp"
 #include "cli/text/json.hpp"

@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "core/scene/dimension.hpp"
 #include "core/scene/reading/json_node.hpp"
 #include "core/scene/reading/syntax_error.hpp"
 #include "core/scene/shown_unit.hpp"
+#include "core/scene/variable_quantity.hpp"
 
 namespace pleuel {
 

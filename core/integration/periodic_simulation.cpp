@@ -12,8 +12,8 @@
 #include "core/base/error.hpp"
 #include "core/integration/newton_corrector.hpp"
 #include "core/integration/period_map.hpp"
+#include "core/integration/plain_simulation.hpp"
 #include "core/integration/repetition.hpp"
-#include "core/integration/simulate.hpp"
 #include "core/integration/stacked_states.hpp"
 #include "core/start/equilibrium.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <poll.h>
 
-#include "core/jobs/tasks.hpp"
+#include "core/jobs/task_work.hpp"
 #include "core/jobs/worker.hpp"
 
 namespace pleuel {

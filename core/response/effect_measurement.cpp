@@ -10,7 +10,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/model/effect_estimates.hpp"
-#include "core/response/expression_value.hpp"
+#include "core/response/linearized_expression.hpp"
 #include "core/scene/response_parts.hpp"
 
 namespace pleuel {

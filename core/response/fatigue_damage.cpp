@@ -8,7 +8,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/integration/period_map.hpp"
 #include "core/response/fatigue.hpp"
-#include "core/response/history_reduction.hpp"
+#include "core/response/history_jump.hpp"
 
 namespace pleuel {
 

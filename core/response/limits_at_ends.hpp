@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "core/response/reduction.hpp"
+#include "core/response/reduced_value.hpp"
 
 namespace pleuel {
 

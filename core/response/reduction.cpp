@@ -8,7 +8,7 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
-#include "core/response/history_reduction.hpp"
+#include "core/response/history_jump.hpp"
 #include "core/response/limits_at_ends.hpp"
 
 namespace pleuel {

@@ -7,7 +7,7 @@
 #include "core/base/find_named.hpp"
 #include "core/base/int_size.hpp"
 #include "core/scene/kind_table.hpp"
-#include "core/scene/visit_numbers.hpp"
+#include "core/scene/visit_constants.hpp"
 
 namespace pleuel {
 

@@ -3,11 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <string>
-
-#include "core/scene/problem_file.hpp"
-#include "core/scene/units.hpp"
 
 namespace pleuel {
 
@@ -50,19 +46,5 @@ struct MeasuredUnit {
 
 /// The SI unit of this dimension in base units: "kg m^2/s^3"; "1" of a number.
 std::string base_units(const Dimension& dimension);
-
-/// The quantity that numbers of the file with this dimension have, if it has a name: of m² kg s⁻²
-/// "a torque [N m]".
-std::optional<Quantity> find_quantity(const Dimension& dimension, const UnitSystem& units);
-
-/// "a length [m]", "a number without unit"; of a quantity without name "a quantity [kg m]".
-std::string describe(const Dimension& dimension, const UnitSystem& units);
-
-/// Whether a unit has this dimension. @pre the unit is known
-bool has_dimension(const Quantity& quantity, const Dimension& dimension, const UnitSystem& units);
-
-/// What a design variable measures: the quantity of the first number of the scene that is bound to
-/// it; else that of the other variables of its linear constraint; else a pure number.
-Quantity variable_quantity(const ProblemFile& problem, int variable);
 
 }  // namespace pleuel

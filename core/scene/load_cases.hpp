@@ -49,14 +49,4 @@ bool is_over_cases(const ProblemFile& problem, std::size_t response);
 /// The response of the joined problem that a response of a case is.
 std::size_t joined_response(const ProblemFile& problem, const OfCase& of_case);
 
-/// Joins the problems of cases (ProblemFile::cases). What is the same in all stands once under its
-/// own name; each other response, and limit on it, once for each case that it is for. An objective
-/// over cases is one response more, the last: "peak [worst]".
-/// @param cases    at least one, read from one file; constraints that a case is not meant by are
-///                 taken from its problem
-/// @param is_same  one a response of the file: whether it is the same in all cases
-/// @param weights  one a case, of an objective that is a weighted sum
-ProblemFile joined_cases(std::vector<ProblemFile> cases, const std::vector<bool>& is_same,
-                         std::vector<double> weights);
-
 }  // namespace pleuel

@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include "core/base/find_named.hpp"
-#include "core/scene/dimension.hpp"
 #include "core/scene/response_quantity.hpp"
 #include "core/scene/units.hpp"
+#include "core/scene/variable_quantity.hpp"
 
 namespace pleuel {
 

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/response/expression_value.hpp"
 #include "core/response/history_reduction.hpp"
+#include "core/response/linearized_expression.hpp"
 
 namespace pleuel {
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/response/expression_value.hpp"
+#include "core/response/linearized_expression.hpp"
 #include "core/scene/response_parts.hpp"
 
 namespace pleuel {

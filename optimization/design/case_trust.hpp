@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include "core/base/error_bar.hpp"
-#include "core/response/expression_value.hpp"
+#include "core/response/linearized_expression.hpp"
 #include "core/trust/checks.hpp"
 #include "optimization/design/design_problem.hpp"
 

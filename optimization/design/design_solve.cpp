@@ -21,7 +21,7 @@
 #include "optimization/design/peak_windows.hpp"
 #include "optimization/find_optimum.hpp"
 #include "optimization/prices.hpp"
-#include "optimization/scaled_problem.hpp"
+#include "optimization/scaling.hpp"
 #include "sensitivity/kinks.hpp"
 
 namespace pleuel {

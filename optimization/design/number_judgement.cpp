@@ -14,7 +14,7 @@
 #include "optimization/design/case_trust.hpp"
 #include "optimization/design/margin_problem.hpp"
 #include "optimization/design/optimum_error.hpp"
-#include "optimization/scaled_problem.hpp"
+#include "optimization/scaling.hpp"
 
 namespace pleuel {
 

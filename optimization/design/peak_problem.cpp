@@ -9,7 +9,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
 #include "core/scene/load_cases.hpp"
-#include "optimization/scaled_problem.hpp"
+#include "optimization/scaling.hpp"
 
 namespace pleuel {
 

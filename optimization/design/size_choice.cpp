@@ -15,7 +15,7 @@
 #include "optimization/design/size_lists.hpp"
 #include "optimization/design/size_trials.hpp"
 #include "optimization/linear_choice.hpp"
-#include "optimization/scaled_problem.hpp"
+#include "optimization/scaling.hpp"
 
 namespace pleuel {
 

@@ -10,7 +10,7 @@
 #include "core/scene/packed_problem.hpp"
 #include "optimization/evaluation_store.hpp"
 #include "optimization/result.hpp"
-#include "optimization/scaled_problem.hpp"
+#include "optimization/scaling.hpp"
 #include "optimization/solve.hpp"
 
 namespace pleuel {

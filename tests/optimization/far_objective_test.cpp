@@ -11,7 +11,7 @@
 #include "known_problems.hpp"
 #include "optimization/backends.hpp"
 #include "optimization/find_optimum.hpp"
-#include "optimization/scaled_problem.hpp"
+#include "optimization/scaling.hpp"
 
 namespace pleuel::test::far_objective_test {
 namespace {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
-#include "optimization/scaled_problem.hpp"
+#include "optimization/scaling.hpp"
 #include "optimization/verdict.hpp"
 
 namespace pleuel::test::gradient_check_test {

@@ -7,7 +7,7 @@
 
 #include "complex_step.hpp"
 #include "core/base/eager_matrices.hpp"
-#include "optimization/scaled_problem.hpp"
+#include "optimization/scaling.hpp"
 
 namespace pleuel::test {
 

@@ -8,6 +8,7 @@
 #include "complex_step.hpp"
 #include "core/base/eager_matrices.hpp"
 #include "known_problems.hpp"
+#include "optimization/phase_one_problem.hpp"
 #include "optimization/restoration.hpp"
 
 namespace pleuel::test::phase_one_test {

@@ -8,6 +8,7 @@
 #include "complex_step.hpp"
 #include "core/base/eager_matrices.hpp"
 #include "known_problems.hpp"
+#include "optimization/scaling.hpp"
 #include "optimization/solve.hpp"
 
 namespace pleuel::test::scaled_problem_test {

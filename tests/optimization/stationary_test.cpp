@@ -11,7 +11,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "known_problems.hpp"
 #include "optimization/backends.hpp"
-#include "optimization/polish.hpp"
+#include "optimization/lowest_curvature.hpp"
 #include "optimization/solve.hpp"
 #include "tests/support/dense_algebra.hpp"
 

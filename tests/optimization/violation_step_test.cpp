@@ -1,10 +1,11 @@
+#include "optimization/violation_step.hpp"
+
 #include <random>
 
 #include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
 #include "optimization/kkt_audit.hpp"
-#include "optimization/phase_one.hpp"
 
 namespace pleuel::test::violation_step_test {
 namespace {

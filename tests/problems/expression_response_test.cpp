@@ -6,7 +6,7 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
-#include "core/response/expression_value.hpp"
+#include "core/response/linearized_expression.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/trust/checks.hpp"
 #include "optimization/design/design_solve.hpp"

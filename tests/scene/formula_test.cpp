@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "core/scene/dimension.hpp"
 #include "core/scene/response_quantity.hpp"
 #include "core/scene/shown_unit.hpp"
+#include "core/scene/variable_quantity.hpp"
 #include "tests/scene/good_problem.hpp"
 
 /// Formulas in a problem file: in place of numbers, and as responses.

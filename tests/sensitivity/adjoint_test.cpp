@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
-#include "sensitivity/gradients.hpp"
+#include "sensitivity/direct.hpp"
 #include "tests/support/sample_scenes.hpp"
 
 namespace pleuel::test::adjoint_test {

@@ -4,7 +4,7 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "sensitivity/adjoint.hpp"
-#include "sensitivity/gradients.hpp"
+#include "sensitivity/direct.hpp"
 #include "tests/sensitivity/flexible_slider_crank_reference.hpp"
 #include "tests/support/dense.hpp"
 #include "tests/support/differences.hpp"

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
+#include "sensitivity/direct.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/support/problem_runs.hpp"
 

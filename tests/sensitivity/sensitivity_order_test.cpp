@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
-#include "sensitivity/gradients.hpp"
+#include "sensitivity/direct.hpp"
 #include "tests/support/convergence.hpp"
 #include "tests/support/sample_scenes.hpp"
 #include "tests/support/scheme_case.hpp"

@@ -2,7 +2,7 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/response/analysis.hpp"
-#include "sensitivity/gradients.hpp"
+#include "sensitivity/direct.hpp"
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/sample_scenes.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/mechanism/configuration.hpp"
-#include "sensitivity/gradients.hpp"
+#include "sensitivity/direct.hpp"
 #include "tests/support/common_basis.hpp"
 #include "tests/support/dense_algebra.hpp"
 #include "tests/support/differences.hpp"

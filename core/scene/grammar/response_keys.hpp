@@ -4,7 +4,7 @@
 #include <variant>
 
 #include "core/scene/grammar/keys.hpp"
-#include "core/scene/grammar/response_table.hpp"
+#include "core/scene/grammar/response_scope.hpp"
 #include "core/scene/magnitude_direction.hpp"
 #include "core/scene/problem_file.hpp"
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/base/expression.hpp"
-#include "core/scene/dimension.hpp"
-#include "core/scene/reading/shared_by_cases.hpp"
+#include "core/scene/dimension_quantity.hpp"
+#include "core/scene/reading/case_suffix.hpp"
 
 /// What goes into the reading of a formula, and what comes out.
 namespace pleuel {

@@ -13,10 +13,10 @@
 
 #include "core/base/int_size.hpp"
 #include "core/scene/load_cases.hpp"
+#include "core/scene/reading/case_suffix.hpp"
 #include "core/scene/reading/expression_builder.hpp"
-#include "core/scene/reading/shared_by_cases.hpp"
 #include "core/scene/reading/suggestion.hpp"
-#include "core/scene/reading/symbols.hpp"
+#include "core/scene/reading/unit_scanner.hpp"
 
 namespace pleuel {
 

@@ -7,10 +7,10 @@
 #include "core/base/find_named.hpp"
 #include "core/scene/case_goals.hpp"
 #include "core/scene/load_cases.hpp"
+#include "core/scene/reading/case_suffix.hpp"
 #include "core/scene/reading/mistakes.hpp"
 #include "core/scene/reading/response_reader.hpp"
 #include "core/scene/reading/scene_reader.hpp"
-#include "core/scene/reading/shared_by_cases.hpp"
 #include "core/scene/reading/symbols.hpp"
 #include "core/scene/response_quantity.hpp"
 

@@ -1,5 +1,3 @@
-#include "core/scene/reading/load_reader.hpp"
-
 #include <algorithm>
 #include <optional>
 
@@ -11,7 +9,6 @@
 #include "core/scene/reading/time_function_reader.hpp"
 
 namespace pleuel {
-
 namespace {
 
 enum class LoadType { force, torque, spring, joint };
@@ -163,12 +160,6 @@ Load read_load(const std::string& name, const JsonNode& node, const Scene& scene
       break;
   }
   return {name, read_joint_force(node, scene, numbers)};
-}
-
-void LawSource::allow_keys(std::vector<std::string_view> keys) const {
-  keys.insert(keys.begin(), "type");
-  keys.insert(keys.end(), other_keys.begin(), other_keys.end());
-  node.allow_keys(keys);
 }
 
 }  // namespace pleuel

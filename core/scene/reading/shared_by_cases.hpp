@@ -1,9 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <optional>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/scene/problem_file.hpp"
@@ -29,26 +25,5 @@ void check_shared_numbers(const JsonNode& root, const std::vector<ProblemFile>& 
 /// @param joined  the problem of all cases
 /// @throws InputError  if one follows from a constant that a case changes
 void check_shared_limits(const JsonNode& root, const ProblemFile& joined);
-
-// Names with a load case behind them: `bow[fast]` in a formula, "bow [fast]" in a table.
-
-/// A case in brackets behind a name.
-struct CaseSuffix {
-  std::string load_case;
-  std::size_t end = 0;  ///< of the text, behind the bracket
-};
-
-/// The case in brackets that follows from here on, after blanks; none if there is no bracket, or it
-/// is not closed.
-std::optional<CaseSuffix> case_suffix(std::string_view text, std::size_t at);
-
-/// "bow [fast]" of "bow[fast]" and "bow [ fast ]"; other names as they are.
-std::string spaced_case(const std::string& name);
-
-/// The name without its case, and the case; none of a name without.
-struct NameInCase {
-  std::string name, load_case;
-};
-std::optional<NameInCase> split_case(const std::string& name);
 
 }  // namespace pleuel

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <functional>
 #include <initializer_list>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/scene/reading/expression_parser.hpp"
@@ -30,16 +28,5 @@ ReadExpression read_formula(const JsonNode& node, const std::vector<Symbol>& sym
 /// "start" (or else a bound) is written with.
 /// @throws InputError
 std::vector<Symbol> read_symbols(const JsonNode& root, const UnitSystem& units);
-
-/// Whether a name can contain this character (UTF-8 bytes of letters beyond ASCII among them).
-bool is_name_character(char c);
-bool is_digit_character(char c);
-
-/// How far a unit reaches that begins at the start of a text: "kg/m^3 * width" has the unit
-/// "kg/m^3". Words follow each other by a blank or "/", each with a whole power; "/" belongs to the
-/// unit only before a word that `is_unit` knows.
-/// @returns number of characters; 0: there is none
-std::size_t unit_length(std::string_view text,
-                        const std::function<bool(const std::string&)>& is_unit);
 
 }  // namespace pleuel

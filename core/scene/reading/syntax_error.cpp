@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
-#include "core/scene/reading/json_text.hpp"
-#include "core/scene/reading/symbols.hpp"
+#include "core/scene/reading/control_characters.hpp"
+#include "core/scene/reading/unit_scanner.hpp"
 
 namespace pleuel {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/scene/reading/load_reader.hpp"
+#include "core/scene/reading/law_source.hpp"
 
 /// Reads functions of time, and of the state of a force element. All throw InputError.
 namespace pleuel {

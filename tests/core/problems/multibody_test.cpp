@@ -6,7 +6,7 @@
 #include "core/base/error.hpp"
 #include "core/integration/simulate.hpp"
 #include "core/model/model.hpp"
-#include "sensitivity/gradients.hpp"
+#include "sensitivity/direct.hpp"
 #include "tests/support/flexible_slider_crank.hpp"
 #include "tests/support/places.hpp"
 

@@ -1,5 +1,7 @@
 /// Peaks beside jumps, and ranges that end with one.
 
+#include "core/response/history_jump.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -7,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/response/history_reduction.hpp"
 #include "core/response/reduction.hpp"
 
 namespace pleuel::test::history_jump_test {

@@ -3,7 +3,7 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
-#include "core/scene/visit_numbers.hpp"
+#include "core/scene/visit_constants.hpp"
 #include "sensitivity/constant_gradients.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/core/response/exchange.hpp"

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "cli/input/arguments.hpp"
+
+namespace pleuel {
+
+/// A word as a shell wants it.
+std::string shell_word(const std::string& word);
+
+/// The command line as it was typed, but for --overwrite.
+std::string typed_command(const Arguments& arguments);
+
+/// The line for a shell that runs a command on a file.
+std::string command_on(const std::string& command, const Arguments& arguments,
+                       const std::filesystem::path& file);
+
+/// The line for a shell that runs a command on the same input at the design of a file. Where the
+/// command takes gradients, they are those of the arguments.
+/// @param command  "simulate", "gradient" or "optimize"
+std::string command_at(const std::string& command, const Arguments& arguments,
+                       const std::filesystem::path& design);
+
+}  // namespace pleuel

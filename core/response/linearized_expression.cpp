@@ -1,0 +1,50 @@
+#include "core/response/linearized_expression.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/eager_matrices.hpp"
+#include "core/response/expression_value.hpp"
+
+namespace pleuel {
+
+LinearizedResponse linearized(const Analysis& analysis, std::size_t response) {
+  return ChainedResponse(
+             analysis.x.size(),
+             [&](std::size_t one) { return analysis.responses[one].expression(); },
+             [&](std::size_t, const Expression& expression) {
+               return evaluate_at(analysis.reductions, analysis.x, expression);
+             })
+      .linearized(response);
+}
+
+void require_derivatives(const Analysis& analysis, std::size_t response) {
+  const LinearizedResponse found = linearized(analysis, response);
+  const bool is_finite =
+      found.design.allFinite() &&
+      std::all_of(found.parts.begin(), found.parts.end(),
+                  [](const WeightedResponse& part) { return std::isfinite(part.weight); });
+  if (!is_finite) {
+    refuse_expression(analysis.responses, analysis.reductions, response, "derivative");
+  }
+}
+
+double magnitude_of(const Analysis& analysis, std::size_t response) {
+  const Eigen::MatrixXd& history = analysis.histories[response];
+  if (history.size() > 0) return history.cwiseAbs().maxCoeff();
+  double magnitude = std::abs(analysis.reductions[response].value);
+  if (analysis.responses[response].expression() == nullptr) return magnitude;
+  for (const WeightedResponse& part : linearized(analysis, response).parts) {
+    magnitude = std::max(magnitude, std::abs(part.weight) * magnitude_of(analysis, part.response));
+  }
+  return magnitude;
+}
+
+bool depends_on_motion(const Analysis& analysis, std::size_t response) {
+  const std::vector<WeightedResponse> parts = linearized(analysis, response).parts;
+  return std::any_of(parts.begin(), parts.end(), [&](const WeightedResponse& part) {
+    return analysis.histories[part.response].size() > 0;
+  });
+}
+
+}  // namespace pleuel

@@ -1,0 +1,25 @@
+#include "core/scene/dimension_quantity.hpp"
+
+#include <fmt/format.h>
+
+#include "core/scene/named_quantities.hpp"
+
+namespace pleuel {
+
+bool has_dimension(const Quantity& quantity, const Dimension& dimension, const UnitSystem& units) {
+  return units.measure(std::string(quantity.unit)).dimension == dimension;
+}
+
+std::optional<Quantity> find_quantity(const Dimension& dimension, const UnitSystem& units) {
+  for (const Quantity& quantity : named_quantities) {
+    if (has_dimension(quantity, dimension, units)) return quantity;
+  }
+  return std::nullopt;
+}
+
+std::string describe(const Dimension& dimension, const UnitSystem& units) {
+  if (const auto quantity = find_quantity(dimension, units)) return describe(*quantity);
+  return fmt::format("a quantity [{}]", base_units(dimension));
+}
+
+}  // namespace pleuel

@@ -1,0 +1,71 @@
+#include "core/scene/reading/unit_scanner.hpp"
+
+#include <cctype>
+
+namespace pleuel {
+
+namespace {
+
+std::size_t skip_blanks(std::string_view text, std::size_t at) {
+  while (at < text.size() && text[at] == ' ') ++at;
+  return at;
+}
+
+/// Letters, "%" and "°"; no digits, which are powers.
+std::size_t word_end(std::string_view text, std::size_t at) {
+  while (at < text.size() && (text[at] == '%' || is_name_character(text[at])) &&
+         !is_digit_character(text[at])) {
+    ++at;
+  }
+  return at;
+}
+
+std::size_t digits_end(std::string_view text, std::size_t at) {
+  while (at < text.size() && is_digit_character(text[at])) ++at;
+  return at;
+}
+
+/// Behind "^2", "^-1" or "2".
+std::size_t power_end(std::string_view text, std::size_t at) {
+  const std::size_t plain = digits_end(text, at);
+  if (plain > at) return plain;
+  std::size_t next = skip_blanks(text, at);
+  if (next >= text.size() || text[next] != '^') return at;
+  next = skip_blanks(text, next + 1);
+  const bool is_signed = next < text.size() && (text[next] == '-' || text[next] == '+');
+  const std::size_t digits = is_signed ? next + 1 : next, end = digits_end(text, digits);
+  const bool goes_on =
+      end < text.size() && (text[end] == '.' || text[end] == '^' || is_name_character(text[end]));
+  return end == digits || goes_on ? at : end;
+}
+
+}  // namespace
+
+bool is_name_character(char c) {
+  const auto byte = static_cast<unsigned char>(c);
+  return byte >= 0x80 || c == '_' || std::isalnum(byte) != 0;
+}
+
+bool is_digit_character(char c) {
+  return std::isdigit(static_cast<unsigned char>(c)) != 0;
+}
+
+std::size_t unit_length(std::string_view text,
+                        const std::function<bool(const std::string&)>& is_unit) {
+  std::size_t end = 0, at = skip_blanks(text, 0);
+  while (true) {
+    const std::size_t word = word_end(text, at);
+    if (word == at) return end;
+    end = power_end(text, word);
+    const std::size_t next = skip_blanks(text, end);
+    if (next < text.size() && text[next] == '/') {
+      at = skip_blanks(text, next + 1);
+      const std::string name(text.substr(at, word_end(text, at) - at));
+      if (name.empty() || !is_unit(name)) return end;
+    } else {
+      at = next;
+    }
+  }
+}
+
+}  // namespace pleuel
