@@ -26,7 +26,7 @@ constexpr double short_first_step = 0.1;
 constexpr double same_to_rounding = 1e-9;
 /// How often the objective at the end may become the measure of the next proof.
 constexpr int most_references = 8;
-/// Part of the objective at the start that counts as much as that of a design (scaled_problem.hpp).
+/// Part of the objective at the start that counts as much as that of a design (scaling.hpp).
 constexpr double part_of_reference = 1e-3;
 /// How often the limits are restored before they are taken for contradictory.
 constexpr int most_restorations = 2;

@@ -32,7 +32,7 @@ struct EvaluationRecord {
   std::string failure;          ///< empty: it succeeded; else why not, and the numbers below say 0
   double objective = 0.0;       ///< [SI]
   Eigen::VectorXd constraints;  ///< raw values [SI]; empty after a failure
-  double max_violation = 0.0;   ///< relative, see scaled_problem.hpp
+  double max_violation = 0.0;   ///< relative, see scaling.hpp
   double step = 0.0;            ///< ‖Δx / s‖∞ from the evaluation before
   double seconds = 0.0;         ///< wall time since the start of solve()
   double time_step = 0.0;       ///< of the simulation, where one is evaluated [s]

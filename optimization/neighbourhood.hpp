@@ -24,7 +24,7 @@ struct Neighbourhood {
 /// Looks whether a KKT point is a minimum, not a maximum or a saddle. In the tangent space of the
 /// limits that hold it (those with multipliers, and equalities) it finds the direction d along
 /// which the Lagrangian bends least, by Hessian-vector products from gradients
-/// (polish.hpp):
+/// (lowest_curvature.hpp):
 ///
 ///     ∇²L d ≈ (∇L(x + h s ∘ d) − ∇L(x)) / h,   L = f + Σ μ c,   h = 0.02, s as for backends
 ///

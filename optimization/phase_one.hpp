@@ -34,14 +34,14 @@ std::optional<Eigen::VectorXd> evaluable_design(Problem& problem);
 
 /// A design within the limits, restored from `best` (restoration.hpp) or, where that fails, from
 /// those of designs spread between the bounds that break the limits least.
-/// @param magnitudes   of the constraints of `limits`, see scaled_problem.hpp
+/// @param magnitudes   of the constraints of `limits`, see scaling.hpp
 std::optional<Eigen::VectorXd> design_within_limits(const LimitRows& rows, const Problem& limits,
                                                     const Eigen::VectorXd& magnitudes,
                                                     const Eigen::VectorXd& best);
 
 /// Minimizes the largest relative violation of all limits from a design on, by gradients; and where
 /// that is not 0, for each limit in the conflict (six at most) what it would have to be if all
-/// others were kept. Each is an optimization of its own, a local one.
+/// others were kept. Each is an optimization of its own (phase_one_problem.hpp), a local one.
 /// @param start  can be evaluated, with gradients
 LeastViolation find_least_violation(const LimitRows& rows, const std::vector<Constraint>& limits,
                                     const Eigen::VectorXd& start, int iterations);

@@ -30,7 +30,7 @@ struct Variable {
   double start = 0.0;
   double lower = -infinity;
   double upper = infinity;
-  /// A change of it that is of order one; 0: follows from its value and its bounds (scaled_problem.hpp).
+  /// A change of it that is of order one; 0: follows from its value and its bounds (scaling.hpp).
   double magnitude = 0.0;
 
   bool is_fixed() const { return lower == upper; }

@@ -15,7 +15,7 @@ struct RestorationBudget {
 /// Leads a design into the limits, whatever the objective says, by the Levenberg–Marquardt method
 /// on the squares of violations:
 ///
-///     minimize Σ max(0, ψ(g) + margin)²     (ψ: phase_one.hpp)
+///     minimize Σ max(0, ψ(g) + margin)²     (ψ: phase_one_problem.hpp)
 ///
 /// in the logarithms of variables with positive bounds: there ψ of stresses and deflections is
 /// nearly linear in sizes. Each step minimizes the linearised sum within a box, the trust region,

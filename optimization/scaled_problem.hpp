@@ -27,7 +27,7 @@ struct ScaledEvaluation {
 ///
 ///     y = x / s,   f(y) = f / F,   g(y) = ±(c − limit) / C ≤ 0,   h(y) = (c − limit) / C = 0
 ///
-/// with the magnitudes s, F, C. A constraint with two limits gives two rows, one
+/// with the magnitudes s, F, C of scaling.hpp. A constraint with two limits gives two rows, one
 /// without any gives none; a fixed variable is no variable here. It also says when to stop.
 class ScaledProblem {
  public:

@@ -19,7 +19,7 @@ struct StateAdjoint {
 using FunctionDerivatives = std::function<int(int step, const State& state, StateAdjoint& adjoint)>;
 
 /// The discrete adjoint: the map of sensitivities from step to step that differentiate()
-/// (gradients.hpp) goes forwards, transposed and in reverse time. The same gradient up to round-off,
+/// (direct.hpp) goes forwards, transposed and in reverse time. The same gradient up to round-off,
 /// with one solution a step for each function instead of one for each design variable. With y = J⁻ᵀ
 /// of the derivatives with respect to the unknowns of a step
 ///     dJ/dx = Σ_steps −yᵀ [ s R_x ; c Φ_x ] + (derivatives at the start)ᵀ s₀

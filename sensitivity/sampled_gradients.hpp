@@ -22,7 +22,7 @@ int last_step(const Analysis& analysis, const SampledValue& value);
 
 /// Methods that differentiate the discrete scheme; their gradients agree up to round-off.
 enum class ExactMethod {
-  direct,  ///< cost grows with the number of variables (gradients.hpp)
+  direct,  ///< cost grows with the number of variables (direct.hpp)
   adjoint  ///< cost grows with the number of values that depend on the motion (adjoint.hpp)
 };
 

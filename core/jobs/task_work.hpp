@@ -31,7 +31,7 @@ class TaskWork {
 
 /// Work for processes that know nothing of it (core/base/packed.hpp).
 struct PackedWork {
-  std::string kind;  ///< by which it is made again (task_server.hpp); empty: it cannot be
+  std::string kind;  ///< by which it is made again (rank_place.hpp); empty: it cannot be
   std::string content;
 };
 
