@@ -72,6 +72,21 @@ std::string lock_text(const Model& model, const RigidPath& path) {
       path.time, drives_text(model, path.time), members, gap);
 }
 
+std::string names_of_drives(const Model& model) {
+  std::vector<std::string> names;
+  for (const JointModel& joint : model.joints) {
+    if (joint.drive_row >= 0) names.push_back(joint.name);
+  }
+  return quoted(names);
+}
+
+std::string bending_text(const Model& model) {
+  return fmt::format(
+      "rigid bodies cannot follow the drive of {} from the start: what moves does so only because "
+      "bodies bend. If that is not meant, look at the axes of the joints",
+      names_of_drives(model));
+}
+
 RigidPath follow_drives(const Model& model, double end, double step, const PathObserver& observer) {
   if (drive_rows(model).empty()) return {.time = end, .q = model.mechanism.guess.q};
   RigidConstraints constraints(model);

@@ -22,6 +22,12 @@ RigidPath follow_drives(const Model& model, double end, double step,
 /// When it locks, where, which bodies are at a dead centre there, and by how much they miss.
 std::string lock_text(const Model& model, const RigidPath& path);
 
+/// The joints that are driven: "bearing", "pin".
+std::string names_of_drives(const Model& model);
+
+/// What is said where rigid bodies cannot follow the drives from the start.
+std::string bending_text(const Model& model);
+
 /// @throws LockedMechanism if it locks
 void require_no_lock(const Model& model, const RigidPath& path);
 

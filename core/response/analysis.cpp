@@ -131,9 +131,10 @@ SimulationOptions options_of(const ProblemFile& problem) {
 }
 
 /// @throws the error, with the joints that may be its cause
-[[noreturn]] void explain(const SimulationError& error, const Model& model) {
+[[noreturn]] void explain(const SimulationError& error, const Model& model, const RigidPath& path) {
   constexpr double largest = 3e-2;
   std::string text = error.what();
+  if (path.end == RigidPath::End::bends) text += ". Look at this first: " + bending_text(model);
   for (const Misalignment& found : find_misalignments(model, model.mechanism.guess, largest)) {
     text += ". Look at this first: " + found.text();
   }
@@ -274,7 +275,7 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
   } catch (const UnstableEquilibrium&) {
     throw;
   } catch (const SimulationError& error) {
-    explain(error, analysis->model);
+    explain(error, analysis->model, analysis->rigid_path);
   }
   analysis->breaks = instants_at(time_breaks(problem.scene, options), analysis->trajectory.time);
   analysis->histories = recorder.take(analysis->trajectory.steps() + 1);

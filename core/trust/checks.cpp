@@ -42,10 +42,10 @@ std::vector<Finding> check_before(const ProblemFile& problem) {
 
 namespace {
 
-/// What changes faster than the steps can follow.
-std::vector<Finding> check_all_too_fast(const TrustedRun& run) {
-  std::vector<Finding> findings = check_fast_laws(run);
-  if (findings.empty()) findings = check_fast_turning(run);
+/// What changes faster than the steps can follow, beside loads and drives that do.
+std::vector<Finding> check_fast_motion(const TrustedRun& run, bool has_fast_laws) {
+  std::vector<Finding> findings;
+  if (!has_fast_laws) findings = check_fast_turning(run);
   for (const auto find :
        {check_laws_over_coordinates, check_jerks_at_corners, check_unresolved_transients}) {
     const std::vector<Finding> more = find(run);
@@ -183,8 +183,11 @@ Trust judge_run(const TrustedRun& run) {
     }
   };
   for (const auto& [cause, find] : judges) add(cause, find(run));
-  const std::vector<Finding> too_fast = check_all_too_fast(run);
-  add(Cause::not_converged, too_fast);
+  std::vector<Finding> too_fast = check_fast_laws(run);
+  add(Cause::mobility, too_fast);  // the motion is not the one that the file describes
+  const std::vector<Finding> fast_motion = check_fast_motion(run, !too_fast.empty());
+  add(Cause::not_converged, fast_motion);
+  too_fast.insert(too_fast.end(), fast_motion.begin(), fast_motion.end());
   const std::optional<CompleteRun> complete = simulate_completely(run);
   if (complete) add(Cause::left_out, check_neglected_effects(run, *complete));
   add(Cause::unstable, check_buckling(run, complete));

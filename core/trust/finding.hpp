@@ -10,8 +10,8 @@ namespace pleuel {
 /// What is behind a finding. What is wrong in one class makes numbers wrong that those after it look at.
 enum class Cause {
   unit,           ///< a number that lacks its unit, or has another one than meant
+  mobility,       ///< what moves, and from where, is not what is meant, or not what the steps see
   limit,          ///< a limit that is far from what is reached
-  mobility,       ///< what moves, and from where, is not what is meant
   not_modelled,   ///< the motion leaves what the equations are for
   unstable,       ///< what moves so would buckle or flutter
   not_converged,  ///< steps or elements are too large

@@ -14,6 +14,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/find_named.hpp"
 #include "core/frame/body_frame.hpp"
+#include "core/mobility/lock.hpp"
 #include "core/model/drive_rows.hpp"
 #include "core/model/scene_geometry.hpp"
 #include "core/response/monitors.hpp"
@@ -230,18 +231,6 @@ std::vector<Finding> check_joint_turns(const TrustedRun& run) {
   return findings;
 }
 
-namespace {
-
-std::string names_of_drives(const Model& model) {
-  std::vector<std::string> names;
-  for (const JointModel& joint : model.joints) {
-    if (joint.drive_row >= 0) names.push_back(fmt::format("\"{}\"", joint.name));
-  }
-  return fmt::format("{}", fmt::join(names, ", "));
-}
-
-}  // namespace
-
 std::string blocked_drives_text(const Model& model, const State& state) {
   const std::vector<int> drives = drive_rows(model);
   const int blocked = blocked_drives(model.mechanism, state, drives);
@@ -266,11 +255,7 @@ std::vector<Finding> check_blocked_drives(const TrustedRun& run) {
   const std::string text = blocked_drives_text(run.analysis.model, start);
   if (!text.empty()) return {{text}};
   if (run.analysis.rigid_path.end != RigidPath::End::bends) return {};
-  return {
-      {fmt::format("rigid bodies cannot follow the drive of {} from the start: what moves does "
-                   "so only because bodies bend. If that is not meant, look at the axes of the "
-                   "joints",
-                   names_of_drives(run.analysis.model))}};
+  return {{bending_text(run.analysis.model)}};
 }
 
 std::vector<Finding> check_rest(const TrustedRun& run) {

@@ -30,6 +30,9 @@ constexpr double largest_body = 10.0;    // radius of gyration, of the mechanism
 constexpr double least_density = 10.0, most_density = 25e3;  // [kg/m³]
 constexpr double least_young = 1e6,
                  most_young = 1e18;  // [Pa]; stiff beyond reason may be meant as rigid
+// What is denser than ceramics is stiffer than plastics (Ashby, Materials Selection in Mechanical
+// Design, 2011, ch. 3).
+constexpr double dense = 5000.0, least_young_of_dense = 1e9;  // [kg/m³], [Pa]
 // Faster than spindles turn, with rims faster than trains.
 constexpr double most_turn = 1000.0, most_rim_speed = 50.0;  // [rad/s], [m/s]
 constexpr double least_gravity = 0.5, most_gravity = 250.0;  // [m/s²]
@@ -252,6 +255,9 @@ class Proportions {
     }
     if (young < least_young || young > most_young) {
       add(fmt::format("{}/young is {:.4g} Pa, which no solid has (steel: 2.1e11)", at, young));
+    } else if (density > dense && young < least_young_of_dense) {
+      add(fmt::format("{}/young is {:.4g} Pa, which no solid of {:.4g} kg/m³ has (steel: 2.1e11)",
+                      at, young, density));
     }
   }
 

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -82,7 +83,13 @@ TEST(ErrorBars, AreHonestOnShippedProblems) {
   expect_honesty(values);
 }
 
-constexpr int first_seed = 0, end_seed = 110, least_scenes = 100;
+constexpr int seeds = 110, least_scenes = 100;
+
+/// HONESTY_SEED, or 0: any other one has other mechanisms.
+int first_seed() {
+  const char* given = std::getenv("HONESTY_SEED");
+  return given == nullptr ? 0 : std::atoi(given);
+}
 
 std::vector<JudgedValue> judged_random_scene(unsigned seed) {
   const SimulatedScene scene = simulated_scene(seed);
@@ -94,9 +101,8 @@ std::vector<JudgedValue> judged_random_scene(unsigned seed) {
 }
 
 TEST(ErrorBars, AreHonestOnRandomScenes) {
-  const std::vector<JudgedValue> values = judge_all(end_seed - first_seed, [](int i) {
-    return judged_random_scene(static_cast<unsigned>(first_seed + i));
-  });
+  const std::vector<JudgedValue> values = judge_all(
+      seeds, [](int i) { return judged_random_scene(static_cast<unsigned>(first_seed() + i)); });
   std::size_t scenes = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     scenes += i == 0 || values[i].scene != values[i - 1].scene ? 1 : 0;
