@@ -24,14 +24,14 @@ const Makers& own_makers() {
 }
 
 /// Those of programs that call the library.
-struct Added {
+struct CallersBackends {
   std::mutex mutex;
   Makers makers;
 };
 
 /// Never destroyed: threads of the caller may outlive what the program ends with.
-Added& added() {
-  static Added& one = *new Added;
+CallersBackends& callers_backends() {
+  static CallersBackends& one = *new CallersBackends;
   return one;
 }
 
@@ -41,8 +41,8 @@ auto with_name(const std::string& name) {
 
 Makers all_makers() {
   Makers all = own_makers();
-  const std::lock_guard lock(added().mutex);
-  all.insert(all.end(), added().makers.begin(), added().makers.end());
+  const std::lock_guard lock(callers_backends().mutex);
+  all.insert(all.end(), callers_backends().makers.begin(), callers_backends().makers.end());
   return all;
 }
 
@@ -70,14 +70,14 @@ std::vector<std::string> optimizer_names() {
 
 void add_optimizer(const std::string& name, OptimizerMaker make) {
   check_name(name);
-  const std::lock_guard lock(added().mutex);
-  std::erase_if(added().makers, with_name(name));
-  added().makers.emplace_back(name, std::move(make));
+  const std::lock_guard lock(callers_backends().mutex);
+  std::erase_if(callers_backends().makers, with_name(name));
+  callers_backends().makers.emplace_back(name, std::move(make));
 }
 
 void remove_optimizer(const std::string& name) {
-  const std::lock_guard lock(added().mutex);
-  if (std::erase_if(added().makers, with_name(name)) == 0) {
+  const std::lock_guard lock(callers_backends().mutex);
+  if (std::erase_if(callers_backends().makers, with_name(name)) == 0) {
     throw InputError(fmt::format("no backend \"{}\" was added", excerpt(name, 60)));
   }
 }

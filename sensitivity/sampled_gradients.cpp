@@ -59,7 +59,7 @@ std::vector<Part> parts_of(const Analysis& analysis, const SampledValue& value,
 }
 
 /// A sample of a value at a step that is known.
-struct Use {
+struct WeightedSample {
   Eigen::Index value;
   Signal* signal;
   int channel;
@@ -80,10 +80,10 @@ class SampledGradients {
   Gradients direct() {
     if (uses_.empty() || gradients_.cols() == 0) return gradients_;
     const int last_step = uses_.rbegin()->first;
-    const auto is_any = [](const Use&) { return true; };
+    const auto is_any = [](const WeightedSample&) { return true; };
     differentiate_until(last_step, mechanism_, analysis_.trajectory,
                         [&](int step, const State& state, const StateSensitivity& s) {
-                          for_each_use(step, state, is_any, [&](const Use& use) {
+                          for_each_use(step, state, is_any, [&](const WeightedSample& use) {
                             gradients_.row(use.value) +=
                                 part_.q.transpose() * s.q + part_.v.transpose() * s.v +
                                 part_.a.transpose() * s.a + part_.lambda.transpose() * s.lambda +
@@ -121,8 +121,8 @@ class SampledGradients {
     Eigen::Index active = 0;
     const auto set = [&](int step, const State& state, StateAdjoint& adjoint) {
       for_each_use(
-          step, state, [&](const Use& use) { return column[use.value] >= 0; },
-          [&](const Use& use) {
+          step, state, [&](const WeightedSample& use) { return column[use.value] >= 0; },
+          [&](const WeightedSample& use) {
             const Eigen::Index j = column[use.value];
             active = std::max(active, j + 1);
             adjoint.q.col(j) += part_.q;
@@ -176,7 +176,7 @@ class SampledGradients {
   void for_each_use(int step, const State& state, const Wanted& is_wanted, const Visit& visit) {
     const auto found = uses_.find(step);
     if (found == uses_.end()) return;
-    for (const Use& use : found->second) {
+    for (const WeightedSample& use : found->second) {
       if (!is_wanted(use)) continue;
       part_.set_zero();
       use.signal->add_gradient(state, use.channel, use.weight, part_);
@@ -189,7 +189,7 @@ class SampledGradients {
   std::vector<Eigen::Index> latest_first() const {
     std::vector<Eigen::Index> order;
     for (auto step = uses_.rbegin(); step != uses_.rend(); ++step) {
-      for (const Use& use : step->second) {
+      for (const WeightedSample& use : step->second) {
         if (std::find(order.begin(), order.end(), use.value) == order.end()) {
           order.push_back(use.value);
         }
@@ -201,8 +201,8 @@ class SampledGradients {
   Analysis& analysis_;
   Mechanism& mechanism_;
   Gradients gradients_;
-  std::map<int, std::vector<Use>> uses_;  ///< by step
-  SignalGradient part_;                   ///< scratch
+  std::map<int, std::vector<WeightedSample>> uses_;  ///< by step
+  SignalGradient part_;                              ///< scratch
   /// Of the state about which the mechanism vibrates, where frequencies are asked for.
   std::optional<StateSensitivity> about_sensitivity_;
 };

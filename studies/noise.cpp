@@ -20,14 +20,14 @@ constexpr int line_points = 8;
 constexpr double spacings[] = {1e-11, 1e-6, 1e-4};
 
 /// σ_k and whether Δᵏf changes its sign.
-struct Level {
+struct DifferenceLevel {
   double deviation = 0.0;
   bool changes_sign = false;
 };
 
 /// Levels k = 1, 2, … with at least three differences each.
-std::vector<Level> difference_table(Eigen::VectorXd differences) {
-  std::vector<Level> levels;
+std::vector<DifferenceLevel> difference_table(Eigen::VectorXd differences) {
+  std::vector<DifferenceLevel> levels;
   double gamma = 1.0;  // (k!)²/(2k)!
   for (int k = 1; differences.size() > 3; ++k) {
     const Eigen::Index rest = differences.size() - 1;
@@ -85,14 +85,14 @@ Eigen::MatrixXd values_of_tolerances(const ProblemFile& problem, const Eigen::Ve
 }  // namespace
 
 double noise_of(const Eigen::VectorXd& values) {
-  const std::vector<Level> levels = difference_table(values);
+  const std::vector<DifferenceLevel> levels = difference_table(values);
   for (std::size_t k = 0; k + 2 < levels.size(); ++k) {
     const auto [least, most] =
         std::minmax({levels[k].deviation, levels[k + 1].deviation, levels[k + 2].deviation});
     if (levels[k].changes_sign && most <= 4.0 * least) return levels[k].deviation;
   }
   double smallest = std::numeric_limits<double>::infinity();
-  for (const Level& level : levels) smallest = std::min(smallest, level.deviation);
+  for (const DifferenceLevel& level : levels) smallest = std::min(smallest, level.deviation);
   return smallest;
 }
 

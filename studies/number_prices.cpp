@@ -28,9 +28,9 @@ constexpr double least_change = 1e-10;
 constexpr double at_limit = 1e-6;
 
 /// How an optimum answers a small change of its rows.
-class Answering {
+class OptimumResponse {
  public:
-  explicit Answering(const RowPrices& prices) : prices_(prices) {}
+  explicit OptimumResponse(const RowPrices& prices) : prices_(prices) {}
 
   /// The first limit beyond those that decide now which a change of the rows makes a design break
   /// that answers it; empty if there is none.
@@ -120,7 +120,7 @@ class Pricing {
     const bool is_noise = std::abs(sum) <= round_off * terms ||
                           std::abs(change) <= least_change * std::abs(evaluation_.objective);
     price.per_unit = is_noise ? 0.0 : sum;
-    price.next_limit = Answering(optimum_).next_limit(
+    price.next_limit = OptimumResponse(optimum_).next_limit(
         0.01 * price.value * evaluation_.constraint_jacobian.col(variable));
   }
 

@@ -49,10 +49,10 @@ std::string place_text(double x, double y, double z) {
   return fmt::format("{:.12g} {:.12g} {:.12g}", rounded(x), rounded(y), rounded(z));
 }
 
-/// Points by the text of their coordinates; one with a coordinate that is not fixed has none.
-class Points {
+/// PointCoordinates by the text of their coordinates; one with a coordinate that is not fixed has none.
+class PointCoordinates {
  public:
-  explicit Points(const std::vector<SceneNumber>& numbers) {
+  explicit PointCoordinates(const std::vector<SceneNumber>& numbers) {
     for (const SceneNumber& number : numbers) {
       const auto component = component_of(number);
       if (!component) continue;
@@ -79,7 +79,7 @@ bool leaves_plane(const Component& component, const std::optional<MotionPlane>& 
 /// @param taken  places of points that variables move: what is there cannot be moved by itself
 Groups grouped(const std::vector<SceneNumber>& numbers, const std::optional<MotionPlane>& plane,
                const std::set<std::string>& taken) {
-  const Points points(numbers);
+  const PointCoordinates points(numbers);
   Groups groups;
   std::map<std::string, std::size_t> group_of_place;
   for (const SceneNumber& number : numbers) {

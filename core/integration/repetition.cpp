@@ -19,10 +19,10 @@ constexpr double golden_share = 0.381966;
 constexpr int most_samples = 500, most_samples_of_derivatives = 16;
 
 /// Forces and constraints of a term at a state.
-struct Share {
+struct TermSize {
   double forces = 0.0, constraints = 0.0;
 
-  void include(const Share& other) {
+  void include(const TermSize& other) {
     forces = std::max(forces, other.forces);
     constraints = std::max(constraints, other.constraints);
   }
@@ -38,7 +38,7 @@ class RepetitionCheck {
     const auto columns = compared == Compared::residual
                              ? std::size_t{1}
                              : static_cast<std::size_t>(system_.variables());
-    changes_.assign(system_.terms().size(), std::vector<Share>(columns));
+    changes_.assign(system_.terms().size(), std::vector<TermSize>(columns));
     largest_ = changes_;
   }
 
@@ -81,7 +81,7 @@ class RepetitionCheck {
   }
 
  private:
-  bool repeats(const Share& change, const Share& largest) const {
+  bool repeats(const TermSize& change, const TermSize& largest) const {
     const double constraints = compared_ == Compared::residual ? 1.0 : largest.constraints;
     return change.forces <= small_deviation * largest.forces &&
            change.constraints <= small_deviation * constraints;
@@ -97,7 +97,7 @@ class RepetitionCheck {
     term.add_residual(state, ConstraintLevel::position, residual);
     return residual;
   }
-  Share size_of(const Eigen::VectorXd& residual) const {
+  TermSize size_of(const Eigen::VectorXd& residual) const {
     const auto largest = [](const auto& part) {
       return part.size() > 0 ? part.template lpNorm<Eigen::Infinity>() : 0.0;
     };
@@ -108,7 +108,7 @@ class RepetitionCheck {
   System& system_;
   double period_;
   Compared compared_;
-  std::vector<std::vector<Share>> changes_, largest_;  ///< by term and column
+  std::vector<std::vector<TermSize>> changes_, largest_;  ///< by term and column
 };
 
 /// Between the instants of a period, as laws may jump at them, and at no simple share of it, where

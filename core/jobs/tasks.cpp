@@ -25,9 +25,9 @@ constexpr double patience = 0.2;      ///< [s] after which a request to stop is 
 constexpr double time_to_end = 10.0;  ///< [s] for workers that are asked to
 
 /// Where tasks can be carried out.
-class Places {
+class TaskPlaces {
  public:
-  Places(Tasks& tasks, const TaskOptions& options)
+  TaskPlaces(Tasks& tasks, const TaskOptions& options)
       : here_(tasks, std::max(1, options.jobs)), work_(tasks.packed_work()), all_{&here_} {
     if (work_.kind.empty() || options.ranks == nullptr) return;
     for (RankPlace& rank : *options.ranks) {
@@ -311,7 +311,7 @@ class TaskRun {
 
   Tasks& tasks_;
   const TaskOptions& options_;
-  Places places_;
+  TaskPlaces places_;
   std::vector<State> states_;
   std::vector<Running> running_;
   std::size_t delivered_ = 0;  ///< so many tasks have ended for those who listen

@@ -27,7 +27,7 @@ constexpr double stalled_step = 1e-6;
 constexpr double held_place = 1e3;
 
 /// What the file gives: a row each, and the displacements and rates along them.
-struct Given {
+struct GivenDeflections {
   MatrixXd rows;      ///< S, places × elastic coordinates
   MatrixXd measures;  ///< d, ḋ: places × 2
 };
@@ -113,7 +113,7 @@ class InitialShape {
     const MatrixXd of_forces = elastic_.design_derivatives(context_.variables());
     std::vector<MatrixXd> result;
     for (const int variable : variables) {
-      const Given change = given_change(variable);
+      const GivenDeflections change = given_change(variable);
       MatrixXd both(model_.elastic_size(), 2);
       both.col(0) = tangent_
                         ->solve(change.rows.transpose() * shape_.pulls - of_forces.col(variable),
@@ -142,13 +142,13 @@ class InitialShape {
     return wide;
   }
 
-  Given none() const {
+  GivenDeflections none() const {
     const Eigen::Index count = places_.size();
     return {MatrixXd::Zero(count, model_.elastic_size()), MatrixXd::Zero(count, 2)};
   }
 
-  Given given() const {
-    Given result = none();
+  GivenDeflections given() const {
+    GivenDeflections result = none();
     for (std::size_t i = 0; i < places_.size(); ++i) {
       const InitialDeflection& one = body_.initial_deflections[i];
       const Eigen::Index row = i;
@@ -161,8 +161,8 @@ class InitialShape {
     return result;
   }
 
-  Given given_change(int variable) const {
-    Given result = none();
+  GivenDeflections given_change(int variable) const {
+    GivenDeflections result = none();
     const Design<Dual> seeded = context_.seeded(variable);
     for (std::size_t i = 0; i < places_.size(); ++i) {
       const InitialDeflection& one = body_.initial_deflections[i];
@@ -242,7 +242,7 @@ class InitialShape {
   const BodyModel& model_;
   ElasticForces elastic_;
   std::vector<Attachment> places_;
-  Given given_;
+  GivenDeflections given_;
   std::optional<HeldShape> linear_, tangent_;
   HeldShape::Solution shape_, rate_;
 };

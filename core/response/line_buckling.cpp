@@ -73,9 +73,9 @@ class LineForces final : public Stations {
 };
 
 /// A line between two places of a body.
-class Line {
+class CompressedLine {
  public:
-  Line(const BodyModel& body, const std::array<std::string, 2>& chord) : body_(body) {
+  CompressedLine(const BodyModel& body, const std::array<std::string, 2>& chord) : body_(body) {
     const std::vector<std::string>& names = body.places.names;
     for (std::size_t i = 0; i < 2; ++i) {
       ends_[i] = std::find(names.begin(), names.end(), chord[i]) - names.begin();
@@ -155,7 +155,7 @@ std::unique_ptr<Signal> make_line_compression_signal(const BodyModel& body,
 EulerLoad pinned_line_load(const BodyModel& body, const std::array<std::string, 2>& chord,
                            int variables) {
   constexpr double coincidence = 1e-6;
-  const Line line(body, chord);
+  const CompressedLine line(body, chord);
   if (!line.is_stiffened()) {
     throw InputError(
         fmt::format("the block \"stiffening\" of \"{}\" is not that of the line from \"{}\" to "

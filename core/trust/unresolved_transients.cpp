@@ -32,15 +32,15 @@ constexpr double fast_angle = 2.0;
 constexpr int steps_behind_a_jump = 3;
 /// Steps a period that see a peak; and, where there is no room for more, that see most of it.
 constexpr double good_steps = 20.0, fair_steps = 12.0;
-/// A swing is followed for so many of its longest periods, with so many samples of its shortest.
+/// A transient is followed for so many of its longest periods, with so many samples of its shortest.
 constexpr double followed_periods = 1.5, samples_of_period = 12.0;
 constexpr int most_samples = 80;
-/// The swings are simulated with so many more steps at most, or as many as the run has: fewer of
+/// The transients are simulated with so many more steps at most, or as many as the run has: fewer of
 /// large mechanisms, by their coordinates.
 constexpr int coordinates_in_steps = 60000, least_more_steps = 200, enough_more_steps = 2000;
 
-/// A jump whose swing may be unseen, as it would be without damping.
-struct Suspect {
+/// A jump whose transient may be unseen, as it would be without damping.
+struct JumpTransient {
   int step;                           ///< where
   double share = 0.0;                 ///< what is missing, of the largest of all
   double until = 0.0;                 ///< as long as it matters behind the jump [s]
@@ -53,11 +53,11 @@ struct Suspect {
 };
 
 /// What the steps leave unseen of a response.
-struct Unseen {
+struct MissedPeak {
   std::size_t response;
   double factor;  ///< by which its number would be larger
   double share;   ///< what is missing, of the largest of all
-  Suspect suspect;
+  JumpTransient suspect;
   bool is_predicted;  ///< as if nothing damped it; else of a run with short steps there
 };
 
@@ -71,7 +71,7 @@ class UnresolvedTransients {
   }
 
   /// The worst first.
-  std::vector<Unseen> find() {
+  std::vector<MissedPeak> find() {
     if (judged_.empty() || (mechanism_.elastic.empty() && mechanism_.springs.empty())) return {};
     std::vector<StepRange> windows;
     for (const std::size_t i : judged_) windows.push_back(window(i));
@@ -79,18 +79,19 @@ class UnresolvedTransients {
       look_at(jump);
     }
     if (suspects_.empty()) return {};
-    std::stable_sort(suspects_.begin(), suspects_.end(),
-                     [](const Suspect& a, const Suspect& b) { return a.share > b.share; });
-    const std::optional<RefinedRun> fine = simulate_swings();
+    std::stable_sort(
+        suspects_.begin(), suspects_.end(),
+        [](const JumpTransient& a, const JumpTransient& b) { return a.share > b.share; });
+    const std::optional<RefinedRun> fine = simulate_transients();
     if (fine) run_.shared->with_short_steps = fine->values;
     const std::vector<bool> is_round_off = find_round_off(run_);
-    std::vector<Unseen> found;
+    std::vector<MissedPeak> found;
     for (const std::size_t i : judged_) {
       if (is_round_off[i]) continue;
       if (const auto unseen = unseen_of(i, fine)) found.push_back(*unseen);
     }
     std::stable_sort(found.begin(), found.end(),
-                     [](const Unseen& a, const Unseen& b) { return a.share > b.share; });
+                     [](const MissedPeak& a, const MissedPeak& b) { return a.share > b.share; });
     return found;
   }
 
@@ -116,7 +117,7 @@ class UnresolvedTransients {
     const FastVibration fast(mechanism_, jump.behind, jump.change,
                              fast_angle / longest_step_behind(jump.step));
     if (fast.is_empty()) return;
-    Suspect suspect{jump.step, 0.0, 0.0, fast.main_period(), fast.shortest_period()};
+    JumpTransient suspect{jump.step, 0.0, 0.0, fast.main_period(), fast.shortest_period()};
     for (const std::size_t i : judged_) look_at(jump, fast, i, suspect);
     if (suspect.share > 0.0) suspects_.push_back(suspect);
   }
@@ -129,8 +130,8 @@ class UnresolvedTransients {
     return values;
   }
 
-  /// A swing as it goes on within the window of a response.
-  struct Swing {
+  /// A transient as it goes on within the window of a response.
+  struct Transient {
     Eigen::VectorXd time;    ///< behind the jump [s]
     Eigen::MatrixXd values;  ///< channels × samples
   };
@@ -142,8 +143,8 @@ class UnresolvedTransients {
     return std::max(0.0, range.last <= jump.step ? from + end() : from);
   }
 
-  Swing swing_of(const SuddenJump& jump, const FastVibration& fast, std::size_t response,
-                 const StepRange& range) const {
+  Transient transient_of(const SuddenJump& jump, const FastVibration& fast, std::size_t response,
+                         const StepRange& range) const {
     const double from = way_to(range, jump);
     const bool is_later = from > 0.0;
     const double window =
@@ -154,21 +155,21 @@ class UnresolvedTransients {
                    3, most_samples);
     State base = jump.before;
     if (is_later) trajectory_.states->load(range.first, base);
-    Swing swing;
-    swing.time = Eigen::VectorXd::LinSpaced(samples, from, from + length);
+    Transient transient;
+    transient.time = Eigen::VectorXd::LinSpaced(samples, from, from + length);
     const Eigen::VectorXd offset = offset_of(response, is_later ? range.first : before(jump), base);
     for (int k = 0; k < samples; ++k) {
       State state = base;
       if (is_later) {
-        fast.add_swing(swing.time(k), state);
+        fast.add_swing(transient.time(k), state);
       } else {
-        fast.add(swing.time(k), state);
+        fast.add(transient.time(k), state);
       }
       const Eigen::VectorXd values = observed(response, state) + offset;
-      if (k == 0) swing.values.resize(values.size(), samples);
-      swing.values.col(k) = values;
+      if (k == 0) transient.values.resize(values.size(), samples);
+      transient.values.col(k) = values;
     }
-    return swing;
+    return transient;
   }
 
   static int before(const SuddenJump& jump) { return std::max(0, jump.step - 1); }
@@ -195,42 +196,42 @@ class UnresolvedTransients {
   }
 
   void look_at(const SuddenJump& jump, const FastVibration& fast, std::size_t response,
-               Suspect& suspect) const {
+               JumpTransient& suspect) const {
     const StepRange range = window(response);
     if (range.last <= jump.step && !trajectory_.periodic) return;
     // So far behind it that the run has no room for the way there.
     if (way_to(range, jump) * fair_steps > more_steps() * fast.main_period()) return;
-    const Swing swing = swing_of(jump, fast, response, range);
+    const Transient transient = transient_of(jump, fast, response, range);
     const double value = run_.analysis.responses[response].is_fatigue()
                              ? number_of(response, range, {}, {})
                              : run_.analysis.reductions[response].value;
-    const double swung = number_of(response, range, swing.time, swing.values);
-    const double share = missing_share(response, value, swung);
+    const double vibrating = number_of(response, range, transient.time, transient.values);
+    const double share = missing_share(response, value, vibrating);
     if (!(share > small_missing_share)) return;
     suspect.share = std::max(suspect.share, share);
-    suspect.predicted[response] = {share, swung / value};
+    suspect.predicted[response] = {share, vibrating / value};
     suspect.until =
         std::max(suspect.until, way_to(range, jump) + followed_periods * fast.longest_period());
   }
 
   /// What a peak is short of another one, of the largest within the window.
-  double missing_share(std::size_t response, double value, double swung) const {
+  double missing_share(std::size_t response, double value, double vibrating) const {
     const StepRange range = window(response);
     const double sign = run_.analysis.responses[response].is_reduced_by(OverTime::min) ? -1.0 : 1.0;
-    double size = std::max(std::abs(value), std::abs(swung));
+    double size = std::max(std::abs(value), std::abs(vibrating));
     if (!run_.analysis.responses[response].is_fatigue()) {
       size = std::max(size, run_.analysis.histories[response]
                                 .middleCols(range.first, range.steps())
                                 .lpNorm<Eigen::Infinity>());
     }
-    return sign * (swung - value) / size;
+    return sign * (vibrating - value) / size;
   }
 
-  /// A swing goes on into the next jump if that is close: how both add up depends on every period.
-  double end_of(const Suspect& suspect) const {
+  /// A transient goes on into the next jump if that is close: how both add up depends on every period.
+  double end_of(const JumpTransient& suspect) const {
     const double begin = trajectory_.time(suspect.step), end = begin + suspect.until;
     double last = end;
-    for (const Suspect& other : suspects_) {
+    for (const JumpTransient& other : suspects_) {
       const double next = trajectory_.time(other.step);
       if (next > begin && next - end < suspect.until) last = std::max(last, next);
     }
@@ -243,7 +244,7 @@ class UnresolvedTransients {
   }
 
   /// Short steps behind a jump, and where a motion that repeats itself goes on at its beginning.
-  std::vector<ShorterSteps> stretches_of(const Suspect& suspect, double step) const {
+  std::vector<ShorterSteps> stretches_of(const JumpTransient& suspect, double step) const {
     const double begin = trajectory_.time(suspect.step), last = end_of(suspect);
     std::vector<ShorterSteps> stretches = {{begin, last, step}};
     if (trajectory_.periodic && last > end()) stretches.push_back({0.0, last - end(), step});
@@ -255,7 +256,7 @@ class UnresolvedTransients {
     const double room = trajectory_.steps() + std::max(more_steps(), trajectory_.steps());
     std::vector<ShorterSteps> stretches;
     std::vector<double> instants;
-    for (Suspect& suspect : suspects_) {
+    for (JumpTransient& suspect : suspects_) {
       const double step =
           std::max(suspect.shortest / good_steps, 1.5 * suspect.until / more_steps());
       if (step > suspect.main / fair_steps) continue;
@@ -272,7 +273,7 @@ class UnresolvedTransients {
 
   /// What the run would have seen with short steps there; nothing if there is no room for them, or
   /// no step converges.
-  std::optional<RefinedRun> simulate_swings() {
+  std::optional<RefinedRun> simulate_transients() {
     ProblemFile fine = run_.problem;
     fine.simulation.instants = refined_instants();
     if (fine.simulation.instants.empty()) return std::nullopt;
@@ -284,21 +285,21 @@ class UnresolvedTransients {
     return run;
   }
 
-  std::optional<Unseen> unseen_of(std::size_t response,
-                                  const std::optional<RefinedRun>& fine) const {
-    const Suspect& suspect = suspect_of(response, fine.has_value());
+  std::optional<MissedPeak> unseen_of(std::size_t response,
+                                      const std::optional<RefinedRun>& fine) const {
+    const JumpTransient& suspect = suspect_of(response, fine.has_value());
     const auto known = suspect.predicted.find(response);
     if (known == suspect.predicted.end()) return std::nullopt;
     const double exponent = damage_exponent(response);
     if (!fine || !suspect.is_simulated) {
       const auto& [share, factor] = known->second;
-      return Unseen{response, std::pow(factor, exponent), share, suspect, true};
+      return MissedPeak{response, std::pow(factor, exponent), share, suspect, true};
     }
     const double value = run_.analysis.reductions[response].value;
     const double peak = fine->values(static_cast<Eigen::Index>(response));
     const double share = 1.0 - std::pow(1.0 - missing_share(response, value, peak), 1.0 / exponent);
     if (!(share > small_missing_share)) return std::nullopt;
-    return Unseen{response, peak / value, share, suspect, false};
+    return MissedPeak{response, peak / value, share, suspect, false};
   }
 
   /// Of damage, which grows with it as a power of stress; else 1.
@@ -308,22 +309,23 @@ class UnresolvedTransients {
   }
 
   /// Where most of a response is missing: among those that were simulated, if any of them miss some.
-  const Suspect& suspect_of(std::size_t response, bool is_simulated) const {
-    const auto rank = [&](const Suspect& suspect) {
+  const JumpTransient& suspect_of(std::size_t response, bool is_simulated) const {
+    const auto rank = [&](const JumpTransient& suspect) {
       const auto found = suspect.predicted.find(response);
       const bool misses = found != suspect.predicted.end();
       return std::pair(misses && is_simulated && suspect.is_simulated,
                        misses ? found->second.share : 0.0);
     };
-    return *std::max_element(suspects_.begin(), suspects_.end(),
-                             [&](const Suspect& a, const Suspect& b) { return rank(a) < rank(b); });
+    return *std::max_element(
+        suspects_.begin(), suspects_.end(),
+        [&](const JumpTransient& a, const JumpTransient& b) { return rank(a) < rank(b); });
   }
 
   const TrustedRun& run_;
   const Mechanism& mechanism_;
   const Trajectory& trajectory_;
   std::vector<std::size_t> judged_;
-  std::vector<Suspect> suspects_;
+  std::vector<JumpTransient> suspects_;
 };
 
 /// What begins it.
@@ -348,14 +350,14 @@ std::string remedy_of(const TrustedRun& run, int step) {
 
 std::vector<Finding> check_unresolved_transients(const TrustedRun& run) {
   if (!run.problem.simulation.checks_resolution) return {};
-  const std::vector<Unseen> found = UnresolvedTransients(run).find();
+  const std::vector<MissedPeak> found = UnresolvedTransients(run).find();
   if (found.empty()) return {};
-  const Unseen& worst = found.front();
+  const MissedPeak& worst = found.front();
   const Trajectory& trajectory = run.analysis.trajectory;
   Finding finding;
   finding.is_serious = true;
   double period = worst.suspect.main;
-  for (const Unseen& one : found) {
+  for (const MissedPeak& one : found) {
     finding.responses.push_back(run.analysis.responses[one.response].name);
     period = std::min(period, one.suspect.main);
   }
