@@ -166,21 +166,17 @@ Answer find_answer(const ProblemInput& input, const Arguments& arguments, RunRec
   return answer;
 }
 
-/// Writes the diagrams that there are numbers for; their names, for people.
-std::string write_charts(const ProblemFile& problem, const Answer& answer, RunRecord& record) {
-  std::string names;
-  const auto write = [&](const char* name, const LogLogChart& chart) {
-    write_file(record.result(name), to_svg(chart));
-    names += fmt::format("{}, ", name);
-  };
-  write("accuracy.svg", value_chart(problem, answer.study));
+/// Writes the diagrams that there are numbers for.
+void write_charts(const ProblemFile& problem, const Answer& answer, RunRecord& record) {
+  write_file(record.result("accuracy.svg"), to_svg(value_chart(problem, answer.study)));
   if (!problem.variables.empty()) {
-    write("accuracy-gradients.svg", gradient_chart(problem, answer.study));
+    write_file(record.result("accuracy-gradients.svg"),
+               to_svg(gradient_chart(problem, answer.study)));
   }
   if (answer.optima && !answer.optima->reference.has_failed()) {
-    write("accuracy-optimum.svg", optimum_chart(problem, *answer.optima));
+    write_file(record.result("accuracy-optimum.svg"),
+               to_svg(optimum_chart(problem, *answer.optima)));
   }
-  return names;
 }
 
 }  // namespace
@@ -202,18 +198,9 @@ Outcome run_accuracy(const Arguments& arguments) {
   if (optima != nullptr) add_optima(input, *optima, outcome.document);
   if (answer.is_interrupted()) outcome.document["status"] = study_status(false);
   outcome.text += "\n";
-  if (answer.is_interrupted()) {
-    outcome.text += resume_text(arguments, record.folder(), Status::interrupted);
-  }
-  outcome.text +=
-      store.text() +
-      fmt::format("Written to {}: accuracy.csv, {}result.json, run_card.json, run.sqlite\n",
-                  record.folder().string(), write_charts(problem, answer, record));
+  write_charts(problem, answer, record);
   store.finish(outcome);
-  record.show_picture([&] {
-    return run_picture(input.problem, {{arguments.design ? "design" : "start", input.design}});
-  });
-  record.finish(outcome);
+  record.finish(outcome, [&] { return run_picture(problem, {{input.design_name, input.design}}); });
   return outcome;
 }
 

@@ -179,16 +179,13 @@ Outcome run_check(const Arguments& arguments) {
                   check_document(problem, findings),
                   make_text(problem, findings, arguments.wants_effects)};
   if (!record) return outcome;
-  record->show_picture([&] {
-    return run_picture(problem, {{arguments.design ? "design" : "start",
+  record->finish(outcome, [&] {
+    return run_picture(problem, {{input.design_name,
                                   input.design,
                                   findings.analysis.get(),
                                   {},
                                   findings.influence ? &*findings.influence : nullptr}});
   });
-  outcome.text +=
-      fmt::format("Written to {}: result.json, run_card.json\n", record->folder().string());
-  record->finish(outcome);
   return outcome;
 }
 

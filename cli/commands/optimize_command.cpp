@@ -102,17 +102,6 @@ Json setting_of(const Json& effective, const ProblemFile& solved) {
   return all;
 }
 
-std::string files_text(const RunRecord& record, const Optimum& optimum) {
-  return wrapped(
-      fmt::format("Written to {}: history.csv, result.json, run_card.json, run.sqlite{}\n",
-                  record.folder().string(),
-                  !optimum.has_design() ? ""
-                  : optimum.problem.has_cases()
-                      ? ", trajectory-start-*.csv, trajectory-optimum-*.csv"
-                      : ", trajectory-start.csv, trajectory-optimum.csv"),
-      "  ");
-}
-
 }  // namespace
 
 Outcome run_optimize(const Arguments& arguments) {
@@ -175,11 +164,8 @@ Outcome run_optimize(const Arguments& arguments) {
     }
   }
   const std::string cut = is_whole ? "" : wrapped(fmt::format("{}\n", cut_message));
-  Outcome outcome{
-      is_whole ? exit_code(optimum) : ExitCode::not_verified, result_document(),
-      failed_design_text(record, arguments, input.problem, result.history) + cut +
-          resume_text(arguments, record.folder(), is_whole ? result.status : Status::interrupted) +
-          store.text() + (is_whole ? files_text(record, optimum) : "")};
+  Outcome outcome{is_whole ? exit_code(optimum) : ExitCode::not_verified, result_document(),
+                  failed_design_text(record, arguments, input.problem, result.history) + cut};
   store.finish(outcome);
   record.finish(outcome);
   return outcome;

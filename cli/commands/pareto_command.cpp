@@ -224,11 +224,11 @@ std::string points_text(const ProblemFile& problem, const Json& points) {
 }
 
 /// A line on all choices of sizes, or on the gaps that were asked for.
-std::string spacing_text(const ProblemFile& problem, const ParetoFront& front) {
-  const std::string sizes = front.choices ? choices_message(front) : sizes_message(front);
-  const std::string gaps = gaps_message(problem, front, limited_name(problem));
-  if (sizes.empty() && gaps.empty()) return "";
-  return "\n" + wrapped((sizes.empty() ? "Gaps: " + gaps : "Sizes: " + sizes) + ".", "  ") + "\n";
+std::string spacing_text(const Json& front) {
+  const std::string message = text_at(front, "/message");
+  if (message.empty()) return "";
+  return "\n" + wrapped((front.contains("gaps") ? "Gaps: " : "Sizes: ") + message + ".", "  ") +
+         "\n";
 }
 
 /// With a gap, or of all choices of sizes, nobody knows how many points there would have been.
@@ -242,9 +242,8 @@ std::string interruption_text(const ProblemFile& problem, const ParetoFront& fro
 }
 
 std::size_t verified_points(const std::vector<ParetoPoint>& points) {
-  return static_cast<std::size_t>(std::count_if(
-      points.begin(), points.end(),
-      [](const ParetoPoint& point) { return point.result.status == Status::verified; }));
+  return static_cast<std::size_t>(std::ranges::count_if(
+      points, [](const ParetoPoint& point) { return point.result.status == Status::verified; }));
 }
 
 /// That there are, or would be as far as that is known.
@@ -255,37 +254,32 @@ std::size_t all_points(const ProblemFile& problem, const ParetoFront& front) {
 
 /// "7 of 7 points verified"
 std::string count_text(const ProblemFile& problem, const ParetoFront& front) {
-  const auto unproven = std::count_if(front.points.begin(), front.points.end(), is_not_proven_best);
+  const auto unproven = std::ranges::count_if(front.points, is_not_proven_best);
   return fmt::format("{} of {} points verified{}", verified_points(front.points),
                      all_points(problem, front),
                      unproven > 0 ? fmt::format(", at {} not all sizes tried", unproven) : "");
 }
 
 /// "limit 120 MPa"
-std::string limit_text(const ProblemFile& problem, const ParetoPoint& point) {
+std::string limit_text(const ProblemFile& problem, double limit) {
   const ShownUnit unit = unit_of(problem, varied_constraint(problem));
-  return fmt::format("limit {} {}", significant(unit.shown(point.limit)), unit.name);
+  return fmt::format("limit {} {}", significant(unit.shown(limit)), unit.name);
 }
 
-/// Why the others are not verified; one sentence each.
+/// Why points are not verified, a sentence each, and what speaks against their numbers.
 std::string findings_text(const ProblemFile& problem, const std::vector<ParetoPoint>& points) {
   std::string text;
-  for (const ParetoPoint& point : points) {
-    if (point.result.status == Status::verified) continue;
-    text += wrapped(fmt::format("  {}: {}: {}\n", limit_text(problem, point),
-                                to_string(point.result.status), point.result.message),
-                    "    ");
-  }
-  return text.empty() ? "" : "\nNOT VERIFIED:\n" + text;
-}
-
-std::string warnings_of_points(const ProblemFile& problem, const std::vector<ParetoPoint>& points) {
   SharedWarnings warnings;
   for (const ParetoPoint& point : points) {
-    warnings.add(point.result.warnings, limit_text(problem, point));
+    const Result& result = point.result;
+    const std::string limit = limit_text(problem, point.limit);
+    warnings.add(result.warnings, limit);
+    if (result.status == Status::verified) continue;
+    text += wrapped(fmt::format("  {}: {}: {}\n", limit, to_string(result.status), result.message),
+                    "    ");
   }
-  const std::string text = warnings_text(warnings.sentences());
-  return text.empty() ? "" : "\n" + text;
+  const std::string warned = warnings_text(warnings.sentences());
+  return (text.empty() ? "" : "\nNOT VERIFIED:\n" + text) + (warned.empty() ? "" : "\n" + warned);
 }
 
 /// The mechanisms of the front, by their numbers from 1.
@@ -308,9 +302,9 @@ class PointLines {
     const ParetoSettings& settings = *problem_.pareto;
     const int left = settings.gap > 0.0 ? 0 : settings.points - done_;
     const double seconds = left * stopwatch_.seconds() / done_;
-    progress_.print(fmt::format("  {}: {} after {} evaluations, {}{}", limit_text(problem_, point),
-                                to_string(point.result.status), point.result.evaluations,
-                                duration(point.result.seconds),
+    progress_.print(fmt::format("  {}: {} after {} evaluations, {}{}",
+                                limit_text(problem_, point.limit), to_string(point.result.status),
+                                point.result.evaluations, duration(point.result.seconds),
                                 left > 0 ? fmt::format("; about {} left", duration(seconds)) : ""));
     progress_.expect(fmt::format("{} points", done_), seconds);
   }
@@ -348,20 +342,13 @@ Outcome run_pareto(const Arguments& arguments) {
   for (const Json& point : document["points"]) in_order.add(point);
   const bool is_verified =
       front.is_whole && !points.empty() && verified_points(points) == points.size();
-  Outcome outcome{
-      is_verified ? ExitCode::done : ExitCode::not_verified, document,
-      fmt::format(
-          "{}{}: {}; {}\n\n{}{}{}{}\n"
-          "{}{}Written to {}: pareto.csv, result.json, run_card.json, run.sqlite\n",
-          interruption_text(problem, front), problem.name, front_text(problem),
-          count_text(problem, front), points_text(problem, document["points"]),
-          spacing_text(problem, front), single_point_text(problem, front),
-          findings_text(problem, points) + warnings_of_points(problem, points),
-          front.is_whole ? "" : resume_text(arguments, record.folder(), Status::interrupted),
-          store.text(), record.folder().string())};
+  Outcome outcome{is_verified ? ExitCode::done : ExitCode::not_verified, document,
+                  fmt::format("{}{}: {}; {}\n\n{}{}{}{}\n", interruption_text(problem, front),
+                              problem.name, front_text(problem), count_text(problem, front),
+                              points_text(problem, document["points"]), spacing_text(document),
+                              single_point_text(problem, front), findings_text(problem, points))};
   store.finish(outcome);
-  record.show_picture([&] { return front_picture(problem, points); });
-  record.finish(outcome);
+  record.finish(outcome, [&] { return front_picture(problem, points); });
   return outcome;
 }
 

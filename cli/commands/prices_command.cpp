@@ -108,9 +108,8 @@ Json make_document(const ProblemFile& problem, const AnalyzedDesign& design,
 void write_csv(const ResultFile& file, const PriceList& list) {
   CsvFile csv(file, {"name", "kind", "value", "unit", "per_unit", "per_percent", "next_limit"});
   for (const NumberPrice& price : list.prices) {
-    csv.add(price.name).add(std::string(kind_name(price.kind))).add(price.value);
-    csv.add(price.unit.si).add(price.per_unit).add(price.per_percent()).add(price.next_limit);
-    csv.end_row();
+    csv.add({price.name, kind_name(price.kind), price.value, price.unit.si, price.per_unit,
+             price.per_percent(), price.next_limit});
   }
 }
 
@@ -223,14 +222,10 @@ Outcome run_prices(const Arguments& arguments) {
   check_design(design, list);
   Outcome outcome{design.is_optimum ? ExitCode::done : ExitCode::not_verified,
                   make_document(input.problem, design, list), report(input.problem, design, list)};
-  outcome.text += fmt::format("Written to {}: prices.csv, result.json, run_card.json\n",
-                              record.folder().string());
-  record.write_result(outcome.document);
   write_csv(record.result("prices.csv"), list);
-  record.show_picture([&] {
-    return run_picture(input.problem, {{arguments.design ? "design" : "start", input.design}});
+  record.finish(outcome, [&] {
+    return run_picture(input.problem, {{input.design_name, input.design}});
   });
-  record.finish(outcome);
   return outcome;
 }
 

@@ -84,12 +84,7 @@ std::string result_text(const ReducedBody& body, const ReductionModel& model,
 
 Outcome run_reduce(const Arguments& arguments) {
   const fs::path path = *arguments.output;
-  if (fs::exists(fs::symlink_status(path)) && !arguments.overwrites) {
-    throw InputError(
-        fmt::format("-o {}: is there already; choose another name, or replace it with "
-                    "--overwrite",
-                    path.string()));
-  }
+  require_free(path, arguments);
   const ReductionModel model = read_reduction_model(arguments.file.string());
   const ReducedBody body = reduce(model);
   WriteFailures failures;

@@ -201,12 +201,8 @@ Outcome show_in_words(const Arguments& arguments, const ProblemInput& input) {
           shown.text + wrapped("No drawing: " + reason + "\n", "  ")};
 }
 
-}  // namespace
-
-namespace {
-
-Json picture_of(const Arguments& arguments, const ProblemInput& input, const Motion& motion) {
-  ShownDesign design{arguments.design ? "design" : "start", input.design};
+Json picture_of(const ProblemInput& input, const Motion& motion) {
+  ShownDesign design{input.design_name, input.design};
   if (motion.time.size() > 0) design.rigid = &motion;
   return run_picture(input.problem, {design});
 }
@@ -215,11 +211,9 @@ Json picture_of(const Arguments& arguments, const ProblemInput& input, const Mot
 Outcome show_in_folder(const Arguments& arguments, const ProblemInput& input) {
   RunRecord record(arguments, input, Json::object());
   record.begin_phase("show");
-  Shown shown = describe(input.problem, input.design);
-  record.write_result(shown.document);
-  record.show_picture([&] { return picture_of(arguments, input, shown.motion); });
+  const Shown shown = describe(input.problem, input.design);
   Outcome outcome{ExitCode::done, shown.document, shown.text};
-  record.finish(outcome);
+  record.finish(outcome, [&] { return picture_of(input, shown.motion); });
   return outcome;
 }
 
@@ -230,8 +224,7 @@ Outcome run_show(const Arguments& arguments) {
   if (arguments.output && arguments.output->extension() != ".html") {
     return show_in_folder(arguments, input);
   }
-  const auto page_template = find_report_template();
-  if (!page_template) return show_in_words(arguments, input);
+  if (!find_report_template()) return show_in_words(arguments, input);
   const fs::path page =
       arguments.output.value_or(free_page(arguments.file.stem().string() + "-show"));
   make_folder_of(page);
@@ -240,10 +233,9 @@ Outcome run_show(const Arguments& arguments) {
                      {"arguments", arguments.words},
                      {"input", {{"file", input.file.string()}, {"overrides", arguments.overrides}}},
                      {"problem", input.effective}};
-  const Json picture = picture_of(arguments, input, shown.motion);
   WriteFailures failures;
-  if (write_file({page, &failures},
-                 report_page(*page_template, report_data(card, shown.document, picture, "")))) {
+  if (write_page({page, &failures},
+                 report_data(card, shown.document, picture_of(input, shown.motion)))) {
     shown.document["page"] = page.string();
     shown.text += fmt::format("Drawn in {}\n", page.string());
   }

@@ -186,19 +186,16 @@ Outcome run_simulate(const Arguments& arguments) {
   Outcome outcome{run.is_checked && !is_refuted ? ExitCode::done : ExitCode::not_verified,
                   simulation_document(input.problem, run),
                   simulation_text(input.problem, design, limits, run)};
-  outcome.text += fmt::format("Written to {}: trajectory.csv, result.json, run_card.json\n",
-                              record.folder().string());
   mark_effects({input.problem, values_of(*analysis), run.influences}, outcome.document["effects"]);
   if (input.choice) outcome.document["setting"] = setting_document(input, *input.choice);
   outcome.document["variables"] = variables_document(input.problem, input.design);
   outcome.document["constraints"] = limits;
   record.write_result(outcome.document);
   write_trajectory(record.result("trajectory.csv"), *analysis, run.bands);
-  record.show_picture([&] {
-    const std::string name = arguments.design ? "design" : "start";
-    return run_picture(input.problem, {{name, input.design, analysis.get(), run.bands}});
+  record.finish(outcome, [&] {
+    return run_picture(input.problem,
+                       {{input.design_name, input.design, analysis.get(), run.bands}});
   });
-  record.finish(outcome);
   return outcome;
 }
 

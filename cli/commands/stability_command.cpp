@@ -150,9 +150,7 @@ Outcome run_stability(const Arguments& arguments) {
   Outcome outcome{is_whole ? ExitCode::done : ExitCode::not_verified, make_document(runs, is_whole),
                   is_whole ? "" : interrupted_text(runs.size(), all, "runs")};
   const Json& entries = outcome.document["runs"];
-  outcome.text += runs_text(entries) + failures_text(entries) + findings_text(entries);
-  outcome.text += fmt::format("\nWritten to {}: stability.csv, result.json, run_card.json\n",
-                              record.folder().string());
+  outcome.text += runs_text(entries) + failures_text(entries) + findings_text(entries) + "\n";
   record.finish(outcome);
   return outcome;
 }

@@ -22,16 +22,14 @@ namespace pleuel {
 /// apostrophe here.
 class CsvFile {
  public:
-  CsvFile(const ResultFile& file, const std::vector<std::string>& header);
+  using Row = std::vector<Json>;
+  CsvFile(const ResultFile& file, const Row& titles) : file_(file) { add(titles); }
 
   /// Numbers as the shortest text that reads back exactly; of null an empty cell.
-  CsvFile& add(const Json& value);
-  void end_row();
+  void add(const Row& cells);
 
  private:
   OutputFile file_;
-  std::string row_;
-  bool is_row_begun_ = false;
 };
 
 /// A column whose cells stand at this place in entries of a document.
@@ -43,7 +41,9 @@ struct CsvColumn {
 /// Lines that are entries of a document; what an entry does not have is an empty cell.
 class DocumentCsv {
  public:
-  DocumentCsv(const ResultFile& file, std::vector<CsvColumn> columns);
+  DocumentCsv(const ResultFile& file, std::vector<CsvColumn> columns)
+      : columns_(std::move(columns)),
+        csv_(file, list_of(columns_, &CsvColumn::title).get<CsvFile::Row>()) {}
   void add(const Json& entry);
 
  private:

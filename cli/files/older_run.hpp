@@ -27,6 +27,8 @@ struct OlderRun {
   std::string problem() const;
   /// "verified", "done" …: that of the result; or "running", "killed".
   std::string status() const;
+  /// The load case whose mechanism a page shows first; empty without cases.
+  std::string shown_case() const;
   /// Of the result, [SI]; none where it has no objective.
   std::optional<double> objective() const;
   /// "kg"; empty likewise.
@@ -46,15 +48,12 @@ OlderRun read_older_run(const std::filesystem::path& folder);
 
 // What an earlier run simulated, from its documents.
 
-/// The load case whose mechanism a page shows first; empty without cases.
-std::string shown_case(const Json& result);
-
 /// The problem as it ran: with the steps and elements that were chosen for an accuracy, and the
 /// effects that were built at the end.
-ProblemFile problem_of(const Json& card, const Json& result);
+ProblemFile problem_of(const OlderRun& run);
 
 /// The same of one of its load cases; of all if it is empty.
-ProblemFile problem_of(const Json& card, const Json& result, const std::string& load_case);
+ProblemFile problem_of(const OlderRun& run, const std::string& load_case);
 
 /// The values of a document's variables; nothing if it does not have all of them.
 /// @param key  of {NAME: {key: number}}; empty for {NAME: number}

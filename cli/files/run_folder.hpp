@@ -13,6 +13,9 @@ std::filesystem::path free_folder(const std::filesystem::path& folder);
 /// The first of runs/NAME.html, NAME-2.html … that is not there.
 std::filesystem::path free_page(const std::string& name);
 
+/// @throws InputError if there is a file already that shall not be overwritten, or something else
+void require_free(const std::filesystem::path& file, const Arguments& arguments);
+
 /// The folder of a run: made if need be, and locked against other runs of the program until it is
 /// destroyed or the program ends. A folder that was made and is still empty then goes again.
 class RunFolder {

@@ -98,7 +98,7 @@ Json slopes_document(const ProblemFile& problem, const ShownDesign& design,
     sizes.push_back(
         {history.gradients.col(j).lpNorm<Eigen::Infinity>() * std::abs(design.x(j)), j});
   }
-  std::sort(sizes.begin(), sizes.end(), std::greater<>());
+  std::ranges::sort(sizes, std::greater<>());
   Json document = Json::object();
   for (std::size_t k = 0; k < std::min(most_slopes, sizes.size()); ++k) {
     const Eigen::Index j = sizes[k].second;

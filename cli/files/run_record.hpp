@@ -50,18 +50,20 @@ class RunRecord {
   /// report.
   void show_picture(const std::function<Json()>& make_picture);
 
-  /// Writes result.json, the last card and the report, and tells the outcome which files could not
-  /// be written.
-  void finish(Outcome& outcome);
+  /// Writes result.json, the last card and the report, with this picture if there is none yet, and
+  /// tells the outcome which files were written, and which could not be.
+  void finish(Outcome& outcome, const std::function<Json()>& make_picture = nullptr);
 
  private:
   RunRecord(const Arguments& arguments, Json options);
   void end_phase();
+  std::string files_text() const;
   void write_report(Outcome& outcome);
   void replace_older_run();
 
   RunFolder folder_;
   WriteFailures failures_;
+  std::vector<std::filesystem::path> results_;  ///< names, in the order in which they were begun
   Json card_;
   Json phases_ = Json::object();
   Json picture_;

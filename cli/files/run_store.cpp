@@ -49,7 +49,7 @@ std::string first_difference(const Json& there, const Json& here) {
 
 RunStore::RunStore(RunRecord& record, const Arguments& arguments, const ProblemInput& input,
                    Json options)
-    : record_(record) {
+    : record_(record), arguments_(arguments) {
   description_ = {{"command", arguments.command},
                   {"arguments", arguments.words},
                   {"problem", input.effective},
@@ -182,14 +182,22 @@ void RunStore::add(const EvaluationRecord& record) {
   });
 }
 
-void RunStore::finish(const Outcome& outcome) {
+void RunStore::finish(Outcome& outcome) {
   attempt([&](RunDatabase& database) {
     database.describe("result", outcome.document.dump());
     database.describe("ended", Json(utc_now()).dump());
   });
+  const bool is_interrupted = outcome.document.value("status", "") == "interrupted" ||
+                              outcome.document.contains("interrupted");
+  if (is_interrupted) {
+    outcome.text += "To go on from there: " + typed_command(arguments_);
+    if (!arguments_.output) outcome.text += " -o " + shell_word(record_.folder().string());
+    outcome.text += arguments_.resumes ? "\n" : " --resume\n";
+  }
+  outcome.text += known_text();
 }
 
-std::string RunStore::text() const {
+std::string RunStore::known_text() const {
   if (!goes_on_) return "";
   const std::string file = (record_.folder() / database_name).string();
   std::string text;
@@ -204,14 +212,6 @@ std::string RunStore::text() const {
                         known_parts_ + made_parts_, file);
   }
   return text;
-}
-
-std::string resume_text(const Arguments& arguments, const std::filesystem::path& folder,
-                        Status status) {
-  if (status != Status::interrupted) return "";
-  std::string text = "To go on from there: " + typed_command(arguments);
-  if (!arguments.output) text += " -o " + shell_word(folder.string());
-  return text + (arguments.resumes ? "\n" : " --resume\n");
 }
 
 }  // namespace pleuel

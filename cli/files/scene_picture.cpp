@@ -42,7 +42,7 @@ class SizeTexts : public Keys {
 
   void number(const Key& key, Number& size, const Measure&, std::string_view) override {
     std::string name(key.word);
-    std::replace(name.begin(), name.end(), '_', ' ');
+    std::ranges::replace(name, '_', ' ');
     text += fmt::format(", {} {} {}", name, significant(unit_.shown(resolve(size, design_)), 4),
                         unit_.name);
   }
@@ -97,7 +97,7 @@ std::optional<double> stress_limit(const ProblemFile& problem, const std::string
     const std::vector<std::string>& bodies = response.bodies;
     const bool is_of_body = response.type == ResponseType::stress &&
                             response.part == StressPart::von_mises &&
-                            std::find(bodies.begin(), bodies.end(), body) != bodies.end();
+                            std::ranges::find(bodies, body) != bodies.end();
     if (is_of_body && (!limit || *constraint.upper < *limit)) limit = *constraint.upper;
   }
   return limit;

@@ -25,12 +25,11 @@ namespace {
 /// short simulation shows it.
 void note_unstable_scheme(const ProblemInput& input) {
   const std::vector<const ProblemFile*> problems = simulated_problems(input.problem);
-  const bool is_unstable =
-      std::any_of(problems.begin(), problems.end(), [](const ProblemFile* problem) {
-        const SimulationSettings& settings = problem->simulation;
-        return settings.scheme != SchemeType::implicit_euler && settings.spectral_radius >= 1.0 &&
-               settings.formulation.constraints == ConstraintForm::index_3;
-      });
+  const bool is_unstable = std::ranges::any_of(problems, [](const ProblemFile* problem) {
+    const SimulationSettings& settings = problem->simulation;
+    return settings.scheme != SchemeType::implicit_euler && settings.spectral_radius >= 1.0 &&
+           settings.formulation.constraints == ConstraintForm::index_3;
+  });
   if (!is_unstable) return;
   show(stderr,
        fmt::format("{}: note: with the spectral radius 1 the forces in joints are unstable in the "
@@ -90,6 +89,7 @@ ProblemInput read_file(const std::filesystem::path& file, const Arguments& argum
   input.file = file;
   UndecidedProblem read = read_asked_case(file, arguments);
   input.design = design_of(arguments, read.complete());
+  input.design_name = arguments.design ? "design" : "start";
   input.problem = decided(std::move(read));
   set_method(input.problem.sensitivity, arguments);
   for (ProblemFile& one : input.problem.cases) set_method(one.sensitivity, arguments);
@@ -133,10 +133,10 @@ Eigen::VectorXd design_of(const Arguments& arguments, const ProblemFile& problem
 }
 
 bool tries_a_design(const Arguments& arguments) {
-  return arguments.design || std::any_of(arguments.overrides.begin(), arguments.overrides.end(),
-                                         [](const std::string& assignment) {
-                                           return !assigned_place(assignment).starts_with("/");
-                                         });
+  return arguments.design ||
+         std::ranges::any_of(arguments.overrides, [](const std::string& assignment) {
+           return !assigned_place(assignment).starts_with("/");
+         });
 }
 
 void require_units(const Arguments& arguments) {

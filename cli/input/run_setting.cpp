@@ -52,7 +52,7 @@ std::string place_in_case(const std::string& load_case, const Json::json_pointer
 
 /// What the command line itself says stands above it.
 bool is_given(const std::string& place, const std::vector<std::string>& assignments) {
-  return std::any_of(assignments.begin(), assignments.end(), [&](const std::string& assignment) {
+  return std::ranges::any_of(assignments, [&](const std::string& assignment) {
     return assignment.starts_with(place + "=");
   });
 }
@@ -135,8 +135,7 @@ FoundSetting setting_of_run(const Arguments& arguments) {
 }  // namespace
 
 void take_setting_of_run(Arguments& arguments) {
-  const bool looks_at_it =
-      std::find(commands.begin(), commands.end(), arguments.command) != commands.end();
+  const bool looks_at_it = std::ranges::find(commands, arguments.command) != commands.end();
   if (!looks_at_it || !arguments.design) return;
   FoundSetting found;
   try {

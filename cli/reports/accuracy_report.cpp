@@ -145,7 +145,7 @@ double objective_size(const ProblemFile& problem, const AccuracyStudy& study) {
 }
 
 std::string words_of(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
+  std::ranges::replace(name, '_', ' ');
   return name;
 }
 
@@ -183,7 +183,7 @@ std::vector<const VariedRun*> knobs_that_pay(const AccuracyStudy& study) {
     if (one.run.has_failed() || study.counted_error(one.run.errors) > target) continue;
     if (one.time.is_measurable() && one.time.change < -least_saving) all.push_back(&one);
   }
-  std::stable_sort(all.begin(), all.end(), [](const VariedRun* one, const VariedRun* other) {
+  std::ranges::stable_sort(all, [](const VariedRun* one, const VariedRun* other) {
     return one->time.change < other->time.change;
   });
   if (all.size() > most_knobs) all.resize(most_knobs);
@@ -324,14 +324,18 @@ std::string optima_text(const ProblemFile& problem, const OptimumStudy* optima) 
 
 }  // namespace
 
+std::string division_text(const Discretization& settings) {
+  if (settings.elements > 0) {
+    return fmt::format("{} element{} a segment", settings.elements,
+                       settings.elements == 1 ? "" : "s");
+  }
+  const std::string times =
+      settings.factor == 1.0 ? "" : fmt::format("{:g} times ", settings.factor);
+  return times + "the elements of the file";
+}
+
 std::string setting_text(const Discretization& settings) {
-  std::string text = fmt::format("a step of {:.4g} ms and ", 1e3 * settings.step);
-  if (settings.elements > 0)
-    return text + fmt::format("{} element{} a segment", settings.elements,
-                              settings.elements == 1 ? "" : "s");
-  return text + (settings.factor == 1.0
-                     ? std::string("the elements of the file")
-                     : fmt::format("{:g} times the elements of the file", settings.factor));
+  return fmt::format("a step of {:.4g} ms and {}", 1e3 * settings.step, division_text(settings));
 }
 
 std::string variation_text(const Variation& variation) {

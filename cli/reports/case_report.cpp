@@ -112,7 +112,7 @@ std::size_t first_in_conflict(const ProblemFile& problem, const std::vector<std:
   for (const ExceededLimit& limit : result.least_violation->limits) {
     if (case_of(problem, limit.constraint).empty()) continue;
     const std::size_t here = problem.case_constraints[limit.constraint].load_case;
-    if (std::find(cases.begin(), cases.end(), here) != cases.end()) return here;
+    if (std::ranges::find(cases, here) != cases.end()) return here;
   }
   return cases.front();
 }
@@ -203,7 +203,7 @@ std::vector<std::string> common_methods(const ProblemFile& joined, const Json& c
     }
     if (&part == &parts.front()) methods = here;
     std::erase_if(methods, [&](const std::string& method) {
-      return std::find(here.begin(), here.end(), method) == here.end();
+      return std::ranges::find(here, method) == here.end();
     });
   }
   return methods;
@@ -308,9 +308,8 @@ std::string over_cases_text(const ProblemFile& joined, const Json& document) {
   const NamedUnits units = units_of_responses(joined), of_limits = units_of_limits(joined);
   std::vector<DocumentColumn> columns = {name_column("response"),
                                          shown_column("value", "/value", units)};
-  const bool has_deviations = std::any_of(responses.begin(), responses.end(), [](const Json& one) {
-    return one.contains("deviation");
-  });
+  const bool has_deviations =
+      std::ranges::any_of(responses, [](const Json& one) { return one.contains("deviation"); });
   if (has_deviations) columns.push_back(shown_column("deviation", "/deviation", units));
   columns.push_back(unit_column(units));
   if (!responses.empty()) text += table_of(responses, columns).text();
@@ -329,8 +328,7 @@ std::string over_cases_text(const ProblemFile& joined, const Json& document) {
 
 bool lacks_numbers(const Json& document) {
   const Json all = document.value("responses", Json::object());
-  return std::any_of(all.begin(), all.end(),
-                     [](const Json& entry) { return entry.contains("error"); });
+  return std::ranges::any_of(all, [](const Json& entry) { return entry.contains("error"); });
 }
 
 }  // namespace pleuel

@@ -58,9 +58,8 @@ bool is_at(double bound, const DesignVariable& variable, double value) {
 constexpr double visible_shift = 1e-5;
 
 int drives(const Model& model) {
-  return static_cast<int>(
-      std::count_if(model.joints.begin(), model.joints.end(),
-                    [](const JointModel& joint) { return joint.drive_row >= 0; }));
+  return static_cast<int>(std::ranges::count_if(
+      model.joints, [](const JointModel& joint) { return joint.drive_row >= 0; }));
 }
 
 }  // namespace
@@ -262,11 +261,11 @@ class ActionRow {
 }  // namespace
 
 double LawPoints::lowest() const {
-  return *std::min_element(values.begin(), values.end());
+  return *std::ranges::min_element(values);
 }
 
 double LawPoints::highest() const {
-  return *std::max_element(values.begin(), values.end());
+  return *std::ranges::max_element(values);
 }
 
 LawPoints law_points(const TimeFunction& function, double end_time, const Design<double>& design,

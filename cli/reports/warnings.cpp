@@ -29,8 +29,8 @@ void show_warnings_before(const ProblemFile& problem) {
 
 void SharedWarnings::add(const std::vector<std::string>& warnings, const std::string& whose) {
   for (const std::string& warning : warnings) {
-    const auto known = std::find_if(warnings_.begin(), warnings_.end(),
-                                    [&](const auto& entry) { return entry.first == warning; });
+    const auto known =
+        std::ranges::find_if(warnings_, [&](const auto& entry) { return entry.first == warning; });
     if (known == warnings_.end()) {
       warnings_.emplace_back(warning, whose);
     } else {
@@ -49,7 +49,7 @@ std::vector<std::string> SharedWarnings::sentences() const {
 
 void add_new(std::vector<std::string>& warnings, const std::vector<std::string>& more) {
   for (const std::string& warning : more) {
-    const bool is_known = std::find(warnings.begin(), warnings.end(), warning) != warnings.end();
+    const bool is_known = std::ranges::find(warnings, warning) != warnings.end();
     if (!is_known) warnings.push_back(warning);
   }
 }
