@@ -13,8 +13,6 @@ namespace pleuel {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 Outcome run_named(const Arguments& arguments) {
   static const std::map<std::string, Outcome (*)(const Arguments&)> commands = {
       {"accuracy", run_accuracy}, {"backends", run_backends},     {"check", run_check},

@@ -310,14 +310,9 @@ void draw_both(const Arguments& arguments, const OlderRun& first, const OlderRun
                      {"arguments", arguments.words},
                      {"problem", second.card.value("problem", Json())},
                      {"input", {{"file", first.folder.string() + ", " + second.folder.string()}}}};
-  const std::filesystem::path page = arguments.output.value_or(free_page("compare"));
-  make_folder_of(page);
-  WriteFailures failures;
-  if (write_page({page, &failures}, report_data(card, result, picture))) {
-    outcome.document["page"] = page.string();
-    outcome.text += fmt::format("\nDrawn in {}\n", page.string());
-  }
-  outcome.unwritten = failures.files();
+  outcome.text += "\n";
+  draw_page(arguments.output.value_or(free_page("compare")), report_data(card, result, picture),
+            outcome);
 }
 
 }  // namespace

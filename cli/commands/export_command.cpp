@@ -21,8 +21,6 @@ namespace pleuel {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 /// Names of what vectors of the record stand for.
 struct Names {
   std::vector<std::string> variables, constraints;

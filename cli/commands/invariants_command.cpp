@@ -17,8 +17,6 @@ namespace pleuel {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 std::vector<std::string> si_units(const ProblemFile& problem) {
   std::vector<std::string> units;
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {

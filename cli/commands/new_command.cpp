@@ -12,8 +12,6 @@ namespace pleuel {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 Outcome list_starters(const Arguments& arguments) {
   Outcome outcome;
   outcome.document = {{"kinds", Json::object()}};

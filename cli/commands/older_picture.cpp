@@ -13,8 +13,6 @@ namespace pleuel {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 /// Simulated, if that is possible.
 struct Redone {
   std::string name;

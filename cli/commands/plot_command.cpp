@@ -32,8 +32,6 @@ namespace pleuel {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 /// A design whose histories the run folder has.
 struct RunHistories {
   std::string design;  ///< "start", "optimum", "end"; empty of a run with one

@@ -14,8 +14,6 @@ namespace pleuel {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 double hertz(double frequency) {
   return frequency / (2.0 * std::numbers::pi);
 }

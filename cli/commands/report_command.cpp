@@ -18,8 +18,6 @@ namespace pleuel {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 Json read_document(const fs::path& path) {
   if (!fs::is_regular_file(path)) {
     throw InputError(
@@ -105,10 +103,7 @@ std::string make_report(const fs::path& folder, WriteFailures& failures) {
 }  // namespace
 
 Outcome run_report(const Arguments& arguments) {
-  if (!find_report_template()) {
-    throw InputError(
-        "the template of reports is not built, which takes nodejs and npm: see docs/report.md");
-  }
+  if (!find_report_template()) throw InputError(no_template);
   Outcome outcome;
   outcome.document = {{"reports", Json::array()}};
   WriteFailures failures;

@@ -14,8 +14,6 @@ namespace pleuel {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 /// The folder itself, or those in it, by their names.
 std::vector<OlderRun> runs_in(const fs::path& folder) {
   if (auto run = find_older_run(folder)) return {std::move(*run)};

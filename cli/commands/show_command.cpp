@@ -37,8 +37,6 @@ namespace pleuel {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 /// What can be said without a simulation.
 struct Shown {
   Json document;
@@ -191,16 +189,6 @@ Shown describe(const ProblemFile& problem, const Eigen::VectorXd& x) {
   return shown;
 }
 
-/// Without a template of pages: all but the drawing.
-Outcome show_in_words(const Arguments& arguments, const ProblemInput& input) {
-  const std::string reason =
-      "the template of pages is not built, which takes nodejs and npm: see docs/report.md";
-  if (arguments.output) throw InputError(reason);
-  const Shown shown = describe(input.problem, input.design);
-  return {ExitCode::done, shown.document,
-          shown.text + wrapped("No drawing: " + reason + "\n", "  ")};
-}
-
 Json picture_of(const ProblemInput& input, const Motion& motion) {
   ShownDesign design{input.design_name, input.design};
   if (motion.time.size() > 0) design.rigid = &motion;
@@ -224,22 +212,21 @@ Outcome run_show(const Arguments& arguments) {
   if (arguments.output && arguments.output->extension() != ".html") {
     return show_in_folder(arguments, input);
   }
-  if (!find_report_template()) return show_in_words(arguments, input);
-  const fs::path page =
-      arguments.output.value_or(free_page(arguments.file.stem().string() + "-show"));
-  make_folder_of(page);
-  Shown shown = describe(input.problem, input.design);
+  const bool can_draw = find_report_template().has_value();
+  if (!can_draw && arguments.output) throw InputError(no_template);
+  const Shown shown = describe(input.problem, input.design);
+  Outcome outcome{ExitCode::done, shown.document, shown.text};
+  if (!can_draw) {
+    outcome.text += wrapped(fmt::format("No drawing: {}\n", no_template), "  ");
+    return outcome;
+  }
   const Json card = {{"command", "show"},
                      {"arguments", arguments.words},
                      {"input", {{"file", input.file.string()}, {"overrides", arguments.overrides}}},
                      {"problem", input.effective}};
-  WriteFailures failures;
-  if (write_page({page, &failures},
-                 report_data(card, shown.document, picture_of(input, shown.motion)))) {
-    shown.document["page"] = page.string();
-    shown.text += fmt::format("Drawn in {}\n", page.string());
-  }
-  return {ExitCode::done, shown.document, shown.text, failures.files()};
+  draw_page(arguments.output.value_or(free_page(arguments.file.stem().string() + "-show")),
+            report_data(card, shown.document, picture_of(input, shown.motion)), outcome);
+  return outcome;
 }
 
 }  // namespace pleuel

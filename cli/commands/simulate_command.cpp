@@ -110,13 +110,9 @@ Json simulation_document(const ProblemFile& problem, const Simulated& run) {
   return document;
 }
 
-double smallest_step(const Trajectory& trajectory) {
+Eigen::VectorXd step_sizes(const Trajectory& trajectory) {
   const Eigen::Index steps = trajectory.steps();
-  return (trajectory.time.tail(steps) - trajectory.time.head(steps)).minCoeff();
-}
-double largest_step(const Trajectory& trajectory) {
-  const Eigen::Index steps = trajectory.steps();
-  return (trajectory.time.tail(steps) - trajectory.time.head(steps)).maxCoeff();
+  return trajectory.time.tail(steps) - trajectory.time.head(steps);
 }
 
 /// @param design  where it comes from, if it is not the start
@@ -139,9 +135,9 @@ std::string simulation_text(const ProblemFile& problem, const std::string& desig
                     trajectory.split_steps));
   }
   if (problem.simulation.local_error > 0.0) {
-    text += fmt::format("Steps from {} to {}, {} of them made again.\n",
-                        duration(smallest_step(trajectory)), duration(largest_step(trajectory)),
-                        trajectory.rejected_steps);
+    const Eigen::VectorXd sizes = step_sizes(trajectory);
+    text += fmt::format("Steps from {} to {}, {} of them made again.\n", duration(sizes.minCoeff()),
+                        duration(sizes.maxCoeff()), trajectory.rejected_steps);
   }
   text += periodic_text(trajectory);
   return text + fmt::format("{}, {} Newton iterations, {} factorizations; checked in {}\n",

@@ -18,7 +18,7 @@ namespace pleuel {
 namespace {
 
 std::string case_name(const Json& run) {
-  return std::filesystem::path(text_at(run, "/file")).stem().string();
+  return fs::path(text_at(run, "/file")).stem().string();
 }
 
 /// "pump, index-1": of an entry of "runs".

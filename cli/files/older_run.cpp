@@ -23,8 +23,6 @@ namespace pleuel {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 /// Whether a run is at work in the folder: it holds its lock.
 bool is_at_work(const fs::path& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);

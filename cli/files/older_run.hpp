@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "cli/input/arguments.hpp"
 #include "cli/text/json.hpp"
 #include "core/scene/problem_file.hpp"
 
@@ -14,11 +15,11 @@ namespace pleuel {
 inline constexpr const char* card_name = "run_card.json";
 
 /// The JSON object in a file; null if there is none that can be read.
-Json document_in(const std::filesystem::path& file);
+Json document_in(const fs::path& file);
 
 /// What the folder of a run says of it.
 struct OlderRun {
-  std::filesystem::path folder;
+  fs::path folder;
   Json card;
   Json result;  ///< null: there is none
 
@@ -37,14 +38,14 @@ struct OlderRun {
   /// Local time at which its card was written last: "2025-03-01 17:04".
   std::string date() const;
   /// The same instant, to put runs in order by.
-  std::filesystem::file_time_type written() const;
+  fs::file_time_type written() const;
 };
 
 /// @returns nothing if the folder is not that of a run
-std::optional<OlderRun> find_older_run(const std::filesystem::path& folder);
+std::optional<OlderRun> find_older_run(const fs::path& folder);
 
 /// @throws InputError if the folder is not that of a run
-OlderRun read_older_run(const std::filesystem::path& folder);
+OlderRun read_older_run(const fs::path& folder);
 
 // What an earlier run simulated, from its documents.
 

@@ -97,4 +97,14 @@ bool write_page(const ResultFile& file, const Json& data) {
   return write_file(file, page);
 }
 
+void draw_page(const fs::path& page, const Json& data, Outcome& outcome) {
+  make_folder_of(page);
+  WriteFailures failures;
+  if (write_page({page, &failures}, data)) {
+    outcome.document["page"] = page.string();
+    outcome.text += fmt::format("Drawn in {}\n", page.string());
+  }
+  outcome.unwritten = failures.files();
+}
+
 }  // namespace pleuel

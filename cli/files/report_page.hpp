@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "cli/files/output_file.hpp"
+#include "cli/reports/outcome.hpp"
 #include "cli/text/json.hpp"
 
 /// report.html: one page without network that shows what a run found (docs/report.md).
@@ -24,9 +26,16 @@ std::string missing_template_text(const std::string& program, const std::filesys
 Json report_data(const Json& card, const Json& result, const Json& picture,
                  const std::filesystem::path& folder = {});
 
+/// What there is to say where there is no template.
+inline constexpr const char* no_template =
+    "the template of pages is not built, which takes nodejs and npm: see docs/report.md";
+
 /// Writes the page with the data in place of what stands between the tags of the template.
 /// @returns whether it could be written
 /// @throws std::runtime_error if there is no template with such a place
 bool write_page(const ResultFile& file, const Json& data);
+
+/// The same for a page that the user asked for by its name: tells the outcome.
+void draw_page(const std::filesystem::path& page, const Json& data, Outcome& outcome);
 
 }  // namespace pleuel

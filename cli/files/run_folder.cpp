@@ -17,8 +17,6 @@ namespace pleuel {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 /// What a run of any command may leave beside the card, but for the record of evaluations.
 bool is_result(const std::string& name) {
   for (const char* known :

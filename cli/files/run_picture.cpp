@@ -111,7 +111,7 @@ Json slopes_document(const ProblemFile& problem, const ShownDesign& design,
 void add_influence(const ProblemFile& problem, const ShownDesign& design, std::size_t i,
                    const Room& room, Json& document) {
   if (design.influence == nullptr) return;
-  document["gradients"] = influence_document(problem, *design.influence, i);
+  document["gradients"] = by_name(problem.variables, design.influence->gradients.row(i));
   for (const HistoryGradients& history : design.influence->histories) {
     if (history.response == i) document["slopes"] = slopes_document(problem, design, history, room);
   }

@@ -65,11 +65,11 @@ void RunRecord::end_phase() {
   phase_.clear();
 }
 
-ResultFile RunRecord::result(const std::filesystem::path& name) {
+ResultFile RunRecord::result(const fs::path& name) {
   if (!has_results_) replace_older_run();
   std::error_code error;  // shows when the file is written
   if (name.has_parent_path()) {
-    std::filesystem::create_directory(folder() / name.parent_path(), error);
+    fs::create_directory(folder() / name.parent_path(), error);
   }
   if (std::ranges::find(results_, name) == results_.end()) results_.push_back(name);
   return {folder() / name, &failures_};
@@ -85,7 +85,7 @@ void RunRecord::write_result(const Json& document) {
 
 std::string RunRecord::files_text() const {
   std::vector<std::string> names;
-  for (const std::filesystem::path& name : results_) {
+  for (const fs::path& name : results_) {
     const bool is_lost =
         std::ranges::find(failures_.files(), (folder() / name).string()) != failures_.files().end();
     if (!is_lost) names.push_back(name.string());

@@ -29,7 +29,7 @@ class RunRecord {
   /// The same for a command that takes several files.
   RunRecord(const Arguments& arguments, const std::vector<ProblemInput>& inputs, Json options);
 
-  const std::filesystem::path& folder() const { return folder_.path(); }
+  const fs::path& folder() const { return folder_.path(); }
 
   /// Of the program, its libraries and its compiler.
   const Json& versions() const { return card_.at("versions"); }
@@ -38,7 +38,7 @@ class RunRecord {
   void begin_phase(const std::string& name);
 
   /// Where the result of this name is to be written; makes the folder of "folder/name".
-  ResultFile result(const std::filesystem::path& name);
+  ResultFile result(const fs::path& name);
 
   /// Writes a document into the folder, in place of an earlier one of this name.
   void write(const std::string& name, const Json& document);
@@ -63,7 +63,7 @@ class RunRecord {
 
   RunFolder folder_;
   WriteFailures failures_;
-  std::vector<std::filesystem::path> results_;  ///< names, in the order in which they were begun
+  std::vector<fs::path> results_;  ///< names, in the order in which they were begun
   Json card_;
   Json phases_ = Json::object();
   Json picture_;

@@ -64,8 +64,8 @@ RunStore::RunStore(RunRecord& record, const Arguments& arguments, const ProblemI
 }
 
 void RunStore::open_older() {
-  const std::filesystem::path file = record_.folder() / database_name;
-  if (!std::filesystem::exists(file)) return begin_without_record();
+  const fs::path file = record_.folder() / database_name;
+  if (!fs::exists(file)) return begin_without_record();
   try {
     database_.emplace(file);
     database_->check();
@@ -79,7 +79,7 @@ void RunStore::open_older() {
 /// A script may ask for --resume from the first time on; results that are there are not replaced.
 void RunStore::begin_without_record() const {
   const std::string folder = record_.folder().string();
-  if (std::filesystem::exists(record_.folder() / "result.json")) {
+  if (fs::exists(record_.folder() / "result.json")) {
     throw InputError(
         fmt::format("--resume: {} has results and no {}: there is nothing to resume; take another "
                     "folder, or --overwrite",

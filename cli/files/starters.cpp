@@ -10,8 +10,6 @@
 
 namespace pleuel {
 
-namespace fs = std::filesystem;
-
 std::vector<Starter> starters() {
   std::vector<Starter> all;
   for (const auto& [kind, text] : given_files::starters) {

@@ -56,7 +56,7 @@ void set_method(SensitivitySettings& sensitivity, const Arguments& arguments) {
 }
 
 /// Optimizations look at all cases together.
-void require_one_case(const ProblemFile& problem, const std::filesystem::path& file,
+void require_one_case(const ProblemFile& problem, const fs::path& file,
                       const Arguments& arguments) {
   const bool takes_all = arguments.command == "optimize" || arguments.command == "pareto";
   if (!problem.has_cases() || takes_all) return;
@@ -65,7 +65,7 @@ void require_one_case(const ProblemFile& problem, const std::filesystem::path& f
       case_list(problem), arguments.command, problem.cases.front().load_case));
 }
 
-UndecidedProblem read_asked_case(const std::filesystem::path& file, const Arguments& arguments) {
+UndecidedProblem read_asked_case(const fs::path& file, const Arguments& arguments) {
   UndecidedProblem read = read_problem(file, arguments.overrides);
   if (arguments.load_case) {
     return UndecidedProblem(problem_of_case(read.complete(), *arguments.load_case));
@@ -84,7 +84,7 @@ void require_room_for_instants(const ProblemFile& problem) {
   }
 }
 
-ProblemInput read_file(const std::filesystem::path& file, const Arguments& arguments) {
+ProblemInput read_file(const fs::path& file, const Arguments& arguments) {
   ProblemInput input;
   input.file = file;
   UndecidedProblem read = read_asked_case(file, arguments);
@@ -107,7 +107,7 @@ ProblemInput read_file(const std::filesystem::path& file, const Arguments& argum
     fingerprint.add(*arguments.load_case);
   }
   if (arguments.design) {
-    const bool is_folder = std::filesystem::is_directory(*arguments.design);
+    const bool is_folder = fs::is_directory(*arguments.design);
     fingerprint.add(whole_text(is_folder ? *arguments.design / "result.json" : *arguments.design));
   }
   input.hash = fingerprint.text();
@@ -141,10 +141,10 @@ bool tries_a_design(const Arguments& arguments) {
 
 void require_units(const Arguments& arguments) {
   if (arguments.overrides.empty()) return;
-  std::vector<std::filesystem::path> files = arguments.files;
+  std::vector<fs::path> files = arguments.files;
   if (!arguments.file.empty()) files.push_back(arguments.file);
-  for (const std::filesystem::path& file : files) {
-    if (!std::filesystem::exists(file)) continue;  // who reads it says so
+  for (const fs::path& file : files) {
+    if (!fs::exists(file)) continue;  // who reads it says so
     const Json document = parse_json(whole_text(file), file.string());
     for (const std::string& assignment : arguments.overrides) {
       require_unit(document, assignment, file.string());

@@ -17,7 +17,7 @@ namespace pleuel {
 
 /// A problem file as a command sees it.
 struct ProblemInput {
-  std::filesystem::path file;
+  fs::path file;
   ProblemFile problem;      ///< with the method of the command line
   Eigen::VectorXd design;   ///< [SI]: that of --design, else the start
   std::string design_name;  ///< "design" or "start": what people read of it

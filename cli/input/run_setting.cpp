@@ -26,7 +26,7 @@ namespace {
 constexpr std::array<std::string_view, 5> commands = {"simulate", "gradient", "check", "prices",
                                                       "uncertainty"};
 
-Json document_of(const std::filesystem::path& file) {
+Json document_of(const fs::path& file) {
   return parse_json(read_text_file(file), file.string());
 }
 
@@ -118,9 +118,8 @@ struct FoundSetting {
 
 /// Nothing where no accuracy was asked of the run, or where one is asked for now.
 FoundSetting setting_of_run(const Arguments& arguments) {
-  const std::filesystem::path& design = *arguments.design;
-  const Json result =
-      document_of(std::filesystem::is_directory(design) ? design / "result.json" : design);
+  const fs::path& design = *arguments.design;
+  const Json result = document_of(fs::is_directory(design) ? design / "result.json" : design);
   if (!result.contains("setting") || !was_chosen(result)) return {};
   Json problem = document_of(arguments.file);
   for (const std::string& assignment : arguments.overrides) {

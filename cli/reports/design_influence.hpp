@@ -21,8 +21,4 @@ struct DesignInfluence {
 /// Nothing without variables, and where the gradients cannot be computed.
 std::optional<DesignInfluence> design_influence(const ProblemFile& problem, Analysis& analysis);
 
-/// {VARIABLE: number} of a response [SI].
-Json influence_document(const ProblemFile& problem, const DesignInfluence& influence,
-                        std::size_t response);
-
 }  // namespace pleuel

@@ -79,7 +79,7 @@ Json responses_document(const Optimum& optimum) {
     if (!errors.empty()) document[response.name]["error"] = error_document(error_of(errors, i));
     if (optimum.influence) {
       document[response.name]["gradients"] =
-          influence_document(optimum.problem, *optimum.influence, i);
+          by_name(optimum.problem.variables, optimum.influence->gradients.row(i));
     }
   }
   return document;
