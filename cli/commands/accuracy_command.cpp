@@ -72,15 +72,10 @@ class GridProgress {
 
 /// accuracy.csv: a line for each run as it is done [SI]; empty cells where nothing is known.
 std::vector<CsvColumn> accuracy_columns(const ProblemFile& problem) {
-  const Json::json_pointer run, work("/work");
-  std::vector<CsvColumn> columns = {{"step", Json::json_pointer("/settings/step")},
-                                    {"elements", run / "elements"}};
-  for (const char* name : {"steps", "newton_iterations", "factorizations"}) {
-    columns.push_back({name, work / name});
-  }
-  for (const char* name : {"simulation_seconds", "gradient_seconds"}) {
-    columns.push_back({name, run / name});
-  }
+  const Json::json_pointer run;
+  std::vector<CsvColumn> columns =
+      columns_at({"/settings/step", "/elements", "/work/steps", "/work/newton_iterations",
+                  "/work/factorizations", "/simulation_seconds", "/gradient_seconds"});
   for (const std::string kind : {"error", "gradient_error"}) {
     for (const ResponseSettings& one : problem.responses) {
       columns.push_back({kind + ":" + one.name, run / (kind + "s") / one.name});

@@ -49,18 +49,16 @@ std::string limited_name(const ProblemFile& problem) {
 
 /// pareto.csv: a line for each point, first as it is found, in the end by its limit [SI].
 std::vector<CsvColumn> pareto_columns(const ProblemFile& problem) {
-  const Json::json_pointer point, objectives("/objectives"), variables("/variables");
-  std::vector<CsvColumn> columns = {{"status", point / "status"},
-                                    {"limit", point / "limit"},
-                                    {"objective", objectives / problem.objective->response},
-                                    {"limited", objectives / limited_name(problem)},
-                                    {"multiplier", point / "multiplier"}};
+  const Json::json_pointer objectives("/objectives"), variables("/variables");
+  std::vector<CsvColumn> columns = columns_at({"/status", "/limit"});
+  columns.push_back({"objective", objectives / problem.objective->response});
+  columns.push_back({"limited", objectives / limited_name(problem)});
+  columns.push_back({"multiplier", Json::json_pointer("/multiplier")});
   for (const DesignVariable& variable : problem.variables) {
     columns.push_back({"variable:" + variable.name, variables / variable.name});
   }
-  for (const char* title : {"kkt_residual", "evaluations", "seconds"}) {
-    columns.push_back({title, point / title});
-  }
+  const auto effort = columns_at({"/kkt_residual", "/evaluations", "/seconds"});
+  columns.insert(columns.end(), effort.begin(), effort.end());
   return columns;
 }
 
@@ -111,9 +109,8 @@ std::string single_point_text(const ProblemFile& problem, const ParetoFront& fro
   return "One design is best for both responses: there is nothing to trade.\n";
 }
 
-/// What all choices of sizes came to, where they were simulated; empty of other fronts.
+/// What all choices of sizes came to, where they were simulated.
 std::string choices_message(const ParetoFront& front) {
-  if (!front.choices) return "";
   const ChoiceCounts& counts = *front.choices;
   const std::string failed =
       counts.failed > 0 ? fmt::format(", and {} could not be simulated", counts.failed) : "";

@@ -56,18 +56,6 @@ Json make_document(const std::vector<StabilityRun>& runs, bool is_whole) {
   return document;
 }
 
-/// stability.csv: a line for each run as it is done [SI].
-std::vector<CsvColumn> stability_columns() {
-  std::vector<CsvColumn> columns;
-  for (const char* place : {"/file", "/formulation", "/work/steps", "/work/newton_iterations",
-                            "/work/factorizations", "/position_drift", "/velocity_drift",
-                            "/energy_error", "/condition", "/seconds", "/failure"}) {
-    const Json::json_pointer pointer(place);
-    columns.push_back({pointer.back(), pointer});
-  }
-  return columns;
-}
-
 std::string runs_text(const Json& runs) {
   const auto result = [](const std::string&, const Json& run) {
     return run.contains("failure") ? "failed" : "ok";
@@ -143,7 +131,11 @@ Outcome run_stability(const Arguments& arguments) {
   const std::size_t all =
       inputs.size() * (compared_formulations().size() + compared_schemes().size());
   const std::vector<StabilityRun> runs = run_all(arguments, all, [&](const StabilityRun& run) {
-    if (!csv) csv.emplace(record.result("stability.csv"), stability_columns());
+    if (!csv)
+      csv.emplace(record.result("stability.csv"),
+                  columns_at({"/file", "/formulation", "/work/steps", "/work/newton_iterations",
+                              "/work/factorizations", "/position_drift", "/velocity_drift",
+                              "/energy_error", "/condition", "/seconds", "/failure"}));
     csv->add(stability_entry(run));
   });
   const bool is_whole = runs.size() == all;

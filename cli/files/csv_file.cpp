@@ -37,6 +37,15 @@ void CsvFile::add(const Row& cells) {
   file_.write(fmt::format("{}\n", fmt::join(texts, ",")));
 }
 
+std::vector<CsvColumn> columns_at(std::initializer_list<const char*> places) {
+  std::vector<CsvColumn> columns;
+  for (const char* text : places) {
+    const Json::json_pointer place(text);
+    columns.push_back({place.back(), place});
+  }
+  return columns;
+}
+
 void DocumentCsv::add(const Json& entry) {
   CsvFile::Row row;
   for (const CsvColumn& column : columns_) row.push_back(entry.value(column.place, Json()));

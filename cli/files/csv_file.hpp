@@ -38,6 +38,9 @@ struct CsvColumn {
   Json::json_pointer place;
 };
 
+/// Columns that are called as the last keys of their places.
+std::vector<CsvColumn> columns_at(std::initializer_list<const char*> places);
+
 /// Lines that are entries of a document; what an entry does not have is an empty cell.
 class DocumentCsv {
  public:

@@ -190,59 +190,44 @@ const Json& entry_of(const ProblemFile& joined, const Json& cases, std::size_t r
   return cases.at(one.load_case).at("responses").at(one.responses[of_case.index].name);
 }
 
-/// The methods that gradients of all parts were computed by; of `uncertainty` one without a name.
-std::vector<std::string> common_methods(const ProblemFile& joined, const Json& cases,
-                                        const std::vector<WeightedResponse>& parts) {
-  std::vector<std::string> methods;
-  for (const WeightedResponse& part : parts) {
-    const Json& entry = entry_of(joined, cases, part.response);
-    std::vector<std::string> here;
-    const Json gradients = entry.value("gradients", Json::object());
-    for (const auto& [method, gradient] : gradients.items()) {
-      if (gradient.is_object()) here.push_back(method);
-    }
-    if (&part == &parts.front()) methods = here;
-    std::erase_if(methods, [&](const std::string& method) {
-      return std::ranges::find(here, method) == here.end();
-    });
-  }
-  return methods;
-}
-
-/// d(response)/d(variable), from the gradients that gradient_of() finds in the entries of its parts.
-template <class GradientOf>
-double slope_of(const ProblemFile& joined, const Json& cases, const LinearizedResponse& linear,
-                std::size_t variable, const GradientOf& gradient_of) {
-  double slope = linear.design(variable);
+/// The derivatives that stand there in the entries of all parts; none if one of them has none.
+std::optional<Eigen::VectorXd> gradient_at(const ProblemFile& joined, const Json& cases,
+                                           const LinearizedResponse& linear,
+                                           const Json::json_pointer& place) {
+  Eigen::VectorXd gradient = linear.design;
   for (const WeightedResponse& part : linear.parts) {
-    const Json& gradient = gradient_of(entry_of(joined, cases, part.response));
-    slope += part.weight * gradient.at(joined.variables[variable].name).template get<double>();
+    const Json slopes = entry_of(joined, cases, part.response).value(place, Json());
+    if (!slopes.is_object()) return std::nullopt;
+    for (Eigen::Index j = 0; j < gradient.size(); ++j) {
+      gradient(j) += part.weight * slopes.value(joined.variables[j].name, 0.0);
+    }
   }
-  return slope;
+  return gradient;
 }
 
+/// By each method that the gradients of all parts were computed by.
 void add_gradients(const ProblemFile& joined, const Json& cases, const LinearizedResponse& linear,
                    Json& entry) {
-  for (const std::string& method : common_methods(joined, cases, linear.parts)) {
-    for (std::size_t j = 0; j < joined.variables.size(); ++j) {
-      entry["gradients"][method][joined.variables[j].name] = slope_of(
-          joined, cases, linear, j,
-          [&](const Json& part) -> const Json& { return part.at("gradients").at(method); });
-    }
+  if (linear.parts.empty()) return;
+  const Json& first = entry_of(joined, cases, linear.parts.front().response);
+  const Json methods = first.value("gradients", Json::object());
+  for (const auto& [method, unused] : methods.items()) {
+    const auto gradient =
+        gradient_at(joined, cases, linear, Json::json_pointer("/gradients") / method);
+    if (gradient) entry["gradients"][method] = by_name(joined.variables, *gradient);
   }
 }
 
 /// First order, as of one case (studies/uncertainty.hpp): the parameters are the same in all of them.
 void add_uncertainty(const ProblemFile& joined, const Json& cases, const LinearizedResponse& linear,
                      Json& entry) {
+  const Eigen::VectorXd gradient =
+      gradient_at(joined, cases, linear, Json::json_pointer("/gradients")).value();
   double variance = 0.0, bound = 0.0;
   Json shares = Json::object();
   for (const UncertainParameter& parameter : joined.uncertainty->parameters) {
-    const std::size_t variable = parameter.variable;
-    const std::string& name = joined.variables[variable].name;
-    const double slope =
-        slope_of(joined, cases, linear, variable,
-                 [](const Json& part) -> const Json& { return part.at("gradients"); });
+    const std::string& name = joined.variables[parameter.variable].name;
+    const double slope = gradient(parameter.variable);
     const double deviation = slope * parameter.standard_deviation();
     entry["gradients"][name] = slope;
     shares[name] = deviation * deviation;
@@ -256,10 +241,6 @@ void add_uncertainty(const ProblemFile& joined, const Json& cases, const Lineari
   entry["deviation"] = std::sqrt(variance);
   entry["bounds"] = {value - bound, value + bound};
   entry["shares"] = shares;
-}
-
-bool has_uncertainty(const Json& cases) {
-  return cases.front().contains("parameters");
 }
 
 }  // namespace
@@ -277,7 +258,7 @@ Json over_cases_document(const ProblemFile& joined, const Eigen::VectorXd& x, co
     try {
       entry["value"] = value_over_cases(joined, i, x, value_of);
       const LinearizedResponse linear = linearized_over_cases(joined, i, x, value_of);
-      if (has_uncertainty(cases)) {
+      if (cases.front().contains("parameters")) {  // of `uncertainty`
         add_uncertainty(joined, cases, linear, entry);
       } else {
         add_gradients(joined, cases, linear, entry);

@@ -213,7 +213,8 @@ std::vector<double> round_ticks(double low, double high, int about) {
 }
 
 std::string to_svg(const std::vector<HistoryChart>& charts) {
-  Svg svg(chart_width, chart_height * static_cast<double>(charts.size()), svg_style);
+  Svg svg(chart_width, chart_height * static_cast<double>(charts.size()), charts.front().title,
+          svg_style);
   double top = 0.0;
   for (const HistoryChart& chart : charts) {
     ChartDrawing(chart, top, svg);

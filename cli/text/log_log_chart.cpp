@@ -111,7 +111,7 @@ class Drawing {
         top_(44.0 + line_height * static_cast<double>(chart.notes.size())),
         x_(axis(&ChartPoint::x, left, right)),
         y_(axis(&ChartPoint::y, bottom, top_)),
-        svg_(width, height, style()) {
+        svg_(width, height, chart.title, style()) {
     draw_head();
     draw_axes();
     draw_floor();
@@ -174,7 +174,6 @@ class Drawing {
   double pixel_x(const ChartPoint& point) const { return point.x > 0.0 ? x_.pixel(point.x) : left; }
 
   void draw_head() {
-    svg_.add("<title>{}</title>", xml_text(chart_.title));
     svg_.add_text(left, 26.0, R"(class="head")", shortened(chart_.title, longest_title));
     for (std::size_t i = 0; i < chart_.notes.size(); ++i) {
       svg_.add_text(left, 45.0 + line_height * static_cast<double>(i), R"(class="small")",

@@ -12,11 +12,11 @@ std::string xml_text(const std::string& text) {
   return safe;
 }
 
-Svg::Svg(double width, double height, const std::string& style) {
+Svg::Svg(double width, double height, const std::string& title, const std::string& style) {
   add(R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {:.0f} {:.0f}" )"
       R"(font-family="sans-serif" role="img">)",
       width, height);
-  add("<style>{}</style>", style);
+  add("<title>{}</title>\n<style>{}</style>", xml_text(title), style);
   add(R"(<rect class="paper" width="{:.0f}" height="{:.0f}"/>)", width, height);
 }
 

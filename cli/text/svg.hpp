@@ -14,7 +14,7 @@ std::string xml_text(const std::string& text);
 class Svg {
  public:
   /// @param style  of the classes; what has the class "paper" is the ground
-  Svg(double width, double height, const std::string& style);
+  Svg(double width, double height, const std::string& title, const std::string& style);
 
   template <class... Values>
   void add(fmt::format_string<Values...> element, Values&&... values) {
