@@ -1,12 +1,9 @@
 #include "cli/run_command.hpp"
 
 #include <map>
-#include <optional>
-#include <string>
 
 #include "cli/commands/commands.hpp"
 #include "cli/commands/each_case.hpp"
-#include "core/base/error.hpp"
 #include "core/jobs/child_program.hpp"
 
 namespace pleuel {

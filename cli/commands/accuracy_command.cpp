@@ -1,25 +1,9 @@
-#include <algorithm>
-#include <optional>
-
-#include <fmt/format.h>
-
 #include "cli/commands/commands.hpp"
-#include "cli/commands/progress_line.hpp"
-#include "cli/files/csv_file.hpp"
-#include "cli/files/run_picture.hpp"
-#include "cli/files/run_record.hpp"
-#include "cli/files/run_store.hpp"
 #include "cli/input/run_setting.hpp"
 #include "cli/reports/accuracy_charts.hpp"
 #include "cli/reports/accuracy_document.hpp"
 #include "cli/reports/accuracy_report.hpp"
-#include "cli/reports/warnings.hpp"
-#include "cli/text/console.hpp"
-#include "core/base/error.hpp"
-#include "core/base/number_text.hpp"
 #include "core/base/stop.hpp"
-#include "core/base/stopwatch.hpp"
-#include "studies/accuracy.hpp"
 #include "studies/accuracy_optimum.hpp"
 #include "studies/accuracy_run.hpp"
 

@@ -1,21 +1,10 @@
-#include <algorithm>
 #include <cmath>
 #include <map>
-#include <string>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "cli/commands/commands.hpp"
 #include "cli/commands/older_picture.hpp"
-#include "cli/files/older_run.hpp"
-#include "cli/files/output_file.hpp"
 #include "cli/files/report_page.hpp"
 #include "cli/files/run_folder.hpp"
-#include "cli/reports/document_table.hpp"
-#include "cli/text/wrapped_text.hpp"
-#include "core/base/error.hpp"
-#include "core/base/number_text.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/scene/shown_unit.hpp"
 

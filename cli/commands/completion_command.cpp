@@ -1,15 +1,10 @@
 #include <map>
 #include <sstream>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "cli/commands/commands.hpp"
 #include "cli/files/command_text.hpp"
 #include "cli/files/starters.hpp"
 #include "cli/input/command_table.hpp"
-#include "core/base/error.hpp"
 #include "optimization/backends.hpp"
 #include "sensitivity/gradients.hpp"
 

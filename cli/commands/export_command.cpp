@@ -1,20 +1,11 @@
-#include <algorithm>
 #include <filesystem>
-#include <string>
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "cli/commands/commands.hpp"
-#include "cli/files/csv_file.hpp"
 #include "cli/files/older_run.hpp"
-#include "cli/files/run_store.hpp"
 #include "cli/files/vtk_series.hpp"
-#include "cli/text/json.hpp"
-#include "core/base/error.hpp"
 #include "core/base/plain_file_name.hpp"
-#include "core/response/analysis.hpp"
 
 /// What a record of evaluations holds, as tables for other programs.
 namespace pleuel {

@@ -1,29 +1,14 @@
-#include <algorithm>
 #include <cmath>
 #include <map>
 
-#include <fmt/format.h>
-
-#include "cli/commands/accurate_input.hpp"
 #include "cli/commands/commands.hpp"
-#include "cli/commands/progress_line.hpp"
-#include "cli/files/csv_file.hpp"
-#include "cli/files/run_picture.hpp"
-#include "cli/files/run_record.hpp"
 #include "cli/reports/analysis_report.hpp"
 #include "cli/reports/derivative_report.hpp"
 #include "cli/reports/limits_report.hpp"
 #include "cli/reports/time_text.hpp"
-#include "cli/reports/warnings.hpp"
 #include "cli/text/table.hpp"
-#include "cli/text/wrapped_text.hpp"
-#include "core/base/error.hpp"
-#include "core/base/number_text.hpp"
-#include "core/base/stopwatch.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "core/trust/checks.hpp"
-#include "core/trust/finding.hpp"
-#include "sensitivity/gradients.hpp"
 #include "sensitivity/initial_sensitivity.hpp"
 #include "sensitivity/kinks.hpp"
 #include "sensitivity/method_choice.hpp"

@@ -1,12 +1,6 @@
-#include <algorithm>
-
-#include <fmt/format.h>
-
 #include "cli/commands/commands.hpp"
-#include "cli/files/run_record.hpp"
 #include "cli/input/problem_input.hpp"
 #include "cli/text/table.hpp"
-#include "core/base/error.hpp"
 #include "core/model/divided_beams.hpp"
 #include "core/response/analysis.hpp"
 #include "core/response/body_export.hpp"

@@ -1,11 +1,7 @@
-
-#include <fmt/format.h>
-
 #include "cli/commands/commands.hpp"
 #include "cli/files/command_text.hpp"
 #include "cli/files/starters.hpp"
 #include "cli/text/table.hpp"
-#include "core/base/error.hpp"
 #include "core/scene/reading/suggestion.hpp"
 
 namespace pleuel {

@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "cli/files/csv_file.hpp"
-#include "cli/files/older_run.hpp"
 #include "cli/files/run_picture.hpp"
 #include "cli/input/design_file.hpp"
 #include "cli/reports/case_report.hpp"

@@ -1,31 +1,17 @@
-#include <optional>
 #include <utility>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "cli/commands/commands.hpp"
 #include "cli/commands/examined_optimum.hpp"
-#include "cli/files/csv_file.hpp"
 #include "cli/files/failed_design.hpp"
-#include "cli/files/run_record.hpp"
-#include "cli/files/run_store.hpp"
 #include "cli/input/run_setting.hpp"
 #include "cli/reports/effects_report.hpp"
 #include "cli/reports/iteration_lines.hpp"
-#include "cli/reports/optimum_document.hpp"
 #include "cli/reports/optimum_report.hpp"
 #include "cli/reports/setting_report.hpp"
 #include "cli/reports/starts_report.hpp"
-#include "cli/reports/warnings.hpp"
-#include "cli/text/console.hpp"
-#include "cli/text/wrapped_text.hpp"
 #include "core/scene/body_rules.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/trust/lint.hpp"
-#include "optimization/design/design_problem.hpp"
-#include "optimization/design/design_solve.hpp"
-#include "optimization/design/multi_start.hpp"
 #include "optimization/design/optimum_error.hpp"
 #include "optimization/design/staged_solve.hpp"
 #include "optimization/design/whole_search.hpp"

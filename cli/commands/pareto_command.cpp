@@ -1,29 +1,12 @@
-#include <algorithm>
-#include <optional>
-
-#include <fmt/format.h>
-
-#include "cli/commands/accurate_input.hpp"
 #include "cli/commands/commands.hpp"
-#include "cli/commands/progress_line.hpp"
-#include "cli/files/csv_file.hpp"
-#include "cli/files/run_picture.hpp"
-#include "cli/files/run_record.hpp"
-#include "cli/files/run_store.hpp"
 #include "cli/input/run_setting.hpp"
-#include "cli/reports/document_table.hpp"
 #include "cli/reports/limits_report.hpp"
 #include "cli/reports/starts_report.hpp"
-#include "cli/reports/warnings.hpp"
-#include "cli/text/wrapped_text.hpp"
-#include "core/base/number_text.hpp"
-#include "core/base/stopwatch.hpp"
 #include "core/scene/case_goals.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "studies/missing_settings.hpp"
 #include "studies/pareto.hpp"
-#include "studies/pareto_point.hpp"
 #include "studies/varied_limit.hpp"
 
 namespace pleuel {

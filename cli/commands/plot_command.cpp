@@ -1,28 +1,21 @@
-#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
 #include <functional>
-#include <optional>
 #include <set>
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
 #include "cli/commands/commands.hpp"
-#include "cli/files/csv_file.hpp"
 #include "cli/files/older_run.hpp"
 #include "cli/files/output_file.hpp"
 #include "cli/files/run_folder.hpp"
 #include "cli/reports/optimum_report.hpp"
 #include "cli/text/csv_table.hpp"
 #include "cli/text/history_chart.hpp"
-#include "cli/text/wrapped_text.hpp"
-#include "core/base/error.hpp"
 #include "core/base/find_named.hpp"
-#include "core/base/number_text.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/scene/reading/suggestion.hpp"
 #include "core/scene/shown_unit.hpp"

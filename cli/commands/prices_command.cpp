@@ -2,21 +2,11 @@
 #include <cmath>
 #include <set>
 
-#include <fmt/format.h>
-
-#include "cli/commands/accurate_input.hpp"
 #include "cli/commands/commands.hpp"
-#include "cli/files/csv_file.hpp"
-#include "cli/files/run_picture.hpp"
-#include "cli/files/run_record.hpp"
 #include "cli/input/run_setting.hpp"
 #include "cli/reports/iteration_lines.hpp"
-#include "cli/reports/warnings.hpp"
 #include "cli/text/table.hpp"
-#include "cli/text/wrapped_text.hpp"
-#include "core/base/number_text.hpp"
 #include "core/trust/checks.hpp"
-#include "optimization/design/design_problem.hpp"
 #include "optimization/design/design_solve.hpp"
 #include "optimization/design/size_choice.hpp"
 #include "studies/number_prices.hpp"

@@ -1,12 +1,8 @@
 #include <numbers>
 
-#include <fmt/format.h>
-
 #include "cli/commands/commands.hpp"
 #include "cli/files/output_file.hpp"
 #include "cli/text/table.hpp"
-#include "cli/text/wrapped_text.hpp"
-#include "core/base/error.hpp"
 #include "core/scene/invariants_file.hpp"
 #include "reduction/reduce.hpp"
 

@@ -1,17 +1,9 @@
-#include <algorithm>
 #include <map>
-
-#include <fmt/format.h>
 
 #include "cli/commands/commands.hpp"
 #include "cli/commands/older_picture.hpp"
-#include "cli/files/older_run.hpp"
-#include "cli/files/output_file.hpp"
 #include "cli/files/report_page.hpp"
 #include "cli/files/run_folder.hpp"
-#include "cli/reports/document_table.hpp"
-#include "cli/text/wrapped_text.hpp"
-#include "core/base/error.hpp"
 
 /// Reports of earlier runs: what is shown of the mechanism is simulated again from the run card.
 namespace pleuel {

@@ -1,13 +1,6 @@
-#include <algorithm>
-#include <vector>
-
-#include <fmt/format.h>
-
 #include "cli/commands/commands.hpp"
 #include "cli/files/older_run.hpp"
 #include "cli/text/table.hpp"
-#include "core/base/error.hpp"
-#include "core/base/number_text.hpp"
 
 /// A table of the runs in a folder.
 namespace pleuel {

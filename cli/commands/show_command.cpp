@@ -1,30 +1,15 @@
-#include <algorithm>
 #include <cmath>
 #include <memory>
-#include <string>
-
-#include <fmt/format.h>
 
 #include "cli/commands/commands.hpp"
-#include "cli/files/output_file.hpp"
 #include "cli/files/report_page.hpp"
-#include "cli/files/run_folder.hpp"
-#include "cli/files/run_picture.hpp"
 #include "cli/files/run_record.hpp"
-#include "cli/input/problem_input.hpp"
 #include "cli/reports/effects_report.hpp"
 #include "cli/reports/scene_report.hpp"
-#include "cli/reports/warnings.hpp"
-#include "cli/text/wrapped_text.hpp"
-#include "core/base/error.hpp"
-#include "core/base/number_text.hpp"
-#include "core/base/stopwatch.hpp"
 #include "core/mobility/lock.hpp"
 #include "core/model/drive_rows.hpp"
-#include "core/response/analysis.hpp"
 #include "core/response/monitors.hpp"
 #include "core/scene/body_rules.hpp"
-#include "core/start/degrees_of_freedom.hpp"
 #include "core/start/initial_state.hpp"
 #include "core/trust/checks.hpp"
 #include "core/trust/joint_findings.hpp"

@@ -1,15 +1,4 @@
-#include <optional>
-
-#include <fmt/format.h>
-
 #include "cli/commands/commands.hpp"
-#include "cli/commands/progress_line.hpp"
-#include "cli/files/csv_file.hpp"
-#include "cli/files/run_record.hpp"
-#include "cli/reports/document_table.hpp"
-#include "cli/reports/warnings.hpp"
-#include "cli/text/console.hpp"
-#include "core/base/number_text.hpp"
 #include "core/trust/checks.hpp"
 #include "studies/stability.hpp"
 

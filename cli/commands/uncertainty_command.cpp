@@ -1,21 +1,8 @@
-#include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include "cli/commands/accurate_input.hpp"
 #include "cli/commands/commands.hpp"
-#include "cli/commands/progress_line.hpp"
-#include "cli/files/csv_file.hpp"
-#include "cli/files/run_picture.hpp"
-#include "cli/files/run_record.hpp"
-#include "cli/files/run_store.hpp"
-#include "cli/reports/document_table.hpp"
-#include "cli/reports/warnings.hpp"
-#include "core/base/number_text.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "core/trust/checks.hpp"
 #include "studies/missing_settings.hpp"

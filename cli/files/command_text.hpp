@@ -1,8 +1,5 @@
 #pragma once
 
-#include <filesystem>
-#include <string>
-
 #include "cli/input/arguments.hpp"
 
 namespace pleuel {

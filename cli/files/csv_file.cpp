@@ -1,8 +1,5 @@
 #include "cli/files/csv_file.hpp"
 
-#include <string>
-#include <utility>
-
 #include <fmt/format.h>
 
 #include "cli/text/csv_table.hpp"

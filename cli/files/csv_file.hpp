@@ -1,17 +1,10 @@
 #pragma once
 
-#include <filesystem>
-#include <string>
 #include <utility>
-#include <vector>
-
-#include <Eigen/Core>
 
 #include "cli/files/output_file.hpp"
 #include "cli/text/json.hpp"
 #include "core/response/analysis.hpp"
-#include "core/scene/problem_file.hpp"
-#include "core/scene/shown_unit.hpp"
 #include "optimization/design/design_problem.hpp"
 #include "optimization/history.hpp"
 

@@ -15,9 +15,7 @@
 #include "cli/input/problem_input.hpp"
 #include "cli/reports/document_table.hpp"
 #include "core/base/error.hpp"
-#include "core/response/analysis.hpp"
 #include "core/response/effect_measurement.hpp"
-#include "core/scene/problem_reader.hpp"
 
 namespace pleuel {
 

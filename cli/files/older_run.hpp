@@ -1,11 +1,5 @@
 #pragma once
 
-#include <filesystem>
-#include <optional>
-#include <string>
-
-#include <Eigen/Core>
-
 #include "cli/input/arguments.hpp"
 #include "cli/text/json.hpp"
 #include "core/scene/problem_file.hpp"

@@ -1,12 +1,9 @@
 #pragma once
 
-#include <filesystem>
 #include <optional>
-#include <string>
 
 #include "cli/files/output_file.hpp"
 #include "cli/reports/outcome.hpp"
-#include "cli/text/json.hpp"
 
 /// report.html: one page without network that shows what a run found (docs/report.md).
 namespace pleuel {

@@ -7,7 +7,6 @@
 #include "cli/files/csv_file.hpp"
 #include "cli/files/scene_picture.hpp"
 #include "cli/reports/analysis_report.hpp"
-#include "cli/text/json.hpp"
 #include "core/model/imported_constants.hpp"
 #include "core/response/history_reduction.hpp"
 #include "core/response/peak_place.hpp"
@@ -15,7 +14,6 @@
 #include "core/scene/response_parts.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "picture/companions.hpp"
-#include "picture/motion.hpp"
 #include "picture/thinned.hpp"
 
 namespace pleuel {

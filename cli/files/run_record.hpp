@@ -1,13 +1,7 @@
 #pragma once
 
-#include <filesystem>
-#include <functional>
-#include <string>
-#include <vector>
-
 #include "cli/files/output_file.hpp"
 #include "cli/files/run_folder.hpp"
-#include "cli/input/arguments.hpp"
 #include "cli/input/problem_input.hpp"
 #include "cli/reports/outcome.hpp"
 #include "core/base/stopwatch.hpp"

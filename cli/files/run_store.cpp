@@ -1,7 +1,6 @@
 #include "cli/files/run_store.hpp"
 
 #include <ctime>
-#include <utility>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -9,7 +8,6 @@
 #include "cli/files/command_text.hpp"
 #include "cli/input/fingerprint.hpp"
 #include "cli/text/console.hpp"
-#include "cli/text/json.hpp"
 #include "core/base/error.hpp"
 #include "core/base/stop.hpp"
 

@@ -1,12 +1,8 @@
 #pragma once
 
-#include <filesystem>
-#include <optional>
-#include <string>
 #include <utility>
 
 #include "cli/files/run_record.hpp"
-#include "cli/input/problem_input.hpp"
 #include "core/jobs/part_store.hpp"
 #include "optimization/verdict.hpp"
 #include "record/run_database.hpp"

@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 #include <fmt/format.h>
 
 #include "cli/reports/scene_report.hpp"
-#include "cli/text/json.hpp"
 #include "core/base/number_text.hpp"
 #include "core/model/motion_plane.hpp"
-#include "core/response/analysis.hpp"
 #include "core/scene/grammar/tables.hpp"
 #include "core/scene/joint_kind.hpp"
 #include "core/scene/shown_unit.hpp"

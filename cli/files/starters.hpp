@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "cli/input/arguments.hpp"
 
 /// Files that the program carries with it: problems to begin with, and the schema of problem files.

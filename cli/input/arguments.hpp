@@ -2,9 +2,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "core/jobs/parallel.hpp"
 #include "core/jobs/tasks.hpp"

@@ -1,9 +1,6 @@
 #include "cli/input/design_file.hpp"
 
 #include <algorithm>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include <fmt/format.h>
 

@@ -1,7 +1,6 @@
 #include "cli/input/problem_input.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,10 +9,8 @@
 #include "cli/input/fingerprint.hpp"
 #include "cli/text/console.hpp"
 #include "core/base/error.hpp"
-#include "core/response/analysis.hpp"
 #include "core/response/effect_measurement.hpp"
 #include "core/scene/load_cases.hpp"
-#include "core/scene/problem_reader.hpp"
 #include "core/scene/reading/document_reader.hpp"
 #include "core/scene/reading/override.hpp"
 

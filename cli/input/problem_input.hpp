@@ -1,15 +1,7 @@
 #pragma once
 
-#include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include <Eigen/Core>
-
 #include "cli/input/arguments.hpp"
 #include "cli/text/json.hpp"
-#include "core/scene/problem_file.hpp"
 #include "core/scene/problem_numbers.hpp"
 #include "core/trust/setting_choice.hpp"
 

@@ -3,17 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <optional>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "cli/text/console.hpp"
-#include "cli/text/json.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/error.hpp"
-#include "core/scene/reading/json_text.hpp"
 #include "core/scene/reading/override.hpp"
 #include "core/scene/reading/syntax_error.hpp"
 #include "optimization/backends.hpp"

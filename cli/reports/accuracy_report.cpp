@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "cli/reports/accuracy_document.hpp"
 #include "cli/reports/outcome.hpp"
 #include "cli/reports/time_text.hpp"
@@ -13,7 +11,6 @@
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/find_named.hpp"
 #include "core/base/number_text.hpp"
-#include "core/scene/shown_unit.hpp"
 
 namespace pleuel {
 

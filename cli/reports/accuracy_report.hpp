@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-
-#include "studies/accuracy.hpp"
 #include "studies/accuracy_optimum.hpp"
 
 namespace pleuel {

@@ -6,8 +6,6 @@
 #include <map>
 #include <numeric>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include <fmt/format.h>
 

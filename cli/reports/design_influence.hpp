@@ -1,10 +1,6 @@
 #pragma once
 
-#include <optional>
-#include <vector>
-
 #include "cli/text/json.hpp"
-#include "core/response/analysis.hpp"
 #include "sensitivity/history_gradients.hpp"
 
 /// What the variables change of the responses of a simulated design.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -14,7 +13,6 @@
 #include "core/response/divided_deflection.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "optimization/verdict.hpp"
-#include "sensitivity/kinks.hpp"
 #include "studies/varied_limit.hpp"
 
 namespace pleuel {

@@ -1,15 +1,8 @@
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "cli/reports/document_table.hpp"
 #include "cli/reports/warnings.hpp"
-#include "cli/text/json.hpp"
-#include "core/base/error_bar.hpp"
 #include "core/response/analysis.hpp"
-#include "core/scene/problem_file.hpp"
 #include "sensitivity/kinks.hpp"
 #include "studies/pareto_front.hpp"
 

@@ -10,12 +10,10 @@
 
 #include "cli/reports/document_table.hpp"
 #include "cli/reports/starts_report.hpp"
-#include "cli/text/table.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/number_text.hpp"
 #include "core/mechanism/configuration.hpp"
 #include "core/scene/joint_kind.hpp"
-#include "core/scene/shown_unit.hpp"
 #include "core/scene/time_breaks.hpp"
 
 namespace pleuel {

@@ -1,14 +1,10 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "cli/text/json.hpp"
 #include "core/base/error_bar.hpp"
-#include "core/scene/problem_file.hpp"
 #include "core/scene/shown_unit.hpp"
 
 /// What speaks against numbers, as people read it.

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include <fmt/format.h>
-
 #include "cli/text/svg.hpp"
 #include "core/base/int_size.hpp"
 #include "core/base/number_text.hpp"

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include <fmt/format.h>
-
 #include "cli/text/svg.hpp"
 #include "cli/text/wrapped_text.hpp"
 
