@@ -53,24 +53,19 @@ Examination examine(const ProblemFile& problem, const Eigen::VectorXd& x,
   try {
     findings.influences = effect_influences(
         problem, x, arguments.wants_effects ? InfluenceTimes::measured : InfluenceTimes::none);
-  } catch (const Stopped&) {
-    findings.is_interrupted = true;
-    return findings;
-  }
-  if (problem.variables.empty() || problem.responses.empty()) return findings;
-  const Stopwatch gradient;
-  findings.influence = DesignInfluence{direct_gradients(*findings.analysis)};
-  findings.gradient_seconds = gradient.seconds();
-  DerivativeCheckOptions options;
-  options.threads = arguments.jobs;
-  options.see_differences = [&](int simulations) {
-    const std::string line =
-        fmt::format("verifying derivatives by {} simulations for differences …", simulations);
-    if (!progress.is_shown()) progress.print(line);
-    progress.expect(line, simulations * findings.simulation_seconds / std::max(1, arguments.jobs));
-  };
-  try {
-    findings.derivatives = check_derivatives(problem, x, *findings.analysis, options);
+    if (problem.variables.empty() || problem.responses.empty()) return findings;
+    const Stopwatch gradient;
+    findings.influence = DesignInfluence{direct_gradients(*findings.analysis)};
+    findings.gradient_seconds = gradient.seconds();
+    const auto see_differences = [&](int simulations) {
+      const std::string line =
+          fmt::format("verifying derivatives by {} simulations for differences …", simulations);
+      if (!progress.is_shown()) progress.print(line);
+      progress.expect(line,
+                      simulations * findings.simulation_seconds / std::max(1, arguments.jobs));
+    };
+    findings.derivatives =
+        check_derivatives(problem, x, *findings.analysis, {arguments.jobs, see_differences});
   } catch (const Stopped&) {
     findings.is_interrupted = true;
   }
