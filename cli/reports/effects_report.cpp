@@ -39,28 +39,6 @@ void add_influence(const ProblemFile& problem, const EffectInfluence& influence,
   if (influence.time) entry["time"] = time_change_document(*influence.time);
 }
 
-bool are_alike(const EffectRecord& one, const EffectRecord& other) {
-  return one.name == other.name && one.is_built == other.is_built && one.kind == other.kind &&
-         one.reason == other.reason && one.coordinates_saved == other.coordinates_saved;
-}
-
-/// Effects that are decided alike, and of which bodies.
-struct AlikeEffects {
-  const EffectRecord* effect;
-  std::vector<std::string> bodies;
-};
-
-std::vector<AlikeEffects> alike_effects(const Model& model) {
-  std::vector<AlikeEffects> all;
-  for (const EffectRecord& effect : model.effects) {
-    auto same = std::ranges::find_if(
-        all, [&](const AlikeEffects& one) { return are_alike(*one.effect, effect); });
-    if (same == all.end()) same = all.insert(all.end(), {&effect, {}});
-    if (!effect.body.empty()) same->bodies.push_back(effect.body);
-  }
-  return all;
-}
-
 std::string bodies_text(const std::vector<std::string>& bodies) {
   constexpr std::size_t most = 3;
   if (bodies.empty()) return "–";
@@ -213,13 +191,27 @@ Json effects_document(const ProblemFile& problem, const Model& model,
 }
 
 std::string effects_text(const Model& model) {
+  struct Row {
+    std::vector<std::string> cells, bodies;
+  };
+  std::vector<Row> rows;
+  for (const EffectRecord& effect : model.effects) {
+    const int saved = effect.coordinates_saved;
+    const std::vector<std::string> cells = {effect.name,
+                                            "",
+                                            effect.is_built ? "yes" : "no",
+                                            kind_of(effect),
+                                            saved > 0 ? std::to_string(saved) : "–",
+                                            effect.reason};
+    auto same = std::ranges::find(rows, cells, &Row::cells);
+    if (same == rows.end()) same = rows.insert(rows.end(), {cells, {}});
+    if (!effect.body.empty()) same->bodies.push_back(effect.body);
+  }
   Table table({left_aligned("effect"), left_aligned("of"), left_aligned("built"),
                left_aligned("decision"), "saves", left_aligned("because")});
-  for (const auto& [effect, bodies] : alike_effects(model)) {
-    table.add_row({effect->name, bodies_text(bodies), effect->is_built ? "yes" : "no",
-                   kind_of(*effect),
-                   effect->coordinates_saved > 0 ? std::to_string(effect->coordinates_saved) : "–",
-                   effect->reason});
+  for (auto& [cells, bodies] : rows) {
+    cells[1] = bodies_text(bodies);
+    table.add_row(cells);
   }
   return table.text();
 }

@@ -28,21 +28,14 @@ void show_warnings_before(const ProblemFile& problem) {
 }
 
 void SharedWarnings::add(const std::vector<std::string>& warnings, const std::string& whose) {
-  for (const std::string& warning : warnings) {
-    const auto known =
-        std::ranges::find_if(warnings_, [&](const auto& entry) { return entry.first == warning; });
-    if (known == warnings_.end()) {
-      warnings_.emplace_back(warning, whose);
-    } else {
-      known->second += ", " + whose;
-    }
-  }
+  for (const std::string& warning : warnings) all_[warning].push_back(whose);
 }
 
 std::vector<std::string> SharedWarnings::sentences() const {
   std::vector<std::string> sentences;
-  for (const auto& [warning, whose] : warnings_) {
-    sentences.push_back(fmt::format("{} ({})", warning, whose));
+  for (const auto& [warning, whose] : all_.items()) {
+    sentences.push_back(
+        fmt::format("{} ({})", warning, fmt::join(whose.get<std::vector<std::string>>(), ", ")));
   }
   return sentences;
 }

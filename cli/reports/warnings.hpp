@@ -26,7 +26,7 @@ class SharedWarnings {
   std::vector<std::string> sentences() const;
 
  private:
-  std::vector<std::pair<std::string, std::string>> warnings_;  ///< and whose they are
+  Json all_ = Json::object();  ///< {WARNING: [whose]}
 };
 
 /// Adds the sentences that are not there yet.
