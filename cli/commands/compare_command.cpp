@@ -170,19 +170,20 @@ class Side {
   /// Points of fronts are the same at the same limit, to nine digits.
   void add_points() {
     const Json points = part_of(run_, "points"), units = part_of(run_, "units");
-    if (points.empty()) return;
+    if (!points.is_array() || points.empty()) return;
     const std::string front = text_at(run_.result, "/constraint") + units.dump();
     add({{"group", "points"}, {"name", "number"}, {"unit", ""}}, {{"size", points.size()}}, "size",
         front);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const std::string limit = fmt::format("{:.8e}", number_at(points[i], "/limit").value_or(NAN));
+      const auto limit = number_at(points[i], "/limit");
+      if (!limit) continue;
       const Json objectives = points[i].value("objectives", Json::object());
       for (const auto& [name, value] : objectives.items()) {
         add({{"group", "points"},
              {"name", name},
              {"of", std::to_string(i + 1)},
              {"unit", units.value(name, "")}},
-            objectives, name, front + limit);
+            objectives, name, fmt::format("{}{:.8e}", front, *limit));
       }
     }
   }
