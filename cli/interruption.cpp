@@ -1,12 +1,9 @@
 #include "cli/interruption.hpp"
 
-#include <array>
 #include <csignal>
 #include <exception>
 #include <filesystem>
 #include <new>
-
-#include <fmt/format.h>
 
 #include "core/base/error.hpp"
 #include "core/base/quoted.hpp"

@@ -1,10 +1,8 @@
 #include "cli/program.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <string_view>
 
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include "cli/input/parse_arguments.hpp"

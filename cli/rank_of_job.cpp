@@ -7,8 +7,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <stdexcept>
-#include <string>
 
 #include <fmt/format.h>
 #include <sys/prctl.h>

@@ -1,8 +1,6 @@
 #include "cli/ranks.hpp"
 
 #include <algorithm>
-#include <array>
-#include <map>
 #include <set>
 #include <utility>
 
@@ -13,7 +11,6 @@
 #include "cli/input/fingerprint.hpp"
 #include "cli/interruption.hpp"
 #include "core/base/error.hpp"
-#include "core/base/packed.hpp"
 #include "core/jobs/rank_place.hpp"
 #include "optimization/design/multi_start.hpp"
 #include "optimization/design/size_trials.hpp"

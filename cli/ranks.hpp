@@ -1,10 +1,8 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "core/jobs/rank_place.hpp"
-#include "core/jobs/worker.hpp"
 
 namespace pleuel {
 

@@ -1,19 +1,14 @@
 #include "cli/run_command.hpp"
 
 #include <map>
-#include <optional>
-#include <string>
 
 #include "cli/commands/commands.hpp"
 #include "cli/commands/each_case.hpp"
-#include "core/base/error.hpp"
 #include "core/jobs/child_program.hpp"
 
 namespace pleuel {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 Outcome run_named(const Arguments& arguments) {
   static const std::map<std::string, Outcome (*)(const Arguments&)> commands = {

@@ -1,25 +1,9 @@
-#include <algorithm>
-#include <optional>
-
-#include <fmt/format.h>
-
 #include "cli/commands/commands.hpp"
-#include "cli/commands/progress_line.hpp"
-#include "cli/files/csv_file.hpp"
-#include "cli/files/run_picture.hpp"
-#include "cli/files/run_record.hpp"
-#include "cli/files/run_store.hpp"
 #include "cli/input/run_setting.hpp"
 #include "cli/reports/accuracy_charts.hpp"
 #include "cli/reports/accuracy_document.hpp"
 #include "cli/reports/accuracy_report.hpp"
-#include "cli/reports/warnings.hpp"
-#include "cli/text/console.hpp"
-#include "core/base/error.hpp"
-#include "core/base/number_text.hpp"
 #include "core/base/stop.hpp"
-#include "core/base/stopwatch.hpp"
-#include "studies/accuracy.hpp"
 #include "studies/accuracy_optimum.hpp"
 #include "studies/accuracy_run.hpp"
 
@@ -72,15 +56,10 @@ class GridProgress {
 
 /// accuracy.csv: a line for each run as it is done [SI]; empty cells where nothing is known.
 std::vector<CsvColumn> accuracy_columns(const ProblemFile& problem) {
-  const Json::json_pointer run, work("/work");
-  std::vector<CsvColumn> columns = {{"step", Json::json_pointer("/settings/step")},
-                                    {"elements", run / "elements"}};
-  for (const char* name : {"steps", "newton_iterations", "factorizations"}) {
-    columns.push_back({name, work / name});
-  }
-  for (const char* name : {"simulation_seconds", "gradient_seconds"}) {
-    columns.push_back({name, run / name});
-  }
+  const Json::json_pointer run;
+  std::vector<CsvColumn> columns =
+      columns_at({"/settings/step", "/elements", "/work/steps", "/work/newton_iterations",
+                  "/work/factorizations", "/simulation_seconds", "/gradient_seconds"});
   for (const std::string kind : {"error", "gradient_error"}) {
     for (const ResponseSettings& one : problem.responses) {
       columns.push_back({kind + ":" + one.name, run / (kind + "s") / one.name});
@@ -166,21 +145,17 @@ Answer find_answer(const ProblemInput& input, const Arguments& arguments, RunRec
   return answer;
 }
 
-/// Writes the diagrams that there are numbers for; their names, for people.
-std::string write_charts(const ProblemFile& problem, const Answer& answer, RunRecord& record) {
-  std::string names;
-  const auto write = [&](const char* name, const LogLogChart& chart) {
-    write_file(record.result(name), to_svg(chart));
-    names += fmt::format("{}, ", name);
-  };
-  write("accuracy.svg", value_chart(problem, answer.study));
+/// Writes the diagrams that there are numbers for.
+void write_charts(const ProblemFile& problem, const Answer& answer, RunRecord& record) {
+  write_file(record.result("accuracy.svg"), to_svg(value_chart(problem, answer.study)));
   if (!problem.variables.empty()) {
-    write("accuracy-gradients.svg", gradient_chart(problem, answer.study));
+    write_file(record.result("accuracy-gradients.svg"),
+               to_svg(gradient_chart(problem, answer.study)));
   }
   if (answer.optima && !answer.optima->reference.has_failed()) {
-    write("accuracy-optimum.svg", optimum_chart(problem, *answer.optima));
+    write_file(record.result("accuracy-optimum.svg"),
+               to_svg(optimum_chart(problem, *answer.optima)));
   }
-  return names;
 }
 
 }  // namespace
@@ -202,18 +177,9 @@ Outcome run_accuracy(const Arguments& arguments) {
   if (optima != nullptr) add_optima(input, *optima, outcome.document);
   if (answer.is_interrupted()) outcome.document["status"] = study_status(false);
   outcome.text += "\n";
-  if (answer.is_interrupted()) {
-    outcome.text += resume_text(arguments, record.folder(), Status::interrupted);
-  }
-  outcome.text +=
-      store.text() +
-      fmt::format("Written to {}: accuracy.csv, {}result.json, run_card.json, run.sqlite\n",
-                  record.folder().string(), write_charts(problem, answer, record));
+  write_charts(problem, answer, record);
   store.finish(outcome);
-  record.show_picture([&] {
-    return run_picture(input.problem, {{arguments.design ? "design" : "start", input.design}});
-  });
-  record.finish(outcome);
+  record.finish(outcome, [&] { return run_picture(problem, {{input.design_name, input.design}}); });
   return outcome;
 }
 

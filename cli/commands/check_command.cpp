@@ -1,30 +1,16 @@
-#include <algorithm>
-#include <optional>
-
-#include <fmt/format.h>
-
 #include "cli/commands/commands.hpp"
-#include "cli/commands/progress_line.hpp"
-#include "cli/files/run_picture.hpp"
-#include "cli/files/run_record.hpp"
 #include "cli/input/problem_input.hpp"
 #include "cli/reports/analysis_report.hpp"
 #include "cli/reports/derivative_report.hpp"
 #include "cli/reports/effects_report.hpp"
 #include "cli/reports/limits_report.hpp"
 #include "cli/reports/scene_report.hpp"
-#include "cli/reports/warnings.hpp"
-#include "cli/text/wrapped_text.hpp"
-#include "core/base/number_text.hpp"
 #include "core/base/stop.hpp"
-#include "core/base/stopwatch.hpp"
 #include "core/model/drive_rows.hpp"
 #include "core/scene/body_rules.hpp"
 #include "core/trust/checks.hpp"
-#include "core/trust/finding.hpp"
 #include "sensitivity/gradients.hpp"
 #include "sensitivity/initial_sensitivity.hpp"
-#include "studies/derivative_check.hpp"
 
 namespace pleuel {
 
@@ -67,24 +53,19 @@ Examination examine(const ProblemFile& problem, const Eigen::VectorXd& x,
   try {
     findings.influences = effect_influences(
         problem, x, arguments.wants_effects ? InfluenceTimes::measured : InfluenceTimes::none);
-  } catch (const Stopped&) {
-    findings.is_interrupted = true;
-    return findings;
-  }
-  if (problem.variables.empty() || problem.responses.empty()) return findings;
-  const Stopwatch gradient;
-  findings.influence = DesignInfluence{direct_gradients(*findings.analysis)};
-  findings.gradient_seconds = gradient.seconds();
-  DerivativeCheckOptions options;
-  options.threads = arguments.jobs;
-  options.see_differences = [&](int simulations) {
-    const std::string line =
-        fmt::format("verifying derivatives by {} simulations for differences …", simulations);
-    if (!progress.is_shown()) progress.print(line);
-    progress.expect(line, simulations * findings.simulation_seconds / std::max(1, arguments.jobs));
-  };
-  try {
-    findings.derivatives = check_derivatives(problem, x, *findings.analysis, options);
+    if (problem.variables.empty() || problem.responses.empty()) return findings;
+    const Stopwatch gradient;
+    findings.influence = DesignInfluence{direct_gradients(*findings.analysis)};
+    findings.gradient_seconds = gradient.seconds();
+    const auto see_differences = [&](int simulations) {
+      const std::string line =
+          fmt::format("verifying derivatives by {} simulations for differences …", simulations);
+      if (!progress.is_shown()) progress.print(line);
+      progress.expect(line,
+                      simulations * findings.simulation_seconds / std::max(1, arguments.jobs));
+    };
+    findings.derivatives =
+        check_derivatives(problem, x, *findings.analysis, {arguments.jobs, see_differences});
   } catch (const Stopped&) {
     findings.is_interrupted = true;
   }
@@ -179,16 +160,13 @@ Outcome run_check(const Arguments& arguments) {
                   check_document(problem, findings),
                   make_text(problem, findings, arguments.wants_effects)};
   if (!record) return outcome;
-  record->show_picture([&] {
-    return run_picture(problem, {{arguments.design ? "design" : "start",
+  record->finish(outcome, [&] {
+    return run_picture(problem, {{input.design_name,
                                   input.design,
                                   findings.analysis.get(),
                                   {},
                                   findings.influence ? &*findings.influence : nullptr}});
   });
-  outcome.text +=
-      fmt::format("Written to {}: result.json, run_card.json\n", record->folder().string());
-  record->finish(outcome);
   return outcome;
 }
 

@@ -1,9 +1,26 @@
 #pragma once
 
-#include "cli/input/arguments.hpp"
-#include "cli/reports/outcome.hpp"
+#include <algorithm>
+#include <optional>
 
-/// The commands of the program, one file each. All throw InputError and SimulationError.
+#include <fmt/format.h>
+
+#include "cli/commands/accurate_input.hpp"
+#include "cli/commands/progress_line.hpp"
+#include "cli/files/csv_file.hpp"
+#include "cli/files/run_picture.hpp"
+#include "cli/files/run_record.hpp"
+#include "cli/files/run_store.hpp"
+#include "cli/reports/document_table.hpp"
+#include "cli/reports/warnings.hpp"
+#include "cli/text/console.hpp"
+#include "cli/text/wrapped_text.hpp"
+#include "core/base/error.hpp"
+#include "core/base/number_text.hpp"
+#include "core/base/stopwatch.hpp"
+
+/// The commands of the program, one file each, and what they are made of. All throw InputError and
+/// SimulationError.
 namespace pleuel {
 
 Outcome run_accuracy(const Arguments& arguments);

@@ -1,21 +1,10 @@
-#include <algorithm>
 #include <cmath>
 #include <map>
-#include <string>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "cli/commands/commands.hpp"
 #include "cli/commands/older_picture.hpp"
-#include "cli/files/older_run.hpp"
-#include "cli/files/output_file.hpp"
 #include "cli/files/report_page.hpp"
 #include "cli/files/run_folder.hpp"
-#include "cli/reports/document_table.hpp"
-#include "cli/text/wrapped_text.hpp"
-#include "core/base/error.hpp"
-#include "core/base/number_text.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/scene/shown_unit.hpp"
 
@@ -115,121 +104,113 @@ ShownUnit unit_in(const Units& units, const Json& compared) {
   return fits ? known->second : engineering_unit(si);
 }
 
-/// An entry of "outcome": a number that both results have, or one of them [SI].
-/// @param of  what of it, if that is not its value; of points their number
-Json compared(const std::string& group, const std::string& name, const std::string& of,
-              const std::string& unit, const Json& first, const Json& second) {
-  Json entry = {{"group", group}, {"name", name}};
-  if (!of.empty()) entry["of"] = of;
-  entry.update({{"unit", unit}, {"first", first}, {"second", second}});
-  return entry;
-}
-
-/// A part of a result, by name; nothing where it is not there.
+/// A part of a result, by name; empty where it is not there.
 Json part_of(const OlderRun& run, const std::string& name) {
   const Json part = run.result.is_object() ? run.result.value(name, Json()) : Json();
-  return part.is_object() ? part : Json::object();
+  return part.is_structured() ? part : Json::object();
 }
 
-Json member(const Json& values, const std::string& name, const char* key) {
-  const Json value = values.value(name, Json());
-  return value.is_object() ? value.value(key, Json()) : Json();
-}
+/// The numbers of one side of the comparison [SI]: {GROUP: {KEY: entry}}. What has the same key in
+/// both results is the same number.
+class Side {
+ public:
+  /// @param name    "first" or "second"
+  /// @param groups  that the numbers go into, beside those of the other side
+  Side(const OlderRun& run, const char* name, Json& groups)
+      : run_(run), name_(name), groups_(groups) {
+    for (const char* group : {"variables", "constraints", "responses"}) add_values(group);
+    add_prices();
+    add_points();
+    for (const char* key : {"evaluations", "iterations", "kkt_residual", "max_violation"}) {
+      add({{"group", "effort"}, {"name", key}, {"unit", ""}}, run.result, key);
+    }
+    add({{"group", "effort"}, {"name", "seconds"}, {"unit", ""}}, run.card.value("seconds", Json()),
+        "total");
+  }
 
-/// What there is of each name of a group, which has one unit: a key of its entry in the results,
-/// and what it is called.
-struct ComparedKey {
-  const char* key;
-  const char* title;
+ private:
+  /// The number that stands there in a document, if there is one.
+  /// @param entry  {"group", "name", "of": what of it, if that is not its value; of points their
+  ///               number, "unit"}
+  void add(Json entry, const Json& document, const std::string& key, const std::string& same = "") {
+    const Json value = document.is_object() ? document.value(key, Json()) : Json();
+    if (!value.is_number()) return;
+    const std::string of = same.empty() ? text_at(entry, "/of") : same;
+    Json& known = groups_[text_at(entry, "/group")][text_at(entry, "/name") + "\n" + of];
+    if (known.is_null()) {
+      entry.update({{"first", nullptr}, {"second", nullptr}});
+      known = std::move(entry);
+    }
+    known[name_] = value;
+  }
+
+  /// Of {NAME: {"value", "deviation", "unit"}}.
+  void add_values(const char* group) {
+    const Json entries = part_of(run_, group);
+    for (const auto& [name, entry] : entries.items()) {
+      const std::string unit = text_at(entry, "/unit");
+      add({{"group", group}, {"name", name}, {"unit", unit}}, entry, "value");
+      add({{"group", group}, {"name", name}, {"of", "deviation"}, {"unit", unit}}, entry,
+          "deviation");
+    }
+  }
+
+  /// What one percent more of each number changes of the optimum.
+  void add_prices() {
+    const Json prices = part_of(run_, "prices"), objective = part_of(run_, "objective");
+    if (prices.empty()) return;
+    const std::string optimum = text_at(objective, "/name"), unit = text_at(objective, "/unit");
+    add({{"group", "objective"}, {"name", optimum}, {"unit", unit}}, objective, "value");
+    for (const auto& [name, price] : prices.items()) {
+      add({{"group", "prices"}, {"name", name}, {"of", "at +1 %"}, {"unit", unit}}, price,
+          "per_percent", optimum);
+    }
+  }
+
+  /// Points of fronts are the same at the same limit, to nine digits.
+  void add_points() {
+    const Json points = part_of(run_, "points"), units = part_of(run_, "units");
+    if (!points.is_array() || points.empty()) return;
+    const std::string front = text_at(run_.result, "/constraint") + units.dump();
+    add({{"group", "points"}, {"name", "number"}, {"unit", ""}}, {{"size", points.size()}}, "size",
+        front);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto limit = number_at(points[i], "/limit");
+      if (!limit) continue;
+      const Json objectives = points[i].value("objectives", Json::object());
+      for (const auto& [name, value] : objectives.items()) {
+        add({{"group", "points"},
+             {"name", name},
+             {"of", std::to_string(i + 1)},
+             {"unit", units.value(name, "")}},
+            objectives, name, fmt::format("{}{:.8e}", front, *limit));
+      }
+    }
+  }
+
+  const OlderRun& run_;
+  const char* name_;
+  Json& groups_;
 };
 
-/// The numbers of {NAME: {"value", "deviation", "unit"}} in both results.
-void add_values(const OlderRun& first, const OlderRun& second, const std::string& group,
-                Json& outcome) {
-  constexpr ComparedKey keys[] = {{"value", ""}, {"deviation", "deviation"}};
-  const Json one = part_of(first, group), other = part_of(second, group);
-  Json all = one;
-  all.update(other);
-  for (const auto& [name, entry] : all.items()) {
-    const Json& shown = one.contains(name) ? one[name] : entry;
-    for (const auto& [key, title] : keys) {
-      const Json a = member(one, name, key), b = member(other, name, key);
-      if (!a.is_number() && !b.is_number()) continue;
-      outcome.push_back(compared(group, name, title, text_at(shown, "/unit"), a, b));
-    }
-  }
-}
-
-/// What one percent more of each number changes of the optimum.
-void add_prices(const OlderRun& first, const OlderRun& second, Json& outcome) {
-  const Json one = part_of(first, "prices"), other = part_of(second, "prices");
-  if (one.empty() || other.empty()) return;
-  const Json objective = part_of(first, "objective"), of_other = part_of(second, "objective");
-  if (objective.value("name", Json()) != of_other.value("name", Json())) return;
-  const std::string unit = objective.value("unit", "");
-  outcome.push_back(compared("objective", objective.value("name", ""), "", unit,
-                             objective.value("value", Json()), of_other.value("value", Json())));
-  for (const auto& [name, price] : one.items()) {
-    const Json a = member(one, name, "per_percent"), b = member(other, name, "per_percent");
-    if (!a.is_number() || !b.is_number() || (a == 0.0 && b == 0.0)) continue;
-    outcome.push_back(compared("prices", name, "at +1 %", unit, a, b));
-  }
-}
-
-/// The point of a front with this limit; nothing if there is none.
-Json point_at(const Json& points, const Json& limit) {
-  constexpr double same = 1e-9;
-  for (const Json& point : points) {
-    const Json other = point.value("limit", Json());
-    if (!limit.is_number() || !other.is_number()) continue;
-    const double a = limit.get<double>(), b = other.get<double>();
-    if (std::abs(a - b) <= same * std::max(std::abs(a), std::abs(b))) return point;
-  }
-  return {};
-}
-
-/// Points of fronts of the same limit, those with the same bound, by their number in the first.
-void add_points(const OlderRun& first, const OlderRun& second, Json& outcome) {
-  const auto points_of = [](const OlderRun& run) {
-    const Json points = run.result.is_object() ? run.result.value("points", Json()) : Json();
-    return points.is_array() ? points : Json::array();
-  };
-  const Json one = points_of(first), other = points_of(second), units = part_of(first, "units");
-  if (one.empty() || other.empty() || units != part_of(second, "units")) return;
-  if (first.result.value("constraint", Json()) != second.result.value("constraint", Json())) return;
-  outcome.push_back(compared("points", "number", "", "", one.size(), other.size()));
-  for (std::size_t i = 0; i < one.size(); ++i) {
-    const Json found = point_at(other, one[i].value("limit", Json()));
-    if (!found.is_object()) continue;
-    const Json here = one[i].value("objectives", Json::object());
-    const Json there = found.value("objectives", Json::object());
-    for (const auto& [name, value] : here.items()) {
-      outcome.push_back(compared("points", name, std::to_string(i + 1), units.value(name, ""),
-                                 value, there.value(name, Json())));
-    }
-  }
-}
-
+/// What both results have, or one of them; of prices and fronts what both have.
 Json outcome_values(const OlderRun& first, const OlderRun& second) {
-  Json outcome = Json::array();
-  for (const char* group : {"variables", "constraints", "responses"}) {
-    add_values(first, second, group, outcome);
+  Json groups, outcome = Json::array();
+  for (const char* group :
+       {"variables", "constraints", "responses", "objective", "prices", "points", "effort"}) {
+    groups[group] = Json::object();
   }
-  add_prices(first, second, outcome);
-  add_points(first, second, outcome);
-  const auto add = [&](const char* name, const Json& a, const Json& b) {
-    if (a.is_number() || b.is_number()) outcome.push_back(compared("effort", name, "", "", a, b));
-  };
-  const auto of = [](const OlderRun& run, const char* key) {
-    return run.result.is_object() ? run.result.value(key, Json()) : Json();
-  };
-  for (const char* key : {"evaluations", "iterations", "kkt_residual", "max_violation"}) {
-    add(key, of(first, key), of(second, key));
+  Side(first, "first", groups);
+  Side(second, "second", groups);
+  for (const auto& [group, entries] : groups.items()) {
+    const bool takes_both = group == "objective" || group == "prices" || group == "points";
+    for (const Json& entry : entries) {
+      const Json &a = entry["first"], &b = entry["second"];
+      const bool is_free = group == "prices" && a == 0.0 && b == 0.0;
+      if (is_free || (takes_both && (a.is_null() || b.is_null()))) continue;
+      outcome.push_back(entry);
+    }
   }
-  const auto seconds = [](const OlderRun& run) {
-    return run.seconds() ? Json(*run.seconds()) : Json();
-  };
-  add("seconds", seconds(first), seconds(second));
   return outcome;
 }
 
@@ -287,8 +268,8 @@ std::string outcomes_text(const OlderRun& first, const OlderRun& second, const J
 
 /// The last design of each run, which the page lets move together.
 Json both_pictures(const OlderRun& first, const OlderRun& second, Notes& notes) {
-  Json picture = picture_of_run(first.card, first.result, first.folder, notes);
-  Json other = picture_of_run(second.card, second.result, second.folder, notes);
+  Json picture = picture_of_run(first, notes);
+  Json other = picture_of_run(second, notes);
   if (picture.is_object() && other.is_object()) picture["compared"] = std::move(other);
   return picture;
 }
@@ -303,10 +284,9 @@ Json compared_run(const OlderRun& run) {
 }
 
 /// A page of both, where pages can be made.
-void write_page(const Arguments& arguments, const OlderRun& first, const OlderRun& second,
-                Outcome& outcome) {
-  const auto page_template = find_report_template();
-  if (!page_template) return;
+void draw_both(const Arguments& arguments, const OlderRun& first, const OlderRun& second,
+               Outcome& outcome) {
+  if (!find_report_template()) return;
   Json picture, result = outcome.document;
   Notes notes;
   try {
@@ -320,15 +300,9 @@ void write_page(const Arguments& arguments, const OlderRun& first, const OlderRu
                      {"arguments", arguments.words},
                      {"problem", second.card.value("problem", Json())},
                      {"input", {{"file", first.folder.string() + ", " + second.folder.string()}}}};
-  const std::filesystem::path page = arguments.output.value_or(free_page("compare"));
-  make_folder_of(page);
-  WriteFailures failures;
-  if (write_file({page, &failures},
-                 report_page(*page_template, report_data(card, result, picture, "")))) {
-    outcome.document["page"] = page.string();
-    outcome.text += fmt::format("\nDrawn in {}\n", page.string());
-  }
-  outcome.unwritten = failures.files();
+  outcome.text += "\n";
+  draw_page(arguments.output.value_or(free_page("compare")), report_data(card, result, picture),
+            outcome);
 }
 
 }  // namespace
@@ -347,7 +321,7 @@ Outcome run_compare(const Arguments& arguments) {
       fmt::format("first: {}, second: {}\n\n{}\n{}", first.folder.string(), second.folder.string(),
                   inputs.empty() ? same_inputs_text(first, second) : inputs_text(inputs),
                   outcomes_text(first, second, values));
-  write_page(arguments, first, second, outcome);
+  draw_both(arguments, first, second, outcome);
   return outcome;
 }
 

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <string>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -86,8 +84,7 @@ Outcome failed_case(const Arguments& arguments, const std::string& name,
 
 std::string limits_left_out_text(const Arguments& arguments) {
   constexpr std::array with_limits = {"simulate", "optimize", "prices"};
-  const bool has_limits =
-      std::find(with_limits.begin(), with_limits.end(), arguments.command) != with_limits.end();
+  const bool has_limits = std::ranges::find(with_limits, arguments.command) != with_limits.end();
   if (!has_limits || !arguments.load_case) return "";
   const ProblemFile joined = read_problem(arguments.file, arguments.overrides).complete();
   std::vector<std::string> names;
@@ -101,8 +98,7 @@ std::string limits_left_out_text(const Arguments& arguments) {
 }
 
 bool asks_for_each_case(const Arguments& arguments) {
-  const bool is_such =
-      std::find(commands.begin(), commands.end(), arguments.command) != commands.end();
+  const bool is_such = std::ranges::find(commands, arguments.command) != commands.end();
   return is_such && !arguments.load_case && !case_names(arguments).empty();
 }
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "cli/input/arguments.hpp"
 #include "cli/reports/outcome.hpp"
 

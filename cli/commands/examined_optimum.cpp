@@ -2,12 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <memory>
-#include <optional>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -25,7 +21,6 @@
 #include "core/scene/load_cases.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "core/trust/checks.hpp"
-#include "core/trust/finding.hpp"
 #include "core/trust/refined_runs.hpp"
 #include "optimization/prices.hpp"
 #include "picture/companions.hpp"

@@ -1,10 +1,7 @@
 #pragma once
 
-#include <string>
-
 #include "cli/files/run_record.hpp"
 #include "cli/reports/optimum_document.hpp"
-#include "cli/text/json.hpp"
 
 namespace pleuel {
 

@@ -1,27 +1,16 @@
-#include <algorithm>
 #include <filesystem>
-#include <string>
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "cli/commands/commands.hpp"
-#include "cli/files/csv_file.hpp"
 #include "cli/files/older_run.hpp"
-#include "cli/files/run_store.hpp"
 #include "cli/files/vtk_series.hpp"
-#include "cli/text/json.hpp"
-#include "core/base/error.hpp"
 #include "core/base/plain_file_name.hpp"
-#include "core/response/analysis.hpp"
 
 /// What a record of evaluations holds, as tables for other programs.
 namespace pleuel {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Names of what vectors of the record stand for.
 struct Names {
@@ -51,70 +40,46 @@ void name_limits_of_front(const RunDatabase& database, Names& names) {
 
 /// evaluations.csv: a line for each evaluation. Of rows that are not the constraints there are no
 /// values.
-class EvaluationsCsv {
- public:
-  EvaluationsCsv(const ResultFile& file, const Names& names)
-      : names_(names), csv_(file, header(names)) {}
+CsvFile::Row titles_of(const Names& names) {
+  CsvFile::Row titles = {"evaluation", "ended",   "seconds", "setting",
+                         "rows",       "request", "method",  "objective"};
+  for (const std::string& name : names.constraints) titles.push_back("constraint:" + name);
+  for (const std::string& name : names.variables) titles.push_back("variable:" + name);
+  titles.push_back("failure");
+  return titles;
+}
 
-  void add(const NumberedEvaluation& one) {
-    const Evaluation& evaluation = one.stored.evaluation;
-    const bool has_values = one.stored.failure.empty();
-    csv_.add(one.number).add(one.ended).add(one.stored.seconds).add(one.key.setting);
-    csv_.add(one.key.rows).add(one.request).add(one.stored.method);
-    has_values ? csv_.add(evaluation.objective) : csv_.add(std::string());
-    const bool has_constraints = has_values && one.key.rows == "constraints";
-    for (Eigen::Index i = 0; i < std::ssize(names_.constraints); ++i) {
-      const bool has_it = has_constraints && i < evaluation.constraints.size();
-      has_it ? csv_.add(evaluation.constraints(i)) : csv_.add(std::string());
-    }
-    for (const double value : one.key.x) csv_.add(value);
-    csv_.add(one.stored.failure);
-    csv_.end_row();
+CsvFile::Row row_of(const NumberedEvaluation& one, const Names& names) {
+  const Evaluation& evaluation = one.stored.evaluation;
+  const bool has_values = one.stored.failure.empty();
+  const bool has_constraints = has_values && one.key.rows == "constraints";
+  CsvFile::Row row = {one.number,   one.ended,   one.stored.seconds, one.key.setting,
+                      one.key.rows, one.request, one.stored.method};
+  row.push_back(has_values ? Json(evaluation.objective) : Json());
+  for (Eigen::Index i = 0; i < std::ssize(names.constraints); ++i) {
+    const bool has_it = has_constraints && i < evaluation.constraints.size();
+    row.push_back(has_it ? Json(evaluation.constraints(i)) : Json());
   }
-
- private:
-  static std::vector<std::string> header(const Names& names) {
-    std::vector<std::string> titles = {"evaluation", "ended",   "seconds", "setting",
-                                       "rows",       "request", "method",  "objective"};
-    for (const std::string& name : names.constraints) titles.push_back("constraint:" + name);
-    for (const std::string& name : names.variables) titles.push_back("variable:" + name);
-    titles.push_back("failure");
-    return titles;
-  }
-
-  const Names& names_;
-  CsvFile csv_;
-};
+  row.insert(row.end(), one.key.x.begin(), one.key.x.end());
+  row.push_back(one.stored.failure);
+  return row;
+}
 
 /// evaluation_gradients.csv: a line for each derivative.
-class GradientsCsv {
- public:
-  GradientsCsv(const ResultFile& file, const Names& names)
-      : names_(names), csv_(file, {"evaluation", "of", "variable", "derivative"}) {}
-
-  void add(const NumberedEvaluation& one) {
-    const Evaluation& evaluation = one.stored.evaluation;
-    if (!evaluation.has_gradients()) return;
-    add_row(one.number, "objective", evaluation.objective_gradient);
-    if (one.key.rows != "constraints") return;
-    for (Eigen::Index i = 0; i < evaluation.constraint_jacobian.rows(); ++i) {
-      add_row(one.number, "constraint:" + names_.constraints.at(i),
-              evaluation.constraint_jacobian.row(i));
-    }
-  }
-
- private:
-  void add_row(int number, const std::string& of, const Eigen::VectorXd& derivatives) {
+void add_gradients(const NumberedEvaluation& one, const Names& names, CsvFile& csv) {
+  const Evaluation& evaluation = one.stored.evaluation;
+  if (!evaluation.has_gradients()) return;
+  const auto add = [&](const std::string& of, const Eigen::VectorXd& derivatives) {
     for (Eigen::Index j = 0; j < derivatives.size(); ++j) {
-      csv_.add(number).add(of).add(names_.variables.at(j));
-      csv_.add(derivatives(j));
-      csv_.end_row();
+      csv.add({one.number, of, names.variables.at(j), derivatives(j)});
     }
+  };
+  add("objective", evaluation.objective_gradient);
+  if (one.key.rows != "constraints") return;
+  for (Eigen::Index i = 0; i < evaluation.constraint_jacobian.rows(); ++i) {
+    add("constraint:" + names.constraints.at(i), evaluation.constraint_jacobian.row(i));
   }
-
-  const Names& names_;
-  CsvFile csv_;
-};
+}
 
 /// What was written.
 struct Exported {
@@ -129,11 +94,12 @@ void export_evaluations(const fs::path& file, const fs::path& target, Exported& 
     const RunDatabase database(file);
     Names names = names_in(database);
     name_limits_of_front(database, names);
-    EvaluationsCsv evaluations({target / "evaluations.csv", &exported.failures}, names);
-    GradientsCsv gradients({target / "evaluation_gradients.csv", &exported.failures}, names);
+    CsvFile evaluations({target / "evaluations.csv", &exported.failures}, titles_of(names));
+    CsvFile gradients({target / "evaluation_gradients.csv", &exported.failures},
+                      {"evaluation", "of", "variable", "derivative"});
     database.read_evaluations([&](const NumberedEvaluation& one) {
-      evaluations.add(one);
-      gradients.add(one);
+      evaluations.add(row_of(one, names));
+      add_gradients(one, names, gradients);
       ++count;
     });
   } catch (const DatabaseError& error) {
@@ -159,7 +125,7 @@ void export_motion(const OlderRun& run, const fs::path& target, Exported& export
     throw InputError(fmt::format("--vtk: {} is not the folder of an optimization with a result",
                                  run.folder.string()));
   }
-  const ProblemFile problem = problem_of(run.card, run.result);
+  const ProblemFile problem = problem_of(run);
   fs::create_directories(target / "vtk");
   for (const auto& [name, key] : {std::pair{"start", "start"}, std::pair{"optimum", "value"}}) {
     const auto x = design_in(run.result, problem, key);

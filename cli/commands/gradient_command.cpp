@@ -1,29 +1,14 @@
-#include <algorithm>
 #include <cmath>
 #include <map>
 
-#include <fmt/format.h>
-
-#include "cli/commands/accurate_input.hpp"
 #include "cli/commands/commands.hpp"
-#include "cli/commands/progress_line.hpp"
-#include "cli/files/csv_file.hpp"
-#include "cli/files/run_picture.hpp"
-#include "cli/files/run_record.hpp"
 #include "cli/reports/analysis_report.hpp"
 #include "cli/reports/derivative_report.hpp"
 #include "cli/reports/limits_report.hpp"
 #include "cli/reports/time_text.hpp"
-#include "cli/reports/warnings.hpp"
 #include "cli/text/table.hpp"
-#include "cli/text/wrapped_text.hpp"
-#include "core/base/error.hpp"
-#include "core/base/number_text.hpp"
-#include "core/base/stopwatch.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "core/trust/checks.hpp"
-#include "core/trust/finding.hpp"
-#include "sensitivity/gradients.hpp"
 #include "sensitivity/initial_sensitivity.hpp"
 #include "sensitivity/kinks.hpp"
 #include "sensitivity/method_choice.hpp"
@@ -48,13 +33,13 @@ std::vector<GradientMethod> chosen_methods(const Arguments& arguments, const Pro
 
 /// Replaces "auto" by what it chooses.
 std::optional<MethodChoice> resolve(Analysis& analysis, std::vector<GradientMethod>& methods) {
-  const auto found = std::find(methods.begin(), methods.end(), GradientMethod::automatic);
+  const auto found = std::ranges::find(methods, GradientMethod::automatic);
   if (found == methods.end()) return std::nullopt;
   const MethodChoice choice = choose_method(analysis, response_values(analysis));
   const auto chosen =
       choice.method == ExactMethod::direct ? GradientMethod::direct : GradientMethod::adjoint;
   *found = chosen;
-  if (std::count(methods.begin(), methods.end(), chosen) > 1) methods.erase(found);
+  if (std::ranges::count(methods, chosen) > 1) methods.erase(found);
   return choice;
 }
 
@@ -66,25 +51,26 @@ double simulations_of(GradientMethod method, Eigen::Index variables, int threads
   return 3.0;
 }
 
-/// Who looks on, and how long a simulation took.
-struct Observed {
-  ProgressLine& progress;
-  double simulation_seconds;
-};
-
-struct Computed {
+struct MethodFindings {
+  std::unique_ptr<Analysis> analysis;
+  double simulation_seconds = 0.0;
+  std::optional<MethodChoice> choice;  ///< if it was left to the program
   std::vector<MethodResult> results;
   std::optional<std::vector<Kink>> kinks;  ///< of an exact method, by the way
+  Ties ties;
+  std::vector<std::string> warnings;
+  int consequences = 0;                  ///< so many of the last ones are not told
+  ErrorBars errors;                      ///< of the values
+  std::vector<ComparedMethod> compared;  ///< empty: not asked for
 };
 
-Computed compute(const ProblemInput& input, Analysis& analysis,
-                 const std::vector<GradientMethod>& methods, const GradientOptions& options,
-                 const Observed& observed) {
-  Computed computed;
+void compute(const ProblemInput& input, const std::vector<GradientMethod>& methods, int threads,
+             ProgressLine& progress, MethodFindings& findings) {
+  const GradientOptions options = {input.problem.sensitivity.difference_step, threads};
+  Analysis& analysis = *findings.analysis;
   for (const GradientMethod method : methods) {
-    observed.progress.expect(
-        to_string(method),
-        simulations_of(method, input.design.size(), options.threads) * observed.simulation_seconds);
+    progress.expect(to_string(method), simulations_of(method, input.design.size(), threads) *
+                                           findings.simulation_seconds);
     const Stopwatch stopwatch;
     MethodResult result{method, {}, 0.0};
     if (is_difference(method)) {
@@ -93,34 +79,12 @@ Computed compute(const ProblemInput& input, Analysis& analysis,
       GradientsAndKinks found =
           gradients_and_kinks(analysis, input.problem.variables, exact_method(method));
       result.gradients = std::move(found.gradients);
-      computed.kinks = std::move(found.kinks);
+      findings.kinks = std::move(found.kinks);
     }
     result.seconds = stopwatch.seconds();
-    computed.results.push_back(std::move(result));
+    findings.results.push_back(std::move(result));
   }
-  return computed;
 }
-
-Json gradients_document(const ProblemFile& problem, const std::vector<MethodResult>& results,
-                        Eigen::Index response) {
-  Json document = Json::object();
-  for (const MethodResult& result : results) {
-    document[to_string(result.method)] = by_name(problem.variables, result.gradients.row(response));
-  }
-  return document;
-}
-
-struct MethodFindings {
-  std::unique_ptr<Analysis> analysis;
-  double simulation_seconds = 0.0;
-  std::optional<MethodChoice> choice;  ///< if it was left to the program
-  std::vector<MethodResult> results;
-  Ties ties;
-  std::vector<std::string> warnings;
-  int consequences = 0;                  ///< so many of the last ones are not told
-  ErrorBars errors;                      ///< of the values
-  std::vector<ComparedMethod> compared;  ///< empty: not asked for
-};
 
 Json comparison_document(const ProblemFile& problem, const std::vector<ComparedMethod>& compared) {
   return list_of(compared, [&](const ComparedMethod& one) {
@@ -157,23 +121,25 @@ std::string comparison_text(const ProblemFile& problem,
          table.text();
 }
 
-Json choice_document(const MethodChoice& choice) {
-  return {{"method", to_string(choice.method)}, {"reason", choice.reason}};
-}
-
 Json gradient_document(const ProblemFile& problem, const MethodFindings& findings) {
   const Analysis& analysis = *findings.analysis;
   Json document = {{"responses", responses_document(problem, analysis, findings.errors)},
                    {"seconds", {{"simulate", findings.simulation_seconds}}}};
   for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
     Json& response = document["responses"][analysis.responses[i].name];
-    response["gradients"] = gradients_document(problem, findings.results, i);
+    response["gradients"] = Json::object();
+    for (const MethodResult& result : findings.results) {
+      response["gradients"][to_string(result.method)] =
+          by_name(problem.variables, result.gradients.row(i));
+    }
     if (findings.ties[i]) response["tie"] = tie_document(*findings.ties[i], analysis.responses[i]);
   }
   if (!findings.compared.empty()) {
     document["comparison"] = comparison_document(problem, findings.compared);
   }
-  if (findings.choice) document["choice"] = choice_document(*findings.choice);
+  if (const auto& choice = findings.choice) {
+    document["choice"] = {{"method", to_string(choice->method)}, {"reason", choice->reason}};
+  }
   document["warnings"] = findings.warnings;
   for (const MethodResult& result : findings.results) {
     document["seconds"][to_string(result.method)] = result.seconds;
@@ -260,39 +226,31 @@ void write_run(RunRecord& record, const Arguments& arguments, const ProblemInput
   if (arguments.wants_histories) {
     write_history_gradients(record.result("gradients.csv"), input.problem, analysis);
   }
-  outcome.text +=
-      fmt::format("Written to {}: {}trajectory.csv, result.json, run_card.json\n",
-                  record.folder().string(), arguments.wants_histories ? "gradients.csv, " : "");
-  record.show_picture([&] {
-    return run_picture(input.problem,
-                       {{arguments.design ? "design" : "start", input.design, &analysis}});
+  record.finish(outcome, [&] {
+    return run_picture(input.problem, {{input.design_name, input.design, &analysis}});
   });
-  record.finish(outcome);
 }
 
-Outcome make_outcome(const Arguments& arguments, const ProblemFile& problem,
+Outcome make_outcome(const Arguments& arguments, const ProblemInput& input,
                      const MethodFindings& findings) {
-  return {ExitCode::done, gradient_document(problem, findings),
-          fmt::format("Gradients at {} of {}\n\n{}{}{}{}{}{}{}",
-                      arguments.design ? "the design" : "the start", problem.name,
-                      gradients_text(problem, findings.results),
-                      ties_text(findings.ties, *findings.analysis),
-                      findings.warnings.empty()
-                          ? ""
-                          : "\n" + warnings_text(findings.warnings, findings.consequences),
-                      choice_text(findings.choice), comparison_text(problem, findings.compared),
-                      memory_text(findings.analysis->trajectory),
-                      seconds_text(findings.results, findings.simulation_seconds))};
-}
-
-/// Derivatives by each number of a body.
-void add_by_invariants(const Arguments& arguments, const ProblemInput& input,
-                       const MethodFindings& findings, Outcome& outcome) {
-  const std::string& body = *arguments.differentiated_body;
-  const ConstantGradients found = constant_gradients(input.problem, input.design, body);
-  outcome.document["by_invariants"] = constant_gradients_document(input.problem, body, found);
-  outcome.text +=
-      constant_gradients_text(input.problem, body, found, values_of(*findings.analysis));
+  const ProblemFile& problem = input.problem;
+  Outcome outcome{
+      ExitCode::done, gradient_document(problem, findings),
+      fmt::format("Gradients at {} of {}\n\n{}{}", arguments.design ? "the design" : "the start",
+                  problem.name, gradients_text(problem, findings.results),
+                  ties_text(findings.ties, *findings.analysis))};
+  if (!findings.warnings.empty()) {
+    outcome.text += "\n" + warnings_text(findings.warnings, findings.consequences);
+  }
+  outcome.text += choice_text(findings.choice) + comparison_text(problem, findings.compared) +
+                  memory_text(findings.analysis->trajectory) +
+                  seconds_text(findings.results, findings.simulation_seconds);
+  if (!arguments.differentiated_body) return outcome;
+  const std::string& body = *arguments.differentiated_body;  // derivatives by each number of it
+  const ConstantGradients found = constant_gradients(problem, input.design, body);
+  outcome.document["by_invariants"] = constant_gradients_document(problem, body, found);
+  outcome.text += constant_gradients_text(problem, body, found, values_of(*findings.analysis));
+  return outcome;
 }
 
 }  // namespace
@@ -317,10 +275,7 @@ Outcome run_gradient(const Arguments& arguments) {
   findings.analysis = analyze(problem, input.design);
   findings.simulation_seconds = stopwatch.seconds();
   findings.choice = resolve(*findings.analysis, methods);
-  Computed computed = compute(input, *findings.analysis, methods,
-                              {problem.sensitivity.difference_step, arguments.jobs},
-                              {progress, findings.simulation_seconds});
-  findings.results = std::move(computed.results);
+  compute(input, methods, arguments.jobs, progress, findings);
   if (arguments.compares_methods) {
     findings.compared = compare_methods(problem, input.design, *findings.analysis,
                                         {arguments.jobs, [&](double step) {
@@ -332,7 +287,7 @@ Outcome run_gradient(const Arguments& arguments) {
   }
   const bool is_checked = arguments.scrutiny != Scrutiny::none;
   if (is_checked) progress.show_share("checking the numbers", 0.0);
-  findings.ties = computed.kinks ? make_ties(*findings.analysis, *computed.kinks)
+  findings.ties = findings.kinks ? make_ties(*findings.analysis, *findings.kinks)
                                  : find_ties(*findings.analysis, problem.variables);
   const Analysis& analysis = *findings.analysis;
   const Monitors monitors = is_checked ? monitor(analysis.model, analysis.trajectory) : Monitors{};
@@ -344,8 +299,7 @@ Outcome run_gradient(const Arguments& arguments) {
   add_new(findings.warnings, texts_of(trust.findings));
   if (!arguments.wants_all_warnings) findings.consequences = count_consequences(trust.findings);
   findings.errors = std::move(trust.errors);
-  Outcome outcome = make_outcome(arguments, problem, findings);
-  if (arguments.differentiated_body) add_by_invariants(arguments, input, findings, outcome);
+  Outcome outcome = make_outcome(arguments, input, findings);
   if (record) write_run(*record, arguments, input, *findings.analysis, outcome);
   return outcome;
 }

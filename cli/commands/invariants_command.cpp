@@ -1,12 +1,6 @@
-#include <algorithm>
-
-#include <fmt/format.h>
-
 #include "cli/commands/commands.hpp"
-#include "cli/files/run_record.hpp"
 #include "cli/input/problem_input.hpp"
 #include "cli/text/table.hpp"
-#include "core/base/error.hpp"
 #include "core/model/divided_beams.hpp"
 #include "core/response/analysis.hpp"
 #include "core/response/body_export.hpp"
@@ -16,8 +10,6 @@
 namespace pleuel {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 std::vector<std::string> si_units(const ProblemFile& problem) {
   std::vector<std::string> units;
@@ -53,7 +45,7 @@ std::vector<InvariantsFile> export_bodies(const Arguments& arguments, const Prob
 /// may hold what names of files cannot.
 std::string constants_file_name(const std::string& body) {
   std::string name = body + ".json";
-  std::replace(name.begin(), name.end(), '/', '_');
+  std::ranges::replace(name, '/', '_');
   return name;
 }
 
@@ -81,20 +73,6 @@ Outcome report(const std::vector<InvariantsFile>& files, const std::vector<fs::p
   return outcome;
 }
 
-void check_free(const fs::path& path, const Arguments& arguments) {
-  const fs::file_status status = fs::symlink_status(path);
-  if (!fs::exists(status)) return;
-  if (!fs::is_regular_file(status)) {
-    throw InputError(fmt::format("-o {}: is there already, and no ordinary file", path.string()));
-  }
-  if (!arguments.overwrites) {
-    throw InputError(
-        fmt::format("-o {}: is there already; choose another name, or replace it with "
-                    "--overwrite",
-                    path.string()));
-  }
-}
-
 Outcome write_one(const fs::path& path, const std::vector<InvariantsFile>& files) {
   if (files.size() != 1) {
     throw InputError(
@@ -114,7 +92,7 @@ Outcome write_one(const fs::path& path, const std::vector<InvariantsFile>& files
 Outcome run_invariants(const Arguments& arguments) {
   const ProblemInput input = read_input(arguments);
   if (arguments.output && arguments.output->extension() == ".json") {
-    check_free(*arguments.output, arguments);
+    require_free(*arguments.output, arguments);
     return write_one(*arguments.output, export_bodies(arguments, input.problem));
   }
   RunRecord record(arguments, input, Json::object());
@@ -125,7 +103,7 @@ Outcome run_invariants(const Arguments& arguments) {
   for (const InvariantsFile& file : files) {
     const ResultFile written = record.result(fs::path("bodies") / constants_file_name(file.body));
     const fs::path& path = written.path;
-    if (std::find(paths.begin(), paths.end(), path) != paths.end()) {
+    if (std::ranges::find(paths, path) != paths.end()) {
       throw InputError(fmt::format("two bodies would be written to {}: use --body", path.string()));
     }
     paths.push_back(path);

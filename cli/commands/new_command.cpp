@@ -1,18 +1,12 @@
-
-#include <fmt/format.h>
-
 #include "cli/commands/commands.hpp"
 #include "cli/files/command_text.hpp"
 #include "cli/files/starters.hpp"
 #include "cli/text/table.hpp"
-#include "core/base/error.hpp"
 #include "core/scene/reading/suggestion.hpp"
 
 namespace pleuel {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 Outcome list_starters(const Arguments& arguments) {
   Outcome outcome;

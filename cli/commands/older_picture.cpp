@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "cli/files/csv_file.hpp"
-#include "cli/files/older_run.hpp"
 #include "cli/files/run_picture.hpp"
 #include "cli/input/design_file.hpp"
 #include "cli/reports/case_report.hpp"
@@ -12,8 +11,6 @@
 namespace pleuel {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Simulated, if that is possible.
 struct Redone {
@@ -39,17 +36,17 @@ Json picture_of(const ProblemFile& problem, const std::vector<Redone>& designs, 
   return run_picture(problem, shown, pictures);
 }
 
-Json optimum_picture(const ProblemFile& problem, const Json& result, const fs::path& folder,
-                     Notes& notes, std::size_t pictures) {
+Json optimum_picture(const OlderRun& run, const ProblemFile& problem, std::size_t pictures,
+                     Notes& notes) {
   std::vector<Redone> designs;
   const auto add = [&](const std::string& name, const char* key, const char* trajectory) {
-    const auto x = design_in(result, problem, key);
+    const auto x = design_in(run.result, problem, key);
     if (!x) return;
     designs.push_back(
-        {name, *x, analyze(problem, *x), folder / name_of_case_file(trajectory, problem)});
+        {name, *x, analyze(problem, *x), run.folder / name_of_case_file(trajectory, problem)});
   };
   add("start", "start", "trajectory-start");
-  add(name_of_end(result.at("status")), "value", "trajectory-optimum");
+  add(name_of_end(run.result.at("status")), "value", "trajectory-optimum");
   if (!designs.empty()) {
     designs.back().influence = design_influence(problem, *designs.back().analysis);
   }
@@ -57,24 +54,25 @@ Json optimum_picture(const ProblemFile& problem, const Json& result, const fs::p
 }
 
 /// Of all load cases, of which the page shows one first.
-Json optimum_pictures(const Json& card, const Json& result, const fs::path& folder, Notes& notes) {
-  const std::string shown = shown_case(result);
-  if (shown.empty()) return optimum_picture(problem_of(card, result), result, folder, notes, 1);
-  const Json& names = result.at("cases").at("names");
+Json optimum_pictures(const OlderRun& run, Notes& notes) {
+  const std::string shown = run.shown_case();
+  if (shown.empty()) return optimum_picture(run, problem_of(run), 1, notes);
+  const Json& names = run.result.at("cases").at("names");
   std::vector<Json> cases;
   std::size_t first = 0;
   for (const Json& name : names) {
     if (name == shown) first = cases.size();
-    const ProblemFile problem = problem_of(card, result, name.get<std::string>());
-    cases.push_back(optimum_picture(problem, result, folder, notes, names.size()));
+    const ProblemFile problem = problem_of(run, name.get<std::string>());
+    cases.push_back(optimum_picture(run, problem, names.size(), notes));
   }
-  return picture_of_cases(problem_of(card, result, ""), std::move(cases), first);
+  return picture_of_cases(problem_of(run, ""), std::move(cases), first);
 }
 
-Json front_picture(const ProblemFile& problem, const Json& result) {
+Json front_picture(const OlderRun& run) {
+  const ProblemFile problem = problem_of(run);
   std::vector<std::pair<std::string, Eigen::VectorXd>> designs;
   int number = 0;
-  for (const Json& point : result.at("points")) {
+  for (const Json& point : run.result.at("points")) {
     ++number;
     const auto x = design_in(point, problem, "");
     if (x && !point.at("objectives").empty()) designs.emplace_back(std::to_string(number), *x);
@@ -82,37 +80,36 @@ Json front_picture(const ProblemFile& problem, const Json& result) {
   return rigid_picture(problem, designs);
 }
 
-/// @param result  of a simulation, which says what was simulated; others took the start, or the
-///                design of a file
-/// @param trajectory  file of a run that simulated the design; empty: it did not
-Json single_picture(const ProblemFile& problem, const Json& card, const Json& result,
-                    const fs::path& trajectory, Notes& notes) {
-  const bool has_other_design = card.at("input").contains("design");
-  Eigen::VectorXd x = start_design(problem);
-  if (const auto simulated = design_in(result, problem, "value")) {
-    x = *simulated;
+/// Of a run that looked at one design: a simulation says which it was, others took the start, or the
+/// design of a file.
+Json single_picture(const OlderRun& run, Notes& notes) {
+  const ProblemFile problem = problem_of(run);
+  const std::string command = run.command();
+  const bool has_other_design = run.card.at("input").contains("design");
+  Redone design{has_other_design ? "design" : "start", start_design(problem), nullptr};
+  if (const auto simulated = design_in(run.result, problem, "value")) {
+    design.x = *simulated;
   } else if (has_other_design) {
-    x = read_design(card["input"]["design"].get<std::string>(), problem);
+    design.x = read_design(run.card["input"]["design"].get<std::string>(), problem);
   }
+  if (command == "simulate" || command == "gradient") {
+    design.trajectory = run.folder / "trajectory.csv";
+  }
+  if (!design.trajectory.empty() || command == "check") {
+    design.analysis = analyze(problem, design.x);
+  }
+  if (command == "check") design.influence = design_influence(problem, *design.analysis);
   std::vector<Redone> designs;
-  designs.push_back({has_other_design ? "design" : "start", x, nullptr, trajectory});
-  const bool is_check = card.at("command") == "check";
-  if (!trajectory.empty() || is_check) designs.back().analysis = analyze(problem, x);
-  if (is_check) designs.back().influence = design_influence(problem, *designs.back().analysis);
+  designs.push_back(std::move(design));
   return picture_of(problem, designs, notes);
 }
 
 }  // namespace
 
-Json picture_of_run(const Json& card, const Json& result, const fs::path& folder, Notes& notes) {
-  if (!card.contains("problem")) return nullptr;  // of several files
-  const std::string command = card.at("command").get<std::string>();
-  if (command == "optimize") return optimum_pictures(card, result, folder, notes);
-  const ProblemFile problem = problem_of(card, result);
-  if (command == "pareto") return front_picture(problem, result);
-  const bool has_motion = command == "simulate" || command == "gradient";
-  return single_picture(problem, card, result, has_motion ? folder / "trajectory.csv" : fs::path(),
-                        notes);
+Json picture_of_run(const OlderRun& run, Notes& notes) {
+  if (!run.card.contains("problem")) return nullptr;  // of several files
+  if (run.command() == "optimize") return optimum_pictures(run, notes);
+  return run.command() == "pareto" ? front_picture(run) : single_picture(run, notes);
 }
 
 }  // namespace pleuel

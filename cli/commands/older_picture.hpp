@@ -1,10 +1,8 @@
 #pragma once
 
-#include <filesystem>
-#include <string>
 #include <vector>
 
-#include "cli/text/json.hpp"
+#include "cli/files/older_run.hpp"
 
 namespace pleuel {
 
@@ -14,7 +12,6 @@ using Notes = std::vector<std::string>;
 /// What the page of an older run shows of its mechanism (run_picture()): its designs are simulated again
 /// from the run card. Null of a run of several files.
 /// @throws std::exception if that is not possible any more
-Json picture_of_run(const Json& card, const Json& result, const std::filesystem::path& folder,
-                    Notes& notes);
+Json picture_of_run(const OlderRun& run, Notes& notes);
 
 }  // namespace pleuel

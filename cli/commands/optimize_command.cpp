@@ -1,31 +1,17 @@
-#include <optional>
 #include <utility>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "cli/commands/commands.hpp"
 #include "cli/commands/examined_optimum.hpp"
-#include "cli/files/csv_file.hpp"
 #include "cli/files/failed_design.hpp"
-#include "cli/files/run_record.hpp"
-#include "cli/files/run_store.hpp"
 #include "cli/input/run_setting.hpp"
 #include "cli/reports/effects_report.hpp"
 #include "cli/reports/iteration_lines.hpp"
-#include "cli/reports/optimum_document.hpp"
 #include "cli/reports/optimum_report.hpp"
 #include "cli/reports/setting_report.hpp"
 #include "cli/reports/starts_report.hpp"
-#include "cli/reports/warnings.hpp"
-#include "cli/text/console.hpp"
-#include "cli/text/wrapped_text.hpp"
 #include "core/scene/body_rules.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/trust/lint.hpp"
-#include "optimization/design/design_problem.hpp"
-#include "optimization/design/design_solve.hpp"
-#include "optimization/design/multi_start.hpp"
 #include "optimization/design/optimum_error.hpp"
 #include "optimization/design/staged_solve.hpp"
 #include "optimization/design/whole_search.hpp"
@@ -102,17 +88,6 @@ Json setting_of(const Json& effective, const ProblemFile& solved) {
   return all;
 }
 
-std::string files_text(const RunRecord& record, const Optimum& optimum) {
-  return wrapped(
-      fmt::format("Written to {}: history.csv, result.json, run_card.json, run.sqlite{}\n",
-                  record.folder().string(),
-                  !optimum.has_design() ? ""
-                  : optimum.problem.has_cases()
-                      ? ", trajectory-start-*.csv, trajectory-optimum-*.csv"
-                      : ", trajectory-start.csv, trajectory-optimum.csv"),
-      "  ");
-}
-
 }  // namespace
 
 Outcome run_optimize(const Arguments& arguments) {
@@ -175,11 +150,8 @@ Outcome run_optimize(const Arguments& arguments) {
     }
   }
   const std::string cut = is_whole ? "" : wrapped(fmt::format("{}\n", cut_message));
-  Outcome outcome{
-      is_whole ? exit_code(optimum) : ExitCode::not_verified, result_document(),
-      failed_design_text(record, arguments, input.problem, result.history) + cut +
-          resume_text(arguments, record.folder(), is_whole ? result.status : Status::interrupted) +
-          store.text() + (is_whole ? files_text(record, optimum) : "")};
+  Outcome outcome{is_whole ? exit_code(optimum) : ExitCode::not_verified, result_document(),
+                  failed_design_text(record, arguments, input.problem, result.history) + cut};
   store.finish(outcome);
   record.finish(outcome);
   return outcome;

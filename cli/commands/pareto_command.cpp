@@ -1,29 +1,12 @@
-#include <algorithm>
-#include <optional>
-
-#include <fmt/format.h>
-
-#include "cli/commands/accurate_input.hpp"
 #include "cli/commands/commands.hpp"
-#include "cli/commands/progress_line.hpp"
-#include "cli/files/csv_file.hpp"
-#include "cli/files/run_picture.hpp"
-#include "cli/files/run_record.hpp"
-#include "cli/files/run_store.hpp"
 #include "cli/input/run_setting.hpp"
-#include "cli/reports/document_table.hpp"
 #include "cli/reports/limits_report.hpp"
 #include "cli/reports/starts_report.hpp"
-#include "cli/reports/warnings.hpp"
-#include "cli/text/wrapped_text.hpp"
-#include "core/base/number_text.hpp"
-#include "core/base/stopwatch.hpp"
 #include "core/scene/case_goals.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "studies/missing_settings.hpp"
 #include "studies/pareto.hpp"
-#include "studies/pareto_point.hpp"
 #include "studies/varied_limit.hpp"
 
 namespace pleuel {
@@ -49,18 +32,16 @@ std::string limited_name(const ProblemFile& problem) {
 
 /// pareto.csv: a line for each point, first as it is found, in the end by its limit [SI].
 std::vector<CsvColumn> pareto_columns(const ProblemFile& problem) {
-  const Json::json_pointer point, objectives("/objectives"), variables("/variables");
-  std::vector<CsvColumn> columns = {{"status", point / "status"},
-                                    {"limit", point / "limit"},
-                                    {"objective", objectives / problem.objective->response},
-                                    {"limited", objectives / limited_name(problem)},
-                                    {"multiplier", point / "multiplier"}};
+  const Json::json_pointer objectives("/objectives"), variables("/variables");
+  std::vector<CsvColumn> columns = columns_at({"/status", "/limit"});
+  columns.push_back({"objective", objectives / problem.objective->response});
+  columns.push_back({"limited", objectives / limited_name(problem)});
+  columns.push_back({"multiplier", Json::json_pointer("/multiplier")});
   for (const DesignVariable& variable : problem.variables) {
     columns.push_back({"variable:" + variable.name, variables / variable.name});
   }
-  for (const char* title : {"kkt_residual", "evaluations", "seconds"}) {
-    columns.push_back({title, point / title});
-  }
+  const auto effort = columns_at({"/kkt_residual", "/evaluations", "/seconds"});
+  columns.insert(columns.end(), effort.begin(), effort.end());
   return columns;
 }
 
@@ -111,9 +92,8 @@ std::string single_point_text(const ProblemFile& problem, const ParetoFront& fro
   return "One design is best for both responses: there is nothing to trade.\n";
 }
 
-/// What all choices of sizes came to, where they were simulated; empty of other fronts.
+/// What all choices of sizes came to, where they were simulated.
 std::string choices_message(const ParetoFront& front) {
-  if (!front.choices) return "";
   const ChoiceCounts& counts = *front.choices;
   const std::string failed =
       counts.failed > 0 ? fmt::format(", and {} could not be simulated", counts.failed) : "";
@@ -224,11 +204,11 @@ std::string points_text(const ProblemFile& problem, const Json& points) {
 }
 
 /// A line on all choices of sizes, or on the gaps that were asked for.
-std::string spacing_text(const ProblemFile& problem, const ParetoFront& front) {
-  const std::string sizes = front.choices ? choices_message(front) : sizes_message(front);
-  const std::string gaps = gaps_message(problem, front, limited_name(problem));
-  if (sizes.empty() && gaps.empty()) return "";
-  return "\n" + wrapped((sizes.empty() ? "Gaps: " + gaps : "Sizes: " + sizes) + ".", "  ") + "\n";
+std::string spacing_text(const Json& front) {
+  const std::string message = text_at(front, "/message");
+  if (message.empty()) return "";
+  return "\n" + wrapped((front.contains("gaps") ? "Gaps: " : "Sizes: ") + message + ".", "  ") +
+         "\n";
 }
 
 /// With a gap, or of all choices of sizes, nobody knows how many points there would have been.
@@ -242,9 +222,8 @@ std::string interruption_text(const ProblemFile& problem, const ParetoFront& fro
 }
 
 std::size_t verified_points(const std::vector<ParetoPoint>& points) {
-  return static_cast<std::size_t>(std::count_if(
-      points.begin(), points.end(),
-      [](const ParetoPoint& point) { return point.result.status == Status::verified; }));
+  return static_cast<std::size_t>(std::ranges::count_if(
+      points, [](const ParetoPoint& point) { return point.result.status == Status::verified; }));
 }
 
 /// That there are, or would be as far as that is known.
@@ -255,37 +234,32 @@ std::size_t all_points(const ProblemFile& problem, const ParetoFront& front) {
 
 /// "7 of 7 points verified"
 std::string count_text(const ProblemFile& problem, const ParetoFront& front) {
-  const auto unproven = std::count_if(front.points.begin(), front.points.end(), is_not_proven_best);
+  const auto unproven = std::ranges::count_if(front.points, is_not_proven_best);
   return fmt::format("{} of {} points verified{}", verified_points(front.points),
                      all_points(problem, front),
                      unproven > 0 ? fmt::format(", at {} not all sizes tried", unproven) : "");
 }
 
 /// "limit 120 MPa"
-std::string limit_text(const ProblemFile& problem, const ParetoPoint& point) {
+std::string limit_text(const ProblemFile& problem, double limit) {
   const ShownUnit unit = unit_of(problem, varied_constraint(problem));
-  return fmt::format("limit {} {}", significant(unit.shown(point.limit)), unit.name);
+  return fmt::format("limit {} {}", significant(unit.shown(limit)), unit.name);
 }
 
-/// Why the others are not verified; one sentence each.
+/// Why points are not verified, a sentence each, and what speaks against their numbers.
 std::string findings_text(const ProblemFile& problem, const std::vector<ParetoPoint>& points) {
   std::string text;
-  for (const ParetoPoint& point : points) {
-    if (point.result.status == Status::verified) continue;
-    text += wrapped(fmt::format("  {}: {}: {}\n", limit_text(problem, point),
-                                to_string(point.result.status), point.result.message),
-                    "    ");
-  }
-  return text.empty() ? "" : "\nNOT VERIFIED:\n" + text;
-}
-
-std::string warnings_of_points(const ProblemFile& problem, const std::vector<ParetoPoint>& points) {
   SharedWarnings warnings;
   for (const ParetoPoint& point : points) {
-    warnings.add(point.result.warnings, limit_text(problem, point));
+    const Result& result = point.result;
+    const std::string limit = limit_text(problem, point.limit);
+    warnings.add(result.warnings, limit);
+    if (result.status == Status::verified) continue;
+    text += wrapped(fmt::format("  {}: {}: {}\n", limit, to_string(result.status), result.message),
+                    "    ");
   }
-  const std::string text = warnings_text(warnings.sentences());
-  return text.empty() ? "" : "\n" + text;
+  const std::string warned = warnings_text(warnings.sentences());
+  return (text.empty() ? "" : "\nNOT VERIFIED:\n" + text) + (warned.empty() ? "" : "\n" + warned);
 }
 
 /// The mechanisms of the front, by their numbers from 1.
@@ -308,9 +282,9 @@ class PointLines {
     const ParetoSettings& settings = *problem_.pareto;
     const int left = settings.gap > 0.0 ? 0 : settings.points - done_;
     const double seconds = left * stopwatch_.seconds() / done_;
-    progress_.print(fmt::format("  {}: {} after {} evaluations, {}{}", limit_text(problem_, point),
-                                to_string(point.result.status), point.result.evaluations,
-                                duration(point.result.seconds),
+    progress_.print(fmt::format("  {}: {} after {} evaluations, {}{}",
+                                limit_text(problem_, point.limit), to_string(point.result.status),
+                                point.result.evaluations, duration(point.result.seconds),
                                 left > 0 ? fmt::format("; about {} left", duration(seconds)) : ""));
     progress_.expect(fmt::format("{} points", done_), seconds);
   }
@@ -348,20 +322,13 @@ Outcome run_pareto(const Arguments& arguments) {
   for (const Json& point : document["points"]) in_order.add(point);
   const bool is_verified =
       front.is_whole && !points.empty() && verified_points(points) == points.size();
-  Outcome outcome{
-      is_verified ? ExitCode::done : ExitCode::not_verified, document,
-      fmt::format(
-          "{}{}: {}; {}\n\n{}{}{}{}\n"
-          "{}{}Written to {}: pareto.csv, result.json, run_card.json, run.sqlite\n",
-          interruption_text(problem, front), problem.name, front_text(problem),
-          count_text(problem, front), points_text(problem, document["points"]),
-          spacing_text(problem, front), single_point_text(problem, front),
-          findings_text(problem, points) + warnings_of_points(problem, points),
-          front.is_whole ? "" : resume_text(arguments, record.folder(), Status::interrupted),
-          store.text(), record.folder().string())};
+  Outcome outcome{is_verified ? ExitCode::done : ExitCode::not_verified, document,
+                  fmt::format("{}{}: {}; {}\n\n{}{}{}{}\n", interruption_text(problem, front),
+                              problem.name, front_text(problem), count_text(problem, front),
+                              points_text(problem, document["points"]), spacing_text(document),
+                              single_point_text(problem, front), findings_text(problem, points))};
   store.finish(outcome);
-  record.show_picture([&] { return front_picture(problem, points); });
-  record.finish(outcome);
+  record.finish(outcome, [&] { return front_picture(problem, points); });
   return outcome;
 }
 

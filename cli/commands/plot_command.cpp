@@ -1,27 +1,21 @@
-#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
 #include <functional>
-#include <optional>
+#include <set>
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
 #include "cli/commands/commands.hpp"
-#include "cli/files/csv_file.hpp"
 #include "cli/files/older_run.hpp"
 #include "cli/files/output_file.hpp"
 #include "cli/files/run_folder.hpp"
 #include "cli/reports/optimum_report.hpp"
 #include "cli/text/csv_table.hpp"
 #include "cli/text/history_chart.hpp"
-#include "cli/text/wrapped_text.hpp"
-#include "core/base/error.hpp"
 #include "core/base/find_named.hpp"
-#include "core/base/number_text.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/scene/reading/suggestion.hpp"
 #include "core/scene/shown_unit.hpp"
@@ -31,57 +25,36 @@ namespace pleuel {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 /// A design whose histories the run folder has.
 struct RunHistories {
   std::string design;  ///< "start", "optimum", "end"; empty of a run with one
   CsvTable table;
 };
 
-/// Of an optimization with load cases: the designs in each of them, {file, "optimum fast"}.
-/// @param end  what the last design is called
-std::vector<std::pair<std::string, std::string>> files_of_cases(const fs::path& folder,
-                                                                const std::string& end) {
-  std::vector<std::pair<std::string, std::string>> files;
-  for (const std::string design : {"start", "optimum"}) {
-    const std::string beginning = "trajectory-" + design + "-";
-    const std::string shown = design == "start" ? design : end;
-    for (const auto& entry : fs::directory_iterator(folder)) {
-      const std::string name = entry.path().filename().string();
-      if (!name.starts_with(beginning) || !name.ends_with(".csv")) continue;
-      const std::string load_case = entry.path().stem().string().substr(beginning.size());
-      files.emplace_back(name, shown + " " + load_case);
-    }
-  }
-  std::sort(files.begin(), files.end(), std::greater<>());  // the start first
-  return files;
-}
-
-/// Only what is verified is called an optimum.
-std::string end_of_run(const fs::path& folder) {
-  const auto run = find_older_run(folder);
-  return name_of_end(run ? run->status() : "");
-}
-
+/// Files by what they begin with; of an optimization with load cases the name of the case follows.
 std::vector<RunHistories> read_histories(const fs::path& folder) {
   if (!fs::is_directory(folder)) {
     throw InputError(fmt::format("{}: there is no such run folder", folder.string()));
   }
-  const std::string end = end_of_run(folder);
-  const std::array<std::pair<const char*, std::string>, 4> files = {
-      {{"trajectory.csv", ""},
-       {"trajectory-start.csv", "start"},
-       {"trajectory-optimum.csv", end},
-       {"uncertainty.csv", "mean"}}};
-  std::vector<RunHistories> histories;
-  for (const auto& [name, design] : files) {
-    if (fs::is_regular_file(folder / name)) {
-      histories.push_back({design, read_csv(folder / name)});
-    }
+  const auto run = find_older_run(folder);
+  const std::array<std::pair<std::string, std::string>, 4> known = {
+      {{"trajectory-start", "start"},
+       {"trajectory-optimum", name_of_end(run ? run->status() : "")},
+       {"trajectory", ""},
+       {"uncertainty", "mean"}}};
+  std::set<fs::path, std::greater<>> files;  // the start first
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.is_regular_file() && entry.path().extension() == ".csv") files.insert(entry.path());
   }
-  for (const auto& [name, design] : files_of_cases(folder, end)) {
-    histories.push_back({design, read_csv(folder / name)});
+  std::vector<RunHistories> histories;
+  for (const fs::path& file : files) {
+    const std::string stem = file.stem().string();
+    for (const auto& [beginning, design] : known) {
+      const bool is_of_case = !design.empty() && stem.starts_with(beginning + "-");
+      if (stem != beginning && !is_of_case) continue;
+      const std::string load_case = is_of_case ? " " + stem.substr(beginning.size() + 1) : "";
+      histories.push_back({design + load_case, read_csv(file)});
+    }
   }
   if (histories.empty()) {
     throw InputError(fmt::format(
@@ -118,7 +91,7 @@ std::vector<std::string> known_names(const std::vector<RunHistories>& histories)
   for (const RunHistories& one : histories) {
     for (const std::string& name : one.table.names) {
       if (name == "time" || name.find(':') != std::string::npos) continue;
-      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+      if (std::ranges::find(names, name) == names.end()) names.push_back(name);
     }
   }
   return names;
@@ -220,7 +193,7 @@ Outcome run_plot(const Arguments& arguments) {
   Outcome outcome;
   std::vector<HistoryChart> charts;
   for (const std::string& name : arguments.names) {
-    if (std::find(known.begin(), known.end(), name) == known.end()) {
+    if (std::ranges::find(known, name) == known.end()) {
       throw InputError(fmt::format("{}: no history is called \"{}\"{}", folder.string(), name,
                                    hint(name, known)));
     }

@@ -2,21 +2,11 @@
 #include <cmath>
 #include <set>
 
-#include <fmt/format.h>
-
-#include "cli/commands/accurate_input.hpp"
 #include "cli/commands/commands.hpp"
-#include "cli/files/csv_file.hpp"
-#include "cli/files/run_picture.hpp"
-#include "cli/files/run_record.hpp"
 #include "cli/input/run_setting.hpp"
 #include "cli/reports/iteration_lines.hpp"
-#include "cli/reports/warnings.hpp"
 #include "cli/text/table.hpp"
-#include "cli/text/wrapped_text.hpp"
-#include "core/base/number_text.hpp"
 #include "core/trust/checks.hpp"
-#include "optimization/design/design_problem.hpp"
 #include "optimization/design/design_solve.hpp"
 #include "optimization/design/size_choice.hpp"
 #include "studies/number_prices.hpp"
@@ -108,9 +98,8 @@ Json make_document(const ProblemFile& problem, const AnalyzedDesign& design,
 void write_csv(const ResultFile& file, const PriceList& list) {
   CsvFile csv(file, {"name", "kind", "value", "unit", "per_unit", "per_percent", "next_limit"});
   for (const NumberPrice& price : list.prices) {
-    csv.add(price.name).add(std::string(kind_name(price.kind))).add(price.value);
-    csv.add(price.unit.si).add(price.per_unit).add(price.per_percent()).add(price.next_limit);
-    csv.end_row();
+    csv.add({price.name, kind_name(price.kind), price.value, price.unit.si, price.per_unit,
+             price.per_percent(), price.next_limit});
   }
 }
 
@@ -223,14 +212,10 @@ Outcome run_prices(const Arguments& arguments) {
   check_design(design, list);
   Outcome outcome{design.is_optimum ? ExitCode::done : ExitCode::not_verified,
                   make_document(input.problem, design, list), report(input.problem, design, list)};
-  outcome.text += fmt::format("Written to {}: prices.csv, result.json, run_card.json\n",
-                              record.folder().string());
-  record.write_result(outcome.document);
   write_csv(record.result("prices.csv"), list);
-  record.show_picture([&] {
-    return run_picture(input.problem, {{arguments.design ? "design" : "start", input.design}});
+  record.finish(outcome, [&] {
+    return run_picture(input.problem, {{input.design_name, input.design}});
   });
-  record.finish(outcome);
   return outcome;
 }
 

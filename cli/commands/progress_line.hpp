@@ -2,8 +2,6 @@
 
 #include <condition_variable>
 #include <mutex>
-#include <optional>
-#include <string>
 #include <thread>
 
 #include "cli/input/arguments.hpp"

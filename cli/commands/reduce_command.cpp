@@ -1,20 +1,14 @@
 #include <numbers>
 
-#include <fmt/format.h>
-
 #include "cli/commands/commands.hpp"
 #include "cli/files/output_file.hpp"
 #include "cli/text/table.hpp"
-#include "cli/text/wrapped_text.hpp"
-#include "core/base/error.hpp"
 #include "core/scene/invariants_file.hpp"
 #include "reduction/reduce.hpp"
 
 namespace pleuel {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 double hertz(double frequency) {
   return frequency / (2.0 * std::numbers::pi);
@@ -84,12 +78,7 @@ std::string result_text(const ReducedBody& body, const ReductionModel& model,
 
 Outcome run_reduce(const Arguments& arguments) {
   const fs::path path = *arguments.output;
-  if (fs::exists(fs::symlink_status(path)) && !arguments.overwrites) {
-    throw InputError(
-        fmt::format("-o {}: is there already; choose another name, or replace it with "
-                    "--overwrite",
-                    path.string()));
-  }
+  require_free(path, arguments);
   const ReductionModel model = read_reduction_model(arguments.file.string());
   const ReducedBody body = reduce(model);
   WriteFailures failures;

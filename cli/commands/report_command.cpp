@@ -1,23 +1,14 @@
-#include <algorithm>
 #include <map>
-
-#include <fmt/format.h>
 
 #include "cli/commands/commands.hpp"
 #include "cli/commands/older_picture.hpp"
-#include "cli/files/older_run.hpp"
-#include "cli/files/output_file.hpp"
 #include "cli/files/report_page.hpp"
 #include "cli/files/run_folder.hpp"
-#include "cli/text/wrapped_text.hpp"
-#include "core/base/error.hpp"
 
 /// Reports of earlier runs: what is shown of the mechanism is simulated again from the run card.
 namespace pleuel {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 Json read_document(const fs::path& path) {
   if (!fs::is_regular_file(path)) {
@@ -57,47 +48,44 @@ std::vector<Needed> needed_in(const std::string& command) {
 }
 
 /// @throws InputError if something is missing that the run has written
-void check_whole(const Json& card, const Json& result, const fs::path& folder) {
+void check_whole(const OlderRun& run) {
   const auto damaged = [&](const char* file, const std::string& what) {
-    return InputError(fmt::format("{}: is damaged: {}", (folder / file).string(), what));
+    return InputError(fmt::format("{}: is damaged: {}", (run.folder / file).string(), what));
   };
-  if (!card.contains("command") || !card["command"].is_string()) {
-    throw damaged(card_name, "it names no command");
-  }
-  const std::string command = card["command"].get<std::string>();
+  const std::string command = text_at(run.card, "/command");
+  if (command.empty()) throw damaged(card_name, "it names no command");
   for (const Needed& one : needed_in(command)) {
-    if (!result.contains(one.key) || result[one.key].type() != one.type) {
+    if (run.result.value(one.key, Json()).type() != one.type) {
       throw damaged("result.json",
                     fmt::format("a run of `pleuel {}` has \"{}\" there", command, one.key));
     }
   }
-  const bool is_optimum = command == "optimize" && result["objective"].contains("value");
-  if (!is_optimum) return;
-  for (const auto& [name, variable] : result["variables"].items()) {
-    if (!variable.is_object() || !variable.contains("value") || !variable["value"].is_number()) {
+  if (command != "optimize" || !run.objective()) return;
+  for (const auto& [name, variable] : run.result["variables"].items()) {
+    if (!number_at(variable, "/value")) {
       throw damaged("result.json", fmt::format("the variable \"{}\" has no value", name));
     }
   }
 }
 
 /// @returns what the user is told
-std::string make_report(const fs::path& page, const fs::path& folder, WriteFailures& failures) {
-  const Json card = read_document(folder / card_name),
-             result = read_document(folder / "result.json");
-  check_whole(card, result, folder);
+std::string make_report(const fs::path& folder, WriteFailures& failures) {
+  const OlderRun run{folder, read_document(folder / card_name),
+                     read_document(folder / "result.json")};
+  check_whole(run);
   Json picture;
   Notes notes;
   try {
-    picture = picture_of_run(card, result, folder, notes);
+    picture = picture_of_run(run, notes);
   } catch (const std::exception& error) {
     notes.push_back(fmt::format("the mechanism is not shown: {}", error.what()));
   }
-  if (!card.value("finished", true)) {
+  if (!run.card.value("finished", true)) {
     notes.push_back("the run did not come to its end: what it had written is shown");
   }
   std::string text;
-  if (write_file({folder / report_name, &failures},
-                 report_page(page, report_data(card, result, picture, folder)))) {
+  if (write_page({folder / report_name, &failures},
+                 report_data(run.card, run.result, picture, folder))) {
     text = fmt::format("Report: {}\n", (folder / report_name).string());
   }
   for (const std::string& note : notes) text += wrapped("Note: " + note + "\n", "  ");
@@ -107,19 +95,15 @@ std::string make_report(const fs::path& page, const fs::path& folder, WriteFailu
 }  // namespace
 
 Outcome run_report(const Arguments& arguments) {
-  const auto page = find_report_template();
-  if (!page) {
-    throw InputError(
-        "the template of reports is not built, which takes nodejs and npm: see docs/report.md");
-  }
+  if (!find_report_template()) throw InputError(no_template);
   Outcome outcome;
   outcome.document = {{"reports", Json::array()}};
   WriteFailures failures;
   for (const fs::path& folder : arguments.files) {
-    outcome.text += make_report(*page, folder, failures);
+    outcome.text += make_report(folder, failures);
     const std::string report = (folder / report_name).string();
     const auto& failed = failures.files();
-    if (std::find(failed.begin(), failed.end(), report) == failed.end()) {
+    if (std::ranges::find(failed, report) == failed.end()) {
       outcome.document["reports"].push_back(report);
     }
   }

@@ -1,20 +1,11 @@
-#include <algorithm>
-#include <vector>
-
-#include <fmt/format.h>
-
 #include "cli/commands/commands.hpp"
 #include "cli/files/older_run.hpp"
 #include "cli/text/table.hpp"
-#include "core/base/error.hpp"
-#include "core/base/number_text.hpp"
 
 /// A table of the runs in a folder.
 namespace pleuel {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 /// The folder itself, or those in it, by their names.
 std::vector<OlderRun> runs_in(const fs::path& folder) {
@@ -23,7 +14,7 @@ std::vector<OlderRun> runs_in(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (entry.is_directory()) folders.push_back(entry.path());
   }
-  std::sort(folders.begin(), folders.end());
+  std::ranges::sort(folders);
   std::vector<OlderRun> runs;
   for (const fs::path& one : folders) {
     if (auto run = find_older_run(one)) runs.push_back(std::move(*run));
@@ -74,7 +65,7 @@ Outcome run_runs(const Arguments& arguments) {
   }
   std::vector<OlderRun> runs = runs_in(folder);
   if (arguments.order == "time") {
-    std::stable_sort(runs.begin(), runs.end(), [](const OlderRun& one, const OlderRun& other) {
+    std::ranges::stable_sort(runs, [](const OlderRun& one, const OlderRun& other) {
       return one.written() < other.written();
     });
   }

@@ -1,30 +1,15 @@
-#include <algorithm>
 #include <cmath>
 #include <memory>
-#include <string>
-
-#include <fmt/format.h>
 
 #include "cli/commands/commands.hpp"
-#include "cli/files/output_file.hpp"
 #include "cli/files/report_page.hpp"
-#include "cli/files/run_folder.hpp"
-#include "cli/files/run_picture.hpp"
 #include "cli/files/run_record.hpp"
-#include "cli/input/problem_input.hpp"
 #include "cli/reports/effects_report.hpp"
 #include "cli/reports/scene_report.hpp"
-#include "cli/reports/warnings.hpp"
-#include "cli/text/wrapped_text.hpp"
-#include "core/base/error.hpp"
-#include "core/base/number_text.hpp"
-#include "core/base/stopwatch.hpp"
 #include "core/mobility/lock.hpp"
 #include "core/model/drive_rows.hpp"
-#include "core/response/analysis.hpp"
 #include "core/response/monitors.hpp"
 #include "core/scene/body_rules.hpp"
-#include "core/start/degrees_of_freedom.hpp"
 #include "core/start/initial_state.hpp"
 #include "core/trust/checks.hpp"
 #include "core/trust/joint_findings.hpp"
@@ -36,8 +21,6 @@
 namespace pleuel {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 /// What can be said without a simulation.
 struct Shown {
@@ -191,22 +174,8 @@ Shown describe(const ProblemFile& problem, const Eigen::VectorXd& x) {
   return shown;
 }
 
-/// Without a template of pages: all but the drawing.
-Outcome show_in_words(const Arguments& arguments, const ProblemInput& input) {
-  const std::string reason =
-      "the template of pages is not built, which takes nodejs and npm: see docs/report.md";
-  if (arguments.output) throw InputError(reason);
-  const Shown shown = describe(input.problem, input.design);
-  return {ExitCode::done, shown.document,
-          shown.text + wrapped("No drawing: " + reason + "\n", "  ")};
-}
-
-}  // namespace
-
-namespace {
-
-Json picture_of(const Arguments& arguments, const ProblemInput& input, const Motion& motion) {
-  ShownDesign design{arguments.design ? "design" : "start", input.design};
+Json picture_of(const ProblemInput& input, const Motion& motion) {
+  ShownDesign design{input.design_name, input.design};
   if (motion.time.size() > 0) design.rigid = &motion;
   return run_picture(input.problem, {design});
 }
@@ -215,11 +184,9 @@ Json picture_of(const Arguments& arguments, const ProblemInput& input, const Mot
 Outcome show_in_folder(const Arguments& arguments, const ProblemInput& input) {
   RunRecord record(arguments, input, Json::object());
   record.begin_phase("show");
-  Shown shown = describe(input.problem, input.design);
-  record.write_result(shown.document);
-  record.show_picture([&] { return picture_of(arguments, input, shown.motion); });
+  const Shown shown = describe(input.problem, input.design);
   Outcome outcome{ExitCode::done, shown.document, shown.text};
-  record.finish(outcome);
+  record.finish(outcome, [&] { return picture_of(input, shown.motion); });
   return outcome;
 }
 
@@ -230,24 +197,21 @@ Outcome run_show(const Arguments& arguments) {
   if (arguments.output && arguments.output->extension() != ".html") {
     return show_in_folder(arguments, input);
   }
-  const auto page_template = find_report_template();
-  if (!page_template) return show_in_words(arguments, input);
-  const fs::path page =
-      arguments.output.value_or(free_page(arguments.file.stem().string() + "-show"));
-  make_folder_of(page);
-  Shown shown = describe(input.problem, input.design);
+  const bool can_draw = find_report_template().has_value();
+  if (!can_draw && arguments.output) throw InputError(no_template);
+  const Shown shown = describe(input.problem, input.design);
+  Outcome outcome{ExitCode::done, shown.document, shown.text};
+  if (!can_draw) {
+    outcome.text += wrapped(fmt::format("No drawing: {}\n", no_template), "  ");
+    return outcome;
+  }
   const Json card = {{"command", "show"},
                      {"arguments", arguments.words},
                      {"input", {{"file", input.file.string()}, {"overrides", arguments.overrides}}},
                      {"problem", input.effective}};
-  const Json picture = picture_of(arguments, input, shown.motion);
-  WriteFailures failures;
-  if (write_file({page, &failures},
-                 report_page(*page_template, report_data(card, shown.document, picture, "")))) {
-    shown.document["page"] = page.string();
-    shown.text += fmt::format("Drawn in {}\n", page.string());
-  }
-  return {ExitCode::done, shown.document, shown.text, failures.files()};
+  draw_page(arguments.output.value_or(free_page(arguments.file.stem().string() + "-show")),
+            report_data(card, shown.document, picture_of(input, shown.motion)), outcome);
+  return outcome;
 }
 
 }  // namespace pleuel

@@ -1,27 +1,12 @@
-
-#include <fmt/format.h>
-
-#include "cli/commands/accurate_input.hpp"
 #include "cli/commands/commands.hpp"
-#include "cli/files/csv_file.hpp"
-#include "cli/files/run_picture.hpp"
-#include "cli/files/run_record.hpp"
-#include "cli/input/problem_input.hpp"
 #include "cli/reports/analysis_report.hpp"
 #include "cli/reports/effects_report.hpp"
 #include "cli/reports/limits_report.hpp"
 #include "cli/reports/scene_report.hpp"
 #include "cli/reports/setting_report.hpp"
-#include "cli/reports/warnings.hpp"
-#include "cli/text/console.hpp"
-#include "cli/text/wrapped_text.hpp"
-#include "core/base/error.hpp"
-#include "core/base/number_text.hpp"
 #include "core/base/stop.hpp"
-#include "core/base/stopwatch.hpp"
 #include "core/integration/period_map.hpp"
 #include "core/trust/checks.hpp"
-#include "core/trust/finding.hpp"
 #include "core/trust/proportions.hpp"
 
 namespace pleuel {
@@ -110,13 +95,9 @@ Json simulation_document(const ProblemFile& problem, const Simulated& run) {
   return document;
 }
 
-double smallest_step(const Trajectory& trajectory) {
+Eigen::VectorXd step_sizes(const Trajectory& trajectory) {
   const Eigen::Index steps = trajectory.steps();
-  return (trajectory.time.tail(steps) - trajectory.time.head(steps)).minCoeff();
-}
-double largest_step(const Trajectory& trajectory) {
-  const Eigen::Index steps = trajectory.steps();
-  return (trajectory.time.tail(steps) - trajectory.time.head(steps)).maxCoeff();
+  return trajectory.time.tail(steps) - trajectory.time.head(steps);
 }
 
 /// @param design  where it comes from, if it is not the start
@@ -139,9 +120,9 @@ std::string simulation_text(const ProblemFile& problem, const std::string& desig
                     trajectory.split_steps));
   }
   if (problem.simulation.local_error > 0.0) {
-    text += fmt::format("Steps from {} to {}, {} of them made again.\n",
-                        duration(smallest_step(trajectory)), duration(largest_step(trajectory)),
-                        trajectory.rejected_steps);
+    const Eigen::VectorXd sizes = step_sizes(trajectory);
+    text += fmt::format("Steps from {} to {}, {} of them made again.\n", duration(sizes.minCoeff()),
+                        duration(sizes.maxCoeff()), trajectory.rejected_steps);
   }
   text += periodic_text(trajectory);
   return text + fmt::format("{}, {} Newton iterations, {} factorizations; checked in {}\n",
@@ -186,19 +167,16 @@ Outcome run_simulate(const Arguments& arguments) {
   Outcome outcome{run.is_checked && !is_refuted ? ExitCode::done : ExitCode::not_verified,
                   simulation_document(input.problem, run),
                   simulation_text(input.problem, design, limits, run)};
-  outcome.text += fmt::format("Written to {}: trajectory.csv, result.json, run_card.json\n",
-                              record.folder().string());
   mark_effects({input.problem, values_of(*analysis), run.influences}, outcome.document["effects"]);
   if (input.choice) outcome.document["setting"] = setting_document(input, *input.choice);
   outcome.document["variables"] = variables_document(input.problem, input.design);
   outcome.document["constraints"] = limits;
   record.write_result(outcome.document);
   write_trajectory(record.result("trajectory.csv"), *analysis, run.bands);
-  record.show_picture([&] {
-    const std::string name = arguments.design ? "design" : "start";
-    return run_picture(input.problem, {{name, input.design, analysis.get(), run.bands}});
+  record.finish(outcome, [&] {
+    return run_picture(input.problem,
+                       {{input.design_name, input.design, analysis.get(), run.bands}});
   });
-  record.finish(outcome);
   return outcome;
 }
 

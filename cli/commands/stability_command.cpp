@@ -1,15 +1,4 @@
-#include <optional>
-
-#include <fmt/format.h>
-
 #include "cli/commands/commands.hpp"
-#include "cli/commands/progress_line.hpp"
-#include "cli/files/csv_file.hpp"
-#include "cli/files/run_record.hpp"
-#include "cli/reports/document_table.hpp"
-#include "cli/reports/warnings.hpp"
-#include "cli/text/console.hpp"
-#include "core/base/number_text.hpp"
 #include "core/trust/checks.hpp"
 #include "studies/stability.hpp"
 
@@ -18,7 +7,7 @@ namespace pleuel {
 namespace {
 
 std::string case_name(const Json& run) {
-  return std::filesystem::path(text_at(run, "/file")).stem().string();
+  return fs::path(text_at(run, "/file")).stem().string();
 }
 
 /// "pump, index-1": of an entry of "runs".
@@ -54,18 +43,6 @@ Json make_document(const std::vector<StabilityRun>& runs, bool is_whole) {
   }
   document["runs"] = list_of(runs, stability_entry);
   return document;
-}
-
-/// stability.csv: a line for each run as it is done [SI].
-std::vector<CsvColumn> stability_columns() {
-  std::vector<CsvColumn> columns;
-  for (const char* place : {"/file", "/formulation", "/work/steps", "/work/newton_iterations",
-                            "/work/factorizations", "/position_drift", "/velocity_drift",
-                            "/energy_error", "/condition", "/seconds", "/failure"}) {
-    const Json::json_pointer pointer(place);
-    columns.push_back({pointer.back(), pointer});
-  }
-  return columns;
 }
 
 std::string runs_text(const Json& runs) {
@@ -143,16 +120,18 @@ Outcome run_stability(const Arguments& arguments) {
   const std::size_t all =
       inputs.size() * (compared_formulations().size() + compared_schemes().size());
   const std::vector<StabilityRun> runs = run_all(arguments, all, [&](const StabilityRun& run) {
-    if (!csv) csv.emplace(record.result("stability.csv"), stability_columns());
+    if (!csv)
+      csv.emplace(record.result("stability.csv"),
+                  columns_at({"/file", "/formulation", "/work/steps", "/work/newton_iterations",
+                              "/work/factorizations", "/position_drift", "/velocity_drift",
+                              "/energy_error", "/condition", "/seconds", "/failure"}));
     csv->add(stability_entry(run));
   });
   const bool is_whole = runs.size() == all;
   Outcome outcome{is_whole ? ExitCode::done : ExitCode::not_verified, make_document(runs, is_whole),
                   is_whole ? "" : interrupted_text(runs.size(), all, "runs")};
   const Json& entries = outcome.document["runs"];
-  outcome.text += runs_text(entries) + failures_text(entries) + findings_text(entries);
-  outcome.text += fmt::format("\nWritten to {}: stability.csv, result.json, run_card.json\n",
-                              record.folder().string());
+  outcome.text += runs_text(entries) + failures_text(entries) + findings_text(entries) + "\n";
   record.finish(outcome);
   return outcome;
 }

@@ -1,21 +1,8 @@
-#include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include "cli/commands/accurate_input.hpp"
 #include "cli/commands/commands.hpp"
-#include "cli/commands/progress_line.hpp"
-#include "cli/files/csv_file.hpp"
-#include "cli/files/run_picture.hpp"
-#include "cli/files/run_record.hpp"
-#include "cli/files/run_store.hpp"
-#include "cli/reports/document_table.hpp"
-#include "cli/reports/warnings.hpp"
-#include "core/base/number_text.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "core/trust/checks.hpp"
 #include "studies/missing_settings.hpp"
@@ -171,13 +158,13 @@ std::string answer_text(const ProblemFile& problem, const UncertaintyStudy& stud
   const auto distance_of = [](const LimitScatter& limit) {  // of one that does not scatter, none
     return std::isfinite(limit.distance) ? limit.distance : HUGE_VAL;
   };
-  const auto nearest = std::min_element(study.limits.begin(), study.limits.end(),
-                                        [&](const LimitScatter& a, const LimitScatter& b) {
-                                          return distance_of(a) < distance_of(b);
-                                        });
+  const auto nearest =
+      std::ranges::min_element(study.limits, [&](const LimitScatter& a, const LimitScatter& b) {
+        return distance_of(a) < distance_of(b);
+      });
   if (nearest == study.limits.end() || distance_of(*nearest) == HUGE_VAL) return "";
-  const auto most = std::max_element(
-      study.limits.begin(), study.limits.end(),
+  const auto most = std::ranges::max_element(
+      study.limits,
       [](const LimitScatter& a, const LimitScatter& b) { return a.broken < b.broken; });
   const auto name = [&](const LimitScatter& limit) {
     return problem.constraints[limit.constraint].name;
@@ -268,20 +255,10 @@ Outcome run_uncertainty(const Arguments& arguments) {
   Outcome outcome{study.is_interrupted ? ExitCode::not_verified : ExitCode::done,
                   make_document(problem, study), ""};
   outcome.text = study_text(problem, study, outcome.document) + "\n";
-  if (study.is_interrupted) {
-    outcome.text += resume_text(arguments, record.folder(), Status::interrupted);
-  }
-  outcome.text +=
-      store.text() +
-      fmt::format("Written to {}: uncertainty.csv, result.json, run_card.json, run.sqlite\n",
-                  record.folder().string());
   store.finish(outcome);
   record.write_result(outcome.document);
   write_histories(record.result("uncertainty.csv"), problem, study);
-  record.show_picture([&] {
-    return run_picture(input.problem, {{arguments.design ? "design" : "start", input.design}});
-  });
-  record.finish(outcome);
+  record.finish(outcome, [&] { return run_picture(problem, {{input.design_name, input.design}}); });
   return outcome;
 }
 

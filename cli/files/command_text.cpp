@@ -33,12 +33,12 @@ std::string typed_command(const Arguments& arguments) {
 }
 
 std::string command_on(const std::string& command, const Arguments& arguments,
-                       const std::filesystem::path& file) {
+                       const fs::path& file) {
   return shell_word(arguments.program) + " " + command + " " + shell_word(file.string());
 }
 
 std::string command_at(const std::string& command, const Arguments& arguments,
-                       const std::filesystem::path& design) {
+                       const fs::path& design) {
   std::string text = command_on(command, arguments, arguments.file);
   for (const std::string& assignment : arguments.overrides) {
     text += " --set " + shell_word(with_pointer(assignment));

@@ -1,8 +1,5 @@
 #include "cli/files/csv_file.hpp"
 
-#include <string>
-#include <utility>
-
 #include <fmt/format.h>
 
 #include "cli/text/csv_table.hpp"
@@ -29,65 +26,48 @@ std::string cell_of(const Json& value) {
   return value.is_number_float() ? fmt::format("{}", value.get<double>()) : value.dump();
 }
 
-std::vector<std::string> titles_of(const std::vector<CsvColumn>& columns) {
-  std::vector<std::string> titles;
-  for (const CsvColumn& column : columns) titles.push_back(column.title);
-  return titles;
-}
-
 }  // namespace
 
-CsvFile::CsvFile(const ResultFile& file, const std::vector<std::string>& header) : file_(file) {
-  for (const std::string& title : header) add(title);
-  end_row();
+void CsvFile::add(const Row& cells) {
+  std::vector<std::string> texts;
+  for (const Json& cell : cells) texts.push_back(cell_of(cell));
+  file_.write(fmt::format("{}\n", fmt::join(texts, ",")));
 }
 
-CsvFile& CsvFile::add(const Json& value) {
-  if (is_row_begun_) row_ += ',';
-  is_row_begun_ = true;
-  row_ += cell_of(value);
-  return *this;
+std::vector<CsvColumn> columns_at(std::initializer_list<const char*> places) {
+  std::vector<CsvColumn> columns;
+  for (const char* text : places) {
+    const Json::json_pointer place(text);
+    columns.push_back({place.back(), place});
+  }
+  return columns;
 }
-
-void CsvFile::end_row() {
-  file_.write(row_ + "\n");
-  row_.clear();
-  is_row_begun_ = false;
-}
-
-DocumentCsv::DocumentCsv(const ResultFile& file, std::vector<CsvColumn> columns)
-    : columns_(std::move(columns)), csv_(file, titles_of(columns_)) {}
 
 void DocumentCsv::add(const Json& entry) {
-  for (const CsvColumn& column : columns_) {
-    csv_.add(entry.contains(column.place) ? entry.at(column.place) : Json());
-  }
-  csv_.end_row();
+  CsvFile::Row row;
+  for (const CsvColumn& column : columns_) row.push_back(entry.value(column.place, Json()));
+  csv_.add(row);
 }
 
 void write_histories(const ResultFile& file, const Eigen::VectorXd& time,
                      const std::vector<std::pair<std::string, Eigen::VectorXd>>& columns) {
-  std::vector<std::string> header = {"time"};
-  for (const auto& [name, values] : columns) header.push_back(name);
-  CsvFile csv(file, header);
+  CsvFile::Row row = {"time"};
+  for (const auto& [name, values] : columns) row.push_back(name);
+  CsvFile csv(file, row);
   for (Eigen::Index i = 0; i < time.size(); ++i) {
-    csv.add(time(i));
-    for (const auto& [name, values] : columns) csv.add(values(i));
-    csv.end_row();
+    row = {time(i)};
+    for (const auto& [name, values] : columns) row.push_back(values(i));
+    csv.add(row);
   }
 }
 
 namespace {
 
-std::vector<std::string> header(const Problem& problem) {
-  std::vector<std::string> titles = {"evaluation", "iteration",     "seconds", "purpose",
-                                     "request",    "max_violation", "step",    "objective"};
-  for (const Constraint& constraint : problem.constraints()) {
-    titles.push_back("constraint:" + constraint.name);
-  }
-  for (const Variable& variable : problem.variables()) {
-    titles.push_back("variable:" + variable.name);
-  }
+CsvFile::Row titles_of(const Problem& problem) {
+  CsvFile::Row titles = {"evaluation", "iteration",     "seconds", "purpose",
+                         "request",    "max_violation", "step",    "objective"};
+  for (const Constraint& one : problem.constraints()) titles.push_back("constraint:" + one.name);
+  for (const Variable& one : problem.variables()) titles.push_back("variable:" + one.name);
   titles.insert(titles.end(), {"time_step", "elements", "failure"});
   return titles;
 }
@@ -101,24 +81,24 @@ std::string to_string(Request request) {
 HistoryCsv::HistoryCsv(const ResultFile& file, const DesignProblem& problem)
     : constraints_(problem.constraints().size()),
       objective_sign_(problem.objective_sign()),
-      csv_(file, header(problem)) {}
+      csv_(file, titles_of(problem)) {}
 
 void HistoryCsv::add(const EvaluationRecord& record) {
-  const bool has_failed = record.has_failed();
-  const auto add_value = [&](double value) {
-    has_failed ? csv_.add(std::string()) : csv_.add(value);
-  };
-  csv_.add(record.evaluation).add(record.iteration).add(record.seconds);
-  csv_.add(to_string(record.purpose)).add(to_string(record.request));
-  add_value(record.max_violation);
-  csv_.add(record.step);
-  add_value(objective_sign_ * record.objective);
+  const auto known = [&](double value) { return record.has_failed() ? Json() : Json(value); };
+  CsvFile::Row row = {record.evaluation,
+                      record.iteration,
+                      record.seconds,
+                      to_string(record.purpose),
+                      to_string(record.request),
+                      known(record.max_violation),
+                      record.step,
+                      known(objective_sign_ * record.objective)};
   for (std::size_t i = 0; i < constraints_; ++i) {
-    add_value(has_failed ? 0.0 : record.constraints(i));
+    row.push_back(record.has_failed() ? Json() : Json(record.constraints(i)));
   }
-  for (const double value : record.x) csv_.add(value);
-  csv_.add(record.time_step).add(record.elements).add(record.failure);
-  csv_.end_row();
+  row.insert(row.end(), record.x.begin(), record.x.end());
+  row.insert(row.end(), {record.time_step, record.elements, record.failure});
+  csv_.add(row);
 }
 
 void write_trajectory(const ResultFile& file, const Analysis& analysis,

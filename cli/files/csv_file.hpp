@@ -1,17 +1,10 @@
 #pragma once
 
-#include <filesystem>
-#include <string>
 #include <utility>
-#include <vector>
-
-#include <Eigen/Core>
 
 #include "cli/files/output_file.hpp"
 #include "cli/text/json.hpp"
 #include "core/response/analysis.hpp"
-#include "core/scene/problem_file.hpp"
-#include "core/scene/shown_unit.hpp"
 #include "optimization/design/design_problem.hpp"
 #include "optimization/history.hpp"
 
@@ -22,16 +15,14 @@ namespace pleuel {
 /// apostrophe here.
 class CsvFile {
  public:
-  CsvFile(const ResultFile& file, const std::vector<std::string>& header);
+  using Row = std::vector<Json>;
+  CsvFile(const ResultFile& file, const Row& titles) : file_(file) { add(titles); }
 
   /// Numbers as the shortest text that reads back exactly; of null an empty cell.
-  CsvFile& add(const Json& value);
-  void end_row();
+  void add(const Row& cells);
 
  private:
   OutputFile file_;
-  std::string row_;
-  bool is_row_begun_ = false;
 };
 
 /// A column whose cells stand at this place in entries of a document.
@@ -40,10 +31,15 @@ struct CsvColumn {
   Json::json_pointer place;
 };
 
+/// Columns that are called as the last keys of their places.
+std::vector<CsvColumn> columns_at(std::initializer_list<const char*> places);
+
 /// Lines that are entries of a document; what an entry does not have is an empty cell.
 class DocumentCsv {
  public:
-  DocumentCsv(const ResultFile& file, std::vector<CsvColumn> columns);
+  DocumentCsv(const ResultFile& file, std::vector<CsvColumn> columns)
+      : columns_(std::move(columns)),
+        csv_(file, list_of(columns_, &CsvColumn::title).get<CsvFile::Row>()) {}
   void add(const Json& entry);
 
  private:

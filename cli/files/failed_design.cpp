@@ -22,8 +22,9 @@ std::string command_again(const RunRecord& record, const Arguments& arguments,
                           const ProblemFile& problem, const EvaluationRecord& failed) {
   const bool takes_gradients =
       failed.request != Request::values ||
-      std::any_of(problem.constraints.begin(), problem.constraints.end(),
-                  [](const ConstraintSettings& constraint) { return constraint.deviations > 0.0; });
+      std::ranges::any_of(problem.constraints, [](const ConstraintSettings& constraint) {
+        return constraint.deviations > 0.0;
+      });
   return command_at(takes_gradients ? "gradient" : "simulate", arguments,
                     record.folder() / dossier_name);
 }

@@ -1,9 +1,6 @@
 #pragma once
 
-#include <string>
-
 #include "cli/files/run_record.hpp"
-#include "cli/input/arguments.hpp"
 #include "optimization/history.hpp"
 
 /// What an optimization leaves of a design that could not be evaluated, so that it can be looked

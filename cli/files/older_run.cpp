@@ -13,16 +13,13 @@
 #include <unistd.h>
 
 #include "cli/input/problem_input.hpp"
+#include "cli/reports/document_table.hpp"
 #include "core/base/error.hpp"
-#include "core/response/analysis.hpp"
 #include "core/response/effect_measurement.hpp"
-#include "core/scene/problem_reader.hpp"
 
 namespace pleuel {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Whether a run is at work in the folder: it holds its lock.
 bool is_at_work(const fs::path& folder) {
@@ -43,16 +40,10 @@ Json document_in(const fs::path& file) {
 }
 
 std::string OlderRun::problem() const {
-  if (card.contains("inputs") && card["inputs"].is_array() && card["inputs"].size() != 1) {
-    return fmt::format("{} files", card["inputs"].size());
-  }
-  const Json problem = card.value("problem", Json::object());
-  if (problem.is_object() && problem.value("name", Json()).is_string()) {
-    return problem["name"].get<std::string>();
-  }
-  const bool is_listed = card.contains("inputs") && card["inputs"].is_array();
-  const Json input = is_listed ? card["inputs"][0] : card.value("input", Json::object());
-  return fs::path(input.value("file", "")).stem().string();
+  const Json inputs = card.value("inputs", Json::array({card.value("input", Json())}));
+  if (inputs.size() != 1) return fmt::format("{} files", inputs.size());
+  const std::string name = text_at(card, "/problem/name");
+  return name.empty() ? fs::path(text_at(inputs[0], "/file")).stem().string() : name;
 }
 
 std::string OlderRun::status() const {
@@ -61,22 +52,20 @@ std::string OlderRun::status() const {
   return result.value("status", "done");
 }
 
+std::string OlderRun::shown_case() const {
+  return text_at(result, "/cases/shown");
+}
+
 std::optional<double> OlderRun::objective() const {
-  if (!result.is_object() || !result.contains("objective")) return std::nullopt;
-  const Json value =
-      result["objective"].is_object() ? result["objective"].value("value", Json()) : Json();
-  return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
+  return number_at(result, "/objective/value");
 }
 
 std::string OlderRun::objective_unit() const {
-  return objective() ? result["objective"].value("unit", "") : "";
+  return objective() ? text_at(result, "/objective/unit") : "";
 }
 
 std::optional<double> OlderRun::seconds() const {
-  const Json seconds = card.value("seconds", Json::object());
-  return seconds.contains("total") && seconds["total"].is_number()
-             ? std::optional(seconds["total"].get<double>())
-             : std::nullopt;
+  return number_at(card, "/seconds/total");
 }
 
 std::string OlderRun::date() const {
@@ -109,12 +98,6 @@ OlderRun read_older_run(const fs::path& folder) {
   return std::move(*run);
 }
 
-std::string shown_case(const Json& result) {
-  if (!result.contains("cases") || !result["cases"].is_object()) return "";
-  const Json name = result["cases"].value("shown", Json());
-  return name.is_string() ? name.get<std::string>() : "";
-}
-
 namespace {
 
 /// The effects of the model that the result is of: where an optimization has ended, more of them may
@@ -135,13 +118,13 @@ bool take_effects(const Json& result, ProblemFile& problem) {
 
 }  // namespace
 
-ProblemFile problem_of(const Json& card, const Json& result) {
-  return problem_of(card, result, shown_case(result));
+ProblemFile problem_of(const OlderRun& run) {
+  return problem_of(run, run.shown_case());
 }
 
-ProblemFile problem_of(const Json& card, const Json& result, const std::string& load_case) {
-  const std::string file = card.at("input").at("file").get<std::string>();
-  Json document = card.at("problem"), setting = result.value("setting", Json::object());
+ProblemFile problem_of(const OlderRun& run, const std::string& load_case) {
+  const std::string file = run.card.at("input").at("file").get<std::string>();
+  Json document = run.card.at("problem"), setting = run.result.value("setting", Json::object());
   if (!load_case.empty()) {
     document = document_in_case(document, load_case, file);
     if (setting.contains("cases")) setting = setting["cases"].value(load_case, Json::object());
@@ -154,7 +137,7 @@ ProblemFile problem_of(const Json& card, const Json& result, const std::string& 
   }
   ProblemFile problem = read_problem_text(document.dump(), file, overrides).complete();
   problem.load_case = load_case;
-  if (!take_effects(result, problem)) decide_effects(problem);
+  if (!take_effects(run.result, problem)) decide_effects(problem);
   return problem;
 }
 
@@ -162,12 +145,11 @@ std::optional<Eigen::VectorXd> design_in(const Json& document, const ProblemFile
                                          const std::string& key) {
   Eigen::VectorXd x = start_design(problem);
   if (x.size() == 0) return x;
-  if (!document.contains("variables")) return std::nullopt;
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
-    const Json variable = document["variables"].value(problem.variables[i].name, Json());
-    const Json value = key.empty() ? variable : variable.value(key, Json());
-    if (!value.is_number()) return std::nullopt;
-    x(i) = value.get<double>();
+    const std::string place = place_in("/variables", problem.variables[i].name);
+    const auto value = number_at(document, key.empty() ? place : place + "/" + key);
+    if (!value) return std::nullopt;
+    x(i) = *value;
   }
   return x;
 }

@@ -1,11 +1,6 @@
 #pragma once
 
-#include <filesystem>
-#include <optional>
-#include <string>
-
-#include <Eigen/Core>
-
+#include "cli/input/arguments.hpp"
 #include "cli/text/json.hpp"
 #include "core/scene/problem_file.hpp"
 
@@ -14,11 +9,11 @@ namespace pleuel {
 inline constexpr const char* card_name = "run_card.json";
 
 /// The JSON object in a file; null if there is none that can be read.
-Json document_in(const std::filesystem::path& file);
+Json document_in(const fs::path& file);
 
 /// What the folder of a run says of it.
 struct OlderRun {
-  std::filesystem::path folder;
+  fs::path folder;
   Json card;
   Json result;  ///< null: there is none
 
@@ -27,6 +22,8 @@ struct OlderRun {
   std::string problem() const;
   /// "verified", "done" …: that of the result; or "running", "killed".
   std::string status() const;
+  /// The load case whose mechanism a page shows first; empty without cases.
+  std::string shown_case() const;
   /// Of the result, [SI]; none where it has no objective.
   std::optional<double> objective() const;
   /// "kg"; empty likewise.
@@ -35,26 +32,23 @@ struct OlderRun {
   /// Local time at which its card was written last: "2025-03-01 17:04".
   std::string date() const;
   /// The same instant, to put runs in order by.
-  std::filesystem::file_time_type written() const;
+  fs::file_time_type written() const;
 };
 
 /// @returns nothing if the folder is not that of a run
-std::optional<OlderRun> find_older_run(const std::filesystem::path& folder);
+std::optional<OlderRun> find_older_run(const fs::path& folder);
 
 /// @throws InputError if the folder is not that of a run
-OlderRun read_older_run(const std::filesystem::path& folder);
+OlderRun read_older_run(const fs::path& folder);
 
 // What an earlier run simulated, from its documents.
 
-/// The load case whose mechanism a page shows first; empty without cases.
-std::string shown_case(const Json& result);
-
 /// The problem as it ran: with the steps and elements that were chosen for an accuracy, and the
 /// effects that were built at the end.
-ProblemFile problem_of(const Json& card, const Json& result);
+ProblemFile problem_of(const OlderRun& run);
 
 /// The same of one of its load cases; of all if it is empty.
-ProblemFile problem_of(const Json& card, const Json& result, const std::string& load_case);
+ProblemFile problem_of(const OlderRun& run, const std::string& load_case);
 
 /// The values of a document's variables; nothing if it does not have all of them.
 /// @param key  of {NAME: {key: number}}; empty for {NAME: number}

@@ -17,7 +17,7 @@ namespace pleuel {
 namespace fs = std::filesystem;
 
 void WriteFailures::note(const fs::path& path, const std::string& reason) {
-  if (std::find(files_.begin(), files_.end(), path.string()) != files_.end()) return;
+  if (std::ranges::find(files_, path.string()) != files_.end()) return;
   if (files_.empty()) reason_ = reason;
   files_.push_back(path.string());
   if (is_silent_) return;

@@ -28,14 +28,7 @@ constexpr std::uintmax_t largest_file = 3'000'000;  ///< [byte]
 /// A document inside a script element: "</script>" or "<!--" in a name must not end it.
 std::string without_tags(const std::string& json) {
   std::string text;
-  text.reserve(json.size());
-  for (const char letter : json) {
-    if (letter == '<') {
-      text += "\\u003c";
-    } else {
-      text += letter;
-    }
-  }
+  for (const char letter : json) text += letter == '<' ? "\\u003c" : std::string(1, letter);
   return text;
 }
 
@@ -77,7 +70,7 @@ Json report_data(const Json& card, const Json& result, const Json& picture,
   for (const char* name : shown_files) {
     std::error_code error;
     const std::uintmax_t size = fs::file_size(folder / name, error);
-    if (error) continue;
+    if (folder.empty() || error) continue;
     if (size <= largest_file) {
       files[name] = whole_text(folder / name);
     } else {
@@ -88,19 +81,30 @@ Json report_data(const Json& card, const Json& result, const Json& picture,
           {"picture", picture}, {"files", files}, {"left_out", left_out}};
 }
 
-std::string report_page(const fs::path& page_template, const Json& data) {
-  std::string page = whole_text(page_template);
+bool write_page(const ResultFile& file, const Json& data) {
+  const auto page_template = find_report_template();
+  std::string page = page_template ? whole_text(*page_template) : "";
   const std::size_t begin = page.find(opening);
   const std::size_t end = begin == std::string::npos ? begin : page.find(closing, begin);
   if (end == std::string::npos) {
-    throw std::runtime_error(
-        fmt::format("{} has no place for the data of a report", page_template.string()));
+    throw std::runtime_error(fmt::format("the template of pages has no place for data: it is {}",
+                                         page_template ? page_template->string() : "not there"));
   }
   const std::size_t inside = begin + opening.size();
   const std::string text =
       data.dump(-1, ' ', /*ensure_ascii=*/false, Json::error_handler_t::replace);
   page.replace(inside, end - inside, without_tags(text));
-  return page;
+  return write_file(file, page);
+}
+
+void draw_page(const fs::path& page, const Json& data, Outcome& outcome) {
+  make_folder_of(page);
+  WriteFailures failures;
+  if (write_page({page, &failures}, data)) {
+    outcome.document["page"] = page.string();
+    outcome.text += fmt::format("Drawn in {}\n", page.string());
+  }
+  outcome.unwritten = failures.files();
 }
 
 }  // namespace pleuel

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <filesystem>
 #include <optional>
-#include <string>
 
-#include "cli/text/json.hpp"
+#include "cli/files/output_file.hpp"
+#include "cli/reports/outcome.hpp"
 
 /// report.html: one page without network that shows what a run found (docs/report.md).
 namespace pleuel {
@@ -19,13 +18,21 @@ std::optional<std::filesystem::path> find_report_template();
 std::string missing_template_text(const std::string& program, const std::filesystem::path& folder);
 
 /// The data of a page: {"card", "result", "picture", "files", "left_out"}; `picture` of run_picture() or
-/// null, `files` the texts of the CSV and SVG files in the folder that pages show, `left_out` the
+/// null, `files` the texts of the CSV and SVG files in the folder that pages show (none of no folder), `left_out` the
 /// names of those that are too large for a page (beyond 3 MB).
 Json report_data(const Json& card, const Json& result, const Json& picture,
-                 const std::filesystem::path& folder);
+                 const std::filesystem::path& folder = {});
 
-/// The page with the data in place of what stands between the tags of the template.
-/// @throws std::runtime_error if the template has no such place or cannot be read
-std::string report_page(const std::filesystem::path& page_template, const Json& data);
+/// What there is to say where there is no template.
+inline constexpr const char* no_template =
+    "the template of pages is not built, which takes nodejs and npm: see docs/report.md";
+
+/// Writes the page with the data in place of what stands between the tags of the template.
+/// @returns whether it could be written
+/// @throws std::runtime_error if there is no template with such a place
+bool write_page(const ResultFile& file, const Json& data);
+
+/// The same for a page that the user asked for by its name: tells the outcome.
+void draw_page(const std::filesystem::path& page, const Json& data, Outcome& outcome);
 
 }  // namespace pleuel

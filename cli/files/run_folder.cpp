@@ -17,26 +17,28 @@ namespace pleuel {
 
 namespace {
 
-namespace fs = std::filesystem;
+/// What a run of any command may leave beside the card, but for the record of evaluations.
+bool is_result(const std::string& name) {
+  for (const char* known :
+       {"result.json", "report.html", "failed_design.json", "history.csv", "trajectory.csv",
+        "gradients.csv", "accuracy.csv", "accuracy.svg", "accuracy-gradients.svg",
+        "accuracy-optimum.svg", "pareto.csv", "prices.csv", "stability.csv", "uncertainty.csv",
+        "evaluations.csv", "evaluation_gradients.csv"}) {
+    if (name == known) return true;
+  }
+  const bool is_motion =  // of both designs, in each load case
+      name.starts_with("trajectory-start") || name.starts_with("trajectory-optimum");
+  return (is_motion && name.ends_with(".csv")) ||
+         (name.starts_with("plot") && name.ends_with(".svg"));
+}
 
-/// Everything that a run of any command may leave beside the card.
-constexpr std::array<const char*, 17> result_names = {"history.csv",
-                                                      "result.json",
-                                                      "trajectory.csv",
-                                                      "trajectory-start.csv",
-                                                      "trajectory-optimum.csv",
-                                                      "pareto.csv",
-                                                      "accuracy.csv",
-                                                      "accuracy.svg",
-                                                      "accuracy-gradients.svg",
-                                                      "accuracy-optimum.svg",
-                                                      "stability.csv",
-                                                      "uncertainty.csv",
-                                                      "gradients.csv",
-                                                      "failed_design.json",
-                                                      "evaluations.csv",
-                                                      "evaluation_gradients.csv",
-                                                      "report.html"};
+template <class IsOurs>
+void remove_files(const fs::path& folder, const IsOurs& is_ours) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (is_ours(entry.path().filename().string())) fs::remove(entry, error);
+  }
+}
 
 /// The record of evaluations, with its log.
 constexpr std::array<const char*, 3> record_names = {"run.sqlite", "run.sqlite-wal",
@@ -81,13 +83,25 @@ fs::path free_folder(const fs::path& folder) {
   return free;
 }
 
-std::filesystem::path free_page(const std::string& name) {
-  const std::filesystem::path runs = "runs";
-  std::filesystem::path page = runs / (name + ".html");
-  for (int number = 2; std::filesystem::exists(page); ++number) {
+fs::path free_page(const std::string& name) {
+  const fs::path runs = "runs";
+  fs::path page = runs / (name + ".html");
+  for (int number = 2; fs::exists(page); ++number) {
     page = runs / fmt::format("{}-{}.html", name, number);
   }
   return page;
+}
+
+void require_free(const fs::path& file, const Arguments& arguments) {
+  const fs::file_status status = fs::symlink_status(file);
+  if (!fs::exists(status)) return;
+  const std::string name = (arguments.output == file ? "-o " : "") + file.string();
+  if (!fs::is_regular_file(status)) {
+    throw InputError(name + ": is there already, and no ordinary file");
+  }
+  if (!arguments.overwrites) {
+    throw InputError(name + ": is there already; --overwrite replaces it");
+  }
 }
 
 RunFolder::RunFolder(const Arguments& arguments)
@@ -155,25 +169,14 @@ void RunFolder::check_writable() const {
 }
 
 void RunFolder::remove_older_results() const {
-  std::error_code error;
-  for (const char* name : result_names) fs::remove(path_ / name, error);
-  if (!keeps_record_) {
-    for (const char* name : record_names) fs::remove(path_ / name, error);
-  }
-  for (const auto& entry : fs::directory_iterator(path_, error)) {  // drawings of `pleuel plot`
-    const std::string name = entry.path().filename().string();
-    if (name.starts_with("plot") && name.ends_with(".svg")) fs::remove(entry, error);
-    const bool is_of_case =  // the motion in a load case
-        name.starts_with("trajectory-start-") || name.starts_with("trajectory-optimum-");
-    if (is_of_case && name.ends_with(".csv")) fs::remove(entry, error);
-  }
-  for (const auto& entry : fs::directory_iterator(path_ / "vtk", error)) {
-    const fs::path ending = entry.path().extension();
-    if (ending == ".vtu" || ending == ".pvd") fs::remove(entry, error);
-  }
-  for (const auto& entry : fs::directory_iterator(path_ / "bodies", error)) {
-    if (entry.is_regular_file() && entry.path().extension() == ".json") fs::remove(entry, error);
-  }
+  remove_files(path_, [&](const std::string& name) {
+    const bool is_record = std::ranges::find(record_names, name) != record_names.end();
+    return is_result(name) || (is_record && !keeps_record_);
+  });
+  remove_files(path_ / "vtk", [](const std::string& name) {
+    return name.ends_with(".vtu") || name.ends_with(".pvd");
+  });
+  remove_files(path_ / "bodies", [](const std::string& name) { return name.ends_with(".json"); });
 }
 
 }  // namespace pleuel

@@ -1,17 +1,17 @@
 #pragma once
 
-#include <filesystem>
-#include <string>
-
 #include "cli/input/arguments.hpp"
 
 namespace pleuel {
 
 /// The first of FOLDER, FOLDER-2, FOLDER-3 … that is not there.
-std::filesystem::path free_folder(const std::filesystem::path& folder);
+fs::path free_folder(const fs::path& folder);
 
 /// The first of runs/NAME.html, NAME-2.html … that is not there.
-std::filesystem::path free_page(const std::string& name);
+fs::path free_page(const std::string& name);
+
+/// @throws InputError if there is a file already that shall not be overwritten, or something else
+void require_free(const fs::path& file, const Arguments& arguments);
 
 /// The folder of a run: made if need be, and locked against other runs of the program until it is
 /// destroyed or the program ends. A folder that was made and is still empty then goes again.
@@ -26,7 +26,7 @@ class RunFolder {
   RunFolder(const RunFolder&) = delete;
   RunFolder& operator=(const RunFolder&) = delete;
 
-  const std::filesystem::path& path() const { return path_; }
+  const fs::path& path() const { return path_; }
 
   /// Removes what an older run left, but for its card, and the record that a run goes on with.
   void remove_older_results() const;
@@ -37,9 +37,9 @@ class RunFolder {
   void check_content(const Arguments& arguments) const;
   void check_writable() const;
 
-  std::filesystem::path path_;
+  fs::path path_;
   bool keeps_record_;
-  std::filesystem::path made_;  ///< the outermost folder that was made for it; empty if none
+  fs::path made_;  ///< the outermost folder that was made for it; empty if none
   int lock_ = -1;
 };
 

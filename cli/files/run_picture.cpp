@@ -7,15 +7,14 @@
 #include "cli/files/csv_file.hpp"
 #include "cli/files/scene_picture.hpp"
 #include "cli/reports/analysis_report.hpp"
-#include "cli/text/json.hpp"
+#include "cli/reports/document_table.hpp"
+#include "cli/reports/scene_report.hpp"
 #include "core/model/imported_constants.hpp"
 #include "core/response/history_reduction.hpp"
 #include "core/response/peak_place.hpp"
 #include "core/scene/response_kind.hpp"
 #include "core/scene/response_parts.hpp"
-#include "core/scene/shown_unit.hpp"
 #include "picture/companions.hpp"
-#include "picture/motion.hpp"
 #include "picture/thinned.hpp"
 
 namespace pleuel {
@@ -59,9 +58,7 @@ Json meaning_document(const ResponseSettings& response) {
                    {"history_unit", unit_document(history_unit(response))},
                    {"limits_history", limits_each_instant(response)}};
   if (!response.joint.empty()) document["joint"] = response.joint;
-  if (response.station) {
-    document["at"] = *response.station;
-  }
+  if (response.station) document["at"] = *response.station;
   if (kind_of(response.type).is_of_point) document["at"] = response.at;
   return document;
 }
@@ -98,7 +95,7 @@ Json slopes_document(const ProblemFile& problem, const ShownDesign& design,
     sizes.push_back(
         {history.gradients.col(j).lpNorm<Eigen::Infinity>() * std::abs(design.x(j)), j});
   }
-  std::sort(sizes.begin(), sizes.end(), std::greater<>());
+  std::ranges::sort(sizes, std::greater<>());
   Json document = Json::object();
   for (std::size_t k = 0; k < std::min(most_slopes, sizes.size()); ++k) {
     const Eigen::Index j = sizes[k].second;
@@ -111,7 +108,7 @@ Json slopes_document(const ProblemFile& problem, const ShownDesign& design,
 void add_influence(const ProblemFile& problem, const ShownDesign& design, std::size_t i,
                    const Room& room, Json& document) {
   if (design.influence == nullptr) return;
-  document["gradients"] = influence_document(problem, *design.influence, i);
+  document["gradients"] = by_name(problem.variables, design.influence->gradients.row(i));
   for (const HistoryGradients& history : design.influence->histories) {
     if (history.response == i) document["slopes"] = slopes_document(problem, design, history, room);
   }
@@ -226,20 +223,17 @@ Json design_document(const ProblemFile& problem, const ShownDesign& design, std:
 
 Json run_picture(const ProblemFile& problem, const std::vector<ShownDesign>& designs,
                  std::size_t pictures) {
+  const NamedUnits units = units_of_variables(problem);
+  Json variables = variables_document(problem);
+  for (const auto& [name, variable] : variables.items()) {
+    variable["unit"] = unit_document(units.at(name));
+  }
   Json document = {{"name", problem.name},
                    {"description", problem.description},
                    {"scene", scene_picture(problem)},
-                   {"variables", Json::object()},
+                   {"variables", variables},
                    {"responses", named_entries(problem.responses, meaning_document)},
                    {"limits", limits_picture(problem)}};
-  const std::vector<ShownUnit> units = variable_units(problem);
-  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
-    const DesignVariable& variable = problem.variables[i];
-    document["variables"][variable.name] = {{"start", variable.start},
-                                            {"lower", variable.lower},
-                                            {"upper", variable.upper},
-                                            {"unit", unit_document(units[i])}};
-  }
   if (problem.objective) {
     document["objective"] = problem.objective->response;
     document["maximizes"] = problem.objective->sign() < 0.0;

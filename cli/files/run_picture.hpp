@@ -1,12 +1,8 @@
 #pragma once
 
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "cli/reports/design_influence.hpp"
-#include "cli/text/json.hpp"
-#include "core/response/analysis.hpp"
 #include "picture/motion.hpp"
 
 /// What the report shows of simulated designs (docs/report.md) [SI].

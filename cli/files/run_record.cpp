@@ -20,14 +20,6 @@ Json input_document(const ProblemInput& input, const Arguments& arguments) {
   return document;
 }
 
-/// Commands to be typed stay in their lines, however long.
-void wrap_list_of_files(std::string& text) {
-  const std::size_t begin = text.rfind("Written to ");
-  if (begin == std::string::npos || (begin > 0 && text[begin - 1] != '\n')) return;
-  const std::size_t end = std::min(text.find('\n', begin), text.size());
-  text.replace(begin, end - begin, wrapped(text.substr(begin, end - begin), "  "));
-}
-
 }  // namespace
 
 RunRecord::RunRecord(const Arguments& arguments, Json options)
@@ -73,12 +65,13 @@ void RunRecord::end_phase() {
   phase_.clear();
 }
 
-ResultFile RunRecord::result(const std::filesystem::path& name) {
+ResultFile RunRecord::result(const fs::path& name) {
   if (!has_results_) replace_older_run();
   std::error_code error;  // shows when the file is written
   if (name.has_parent_path()) {
-    std::filesystem::create_directory(folder() / name.parent_path(), error);
+    fs::create_directory(folder() / name.parent_path(), error);
   }
+  if (std::ranges::find(results_, name) == results_.end()) results_.push_back(name);
   return {folder() / name, &failures_};
 }
 
@@ -90,12 +83,24 @@ void RunRecord::write_result(const Json& document) {
   write("result.json", versioned(document));
 }
 
-void RunRecord::finish(Outcome& outcome) {
+std::string RunRecord::files_text() const {
+  std::vector<std::string> names;
+  for (const fs::path& name : results_) {
+    const bool is_lost =
+        std::ranges::find(failures_.files(), (folder() / name).string()) != failures_.files().end();
+    if (!is_lost) names.push_back(name.string());
+  }
+  return wrapped(fmt::format("Written to {}: {}\n", folder().string(), fmt::join(names, ", ")),
+                 "  ");
+}
+
+void RunRecord::finish(Outcome& outcome, const std::function<Json()>& make_picture) {
   end_phase();
   outcome.document = versioned(outcome.document);
   write_result(outcome.document);
+  outcome.text += files_text();
+  if (make_picture) show_picture(make_picture);
   write_report(outcome);
-  wrap_list_of_files(outcome.text);
   phases_["total"] = total_.seconds();
   card_["finished"] = true;
   outcome.unwritten = failures_.files();
@@ -114,8 +119,7 @@ void RunRecord::show_picture(const std::function<Json()>& make_picture) {
 
 void RunRecord::write_report(Outcome& outcome) {
   if (!makes_report_) return;
-  const auto page = find_report_template();
-  if (!page) {
+  if (!find_report_template()) {
     outcome.text += missing_template_text(program_, folder());
     return;
   }
@@ -125,9 +129,7 @@ void RunRecord::write_report(Outcome& outcome) {
   card["exit_code"] = outcome.final_code();
   card["seconds"] = phases_;
   card["seconds"]["total"] = total_.seconds();
-  const std::string text =
-      report_page(*page, report_data(card, outcome.document, picture_, folder()));
-  if (write_file(result(report_name), text)) {
+  if (write_page(result(report_name), report_data(card, outcome.document, picture_, folder()))) {
     outcome.text += fmt::format("Report: {}\n", (folder() / report_name).string());
   }
   end_phase();

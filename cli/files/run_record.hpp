@@ -1,13 +1,7 @@
 #pragma once
 
-#include <filesystem>
-#include <functional>
-#include <string>
-#include <vector>
-
 #include "cli/files/output_file.hpp"
 #include "cli/files/run_folder.hpp"
-#include "cli/input/arguments.hpp"
 #include "cli/input/problem_input.hpp"
 #include "cli/reports/outcome.hpp"
 #include "core/base/stopwatch.hpp"
@@ -29,7 +23,7 @@ class RunRecord {
   /// The same for a command that takes several files.
   RunRecord(const Arguments& arguments, const std::vector<ProblemInput>& inputs, Json options);
 
-  const std::filesystem::path& folder() const { return folder_.path(); }
+  const fs::path& folder() const { return folder_.path(); }
 
   /// Of the program, its libraries and its compiler.
   const Json& versions() const { return card_.at("versions"); }
@@ -38,7 +32,7 @@ class RunRecord {
   void begin_phase(const std::string& name);
 
   /// Where the result of this name is to be written; makes the folder of "folder/name".
-  ResultFile result(const std::filesystem::path& name);
+  ResultFile result(const fs::path& name);
 
   /// Writes a document into the folder, in place of an earlier one of this name.
   void write(const std::string& name, const Json& document);
@@ -50,18 +44,20 @@ class RunRecord {
   /// report.
   void show_picture(const std::function<Json()>& make_picture);
 
-  /// Writes result.json, the last card and the report, and tells the outcome which files could not
-  /// be written.
-  void finish(Outcome& outcome);
+  /// Writes result.json, the last card and the report, with this picture if there is none yet, and
+  /// tells the outcome which files were written, and which could not be.
+  void finish(Outcome& outcome, const std::function<Json()>& make_picture = nullptr);
 
  private:
   RunRecord(const Arguments& arguments, Json options);
   void end_phase();
+  std::string files_text() const;
   void write_report(Outcome& outcome);
   void replace_older_run();
 
   RunFolder folder_;
   WriteFailures failures_;
+  std::vector<fs::path> results_;  ///< names, in the order in which they were begun
   Json card_;
   Json phases_ = Json::object();
   Json picture_;

@@ -1,7 +1,6 @@
 #include "cli/files/run_store.hpp"
 
 #include <ctime>
-#include <utility>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -9,7 +8,6 @@
 #include "cli/files/command_text.hpp"
 #include "cli/input/fingerprint.hpp"
 #include "cli/text/console.hpp"
-#include "cli/text/json.hpp"
 #include "core/base/error.hpp"
 #include "core/base/stop.hpp"
 
@@ -49,7 +47,7 @@ std::string first_difference(const Json& there, const Json& here) {
 
 RunStore::RunStore(RunRecord& record, const Arguments& arguments, const ProblemInput& input,
                    Json options)
-    : record_(record) {
+    : record_(record), arguments_(arguments) {
   description_ = {{"command", arguments.command},
                   {"arguments", arguments.words},
                   {"problem", input.effective},
@@ -64,8 +62,8 @@ RunStore::RunStore(RunRecord& record, const Arguments& arguments, const ProblemI
 }
 
 void RunStore::open_older() {
-  const std::filesystem::path file = record_.folder() / database_name;
-  if (!std::filesystem::exists(file)) return begin_without_record();
+  const fs::path file = record_.folder() / database_name;
+  if (!fs::exists(file)) return begin_without_record();
   try {
     database_.emplace(file);
     database_->check();
@@ -79,7 +77,7 @@ void RunStore::open_older() {
 /// A script may ask for --resume from the first time on; results that are there are not replaced.
 void RunStore::begin_without_record() const {
   const std::string folder = record_.folder().string();
-  if (std::filesystem::exists(record_.folder() / "result.json")) {
+  if (fs::exists(record_.folder() / "result.json")) {
     throw InputError(
         fmt::format("--resume: {} has results and no {}: there is nothing to resume; take another "
                     "folder, or --overwrite",
@@ -182,14 +180,22 @@ void RunStore::add(const EvaluationRecord& record) {
   });
 }
 
-void RunStore::finish(const Outcome& outcome) {
+void RunStore::finish(Outcome& outcome) {
   attempt([&](RunDatabase& database) {
     database.describe("result", outcome.document.dump());
     database.describe("ended", Json(utc_now()).dump());
   });
+  const bool is_interrupted = outcome.document.value("status", "") == "interrupted" ||
+                              outcome.document.contains("interrupted");
+  if (is_interrupted) {
+    outcome.text += "To go on from there: " + typed_command(arguments_);
+    if (!arguments_.output) outcome.text += " -o " + shell_word(record_.folder().string());
+    outcome.text += arguments_.resumes ? "\n" : " --resume\n";
+  }
+  outcome.text += known_text();
 }
 
-std::string RunStore::text() const {
+std::string RunStore::known_text() const {
   if (!goes_on_) return "";
   const std::string file = (record_.folder() / database_name).string();
   std::string text;
@@ -204,14 +210,6 @@ std::string RunStore::text() const {
                         known_parts_ + made_parts_, file);
   }
   return text;
-}
-
-std::string resume_text(const Arguments& arguments, const std::filesystem::path& folder,
-                        Status status) {
-  if (status != Status::interrupted) return "";
-  std::string text = "To go on from there: " + typed_command(arguments);
-  if (!arguments.output) text += " -o " + shell_word(folder.string());
-  return text + (arguments.resumes ? "\n" : " --resume\n");
 }
 
 }  // namespace pleuel

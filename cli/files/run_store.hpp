@@ -1,12 +1,8 @@
 #pragma once
 
-#include <filesystem>
-#include <optional>
-#include <string>
 #include <utility>
 
 #include "cli/files/run_record.hpp"
-#include "cli/input/problem_input.hpp"
 #include "core/jobs/part_store.hpp"
 #include "optimization/verdict.hpp"
 #include "record/run_database.hpp"
@@ -35,23 +31,24 @@ class RunStore : public EvaluationStore, public PartStore {
   /// An evaluation on the way of the search.
   void add(const EvaluationRecord& record);
 
-  /// How the run ended.
-  void finish(const Outcome& outcome);
-
-  /// "34 of 50 evaluations were known from …" of a run that went on; else empty.
-  std::string text() const;
+  /// Keeps how the run ended; tells how to go on with one that was interrupted, and what was known of
+  /// one that went on.
+  void finish(Outcome& outcome);
 
  private:
   void open_older();
   void begin_without_record() const;
   void check_same_run() const;
   void describe_run();
+  /// "34 of 50 evaluations were known from …" of a run that went on; else empty.
+  std::string known_text() const;
   /// Does this on the record, if there is one that can be written.
   template <class Action>
   void attempt(const Action& action);
   void stop() const;
 
   RunRecord& record_;
+  const Arguments& arguments_;
   Json description_;  ///< of this run
   std::optional<RunDatabase> database_;
   /// Kept with the next one: after the first one the backend may still refuse the problem.
@@ -64,9 +61,5 @@ class RunStore : public EvaluationStore, public PartStore {
   int known_ = 0, made_ = 0, confirmed_ = 0;
   int known_parts_ = 0, made_parts_ = 0;
 };
-
-/// How to go on with an interrupted run; empty for others.
-std::string resume_text(const Arguments& arguments, const std::filesystem::path& folder,
-                        Status status);
 
 }  // namespace pleuel

@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 
 #include <fmt/format.h>
 
 #include "cli/reports/scene_report.hpp"
-#include "cli/text/json.hpp"
 #include "core/base/number_text.hpp"
 #include "core/model/motion_plane.hpp"
-#include "core/response/analysis.hpp"
 #include "core/scene/grammar/tables.hpp"
 #include "core/scene/joint_kind.hpp"
 #include "core/scene/shown_unit.hpp"
@@ -27,9 +24,6 @@ using Values = Design<double>;
 Json vector_document(const Eigen::Vector3d& v) {
   return Json::array({v.x(), v.y(), v.z()});
 }
-Json vector_document(const std::array<double, 3>& v) {
-  return Json::array({v[0], v[1], v[2]});
-}
 
 Json points_document(const std::vector<Eigen::Vector2d>& points) {
   return list_of(points, [](const Eigen::Vector2d& point) { return Json{point.x(), point.y()}; });
@@ -42,7 +36,7 @@ class SizeTexts : public Keys {
 
   void number(const Key& key, Number& size, const Measure&, std::string_view) override {
     std::string name(key.word);
-    std::replace(name.begin(), name.end(), '_', ' ');
+    std::ranges::replace(name, '_', ' ');
     text += fmt::format(", {} {} {}", name, significant(unit_.shown(resolve(size, design_)), 4),
                         unit_.name);
   }
@@ -97,7 +91,7 @@ std::optional<double> stress_limit(const ProblemFile& problem, const std::string
     const std::vector<std::string>& bodies = response.bodies;
     const bool is_of_body = response.type == ResponseType::stress &&
                             response.part == StressPart::von_mises &&
-                            std::find(bodies.begin(), bodies.end(), body) != bodies.end();
+                            std::ranges::find(bodies, body) != bodies.end();
     if (is_of_body && (!limit || *constraint.upper < *limit)) limit = *constraint.upper;
   }
   return limit;
@@ -130,23 +124,18 @@ Json body_document(const ProblemFile& problem, const Body& body, const Values& s
   return document;
 }
 
-/// How a body slides on a joint; none where it does not, as on a rod between points.
-std::optional<std::string> sliding_of(const JointKind& kind) {
-  if (kind.has_displacement()) return "along";
-  if (kind.slides == JointSlides::across_axis) return "across";
-  return std::nullopt;
-}
-
 Json joint_document(const Joint& joint) {
   const JointKind& kind = kind_of(joint.type);
   Json document = {{"name", joint.name},         {"type", kind.word},
                    {"freedom", kind.freedom},    {"freedoms", kind.freedoms()},
-                   {"bodies", joint.bodies},     {"axis", vector_document(joint.axis)},
+                   {"bodies", joint.bodies},     {"axis", joint.axis},
                    {"is_guide", kind.is_guide()}};
-  if (const auto sliding = sliding_of(kind)) document["slides"] = *sliding;
-  if (kind.has_second_axis()) {
-    document["second_axis"] = vector_document(joint.second_axis);
+  if (kind.has_displacement()) {
+    document["slides"] = "along";
+  } else if (kind.slides == JointSlides::across_axis) {
+    document["slides"] = "across";  // on a rod between points a body slides neither way
   }
+  if (kind.has_second_axis()) document["second_axis"] = joint.second_axis;
   if (joint.drive) {
     const bool turns = joint.drive->coordinate == DrivenCoordinate::angle;
     document["drive"] = turns ? "angle" : "displacement";
@@ -171,20 +160,11 @@ class LoadDescription {
   static Json at_point(const char* type, const PointLoad& load, const char* unit) {
     return {{"type", type},
             {"bodies", {load.body}},
-            {"direction", vector_document(load.direction)},
+            {"direction", load.direction},
             {"follows_body", load.follows_body},
             {"unit", unit}};
   }
 };
-
-Json law_document(const TimeFunction& function, double end_time, const Values& design,
-                  LawOf purpose) {
-  const LawPoints points = law_points(function, end_time, design, purpose);
-  Eigen::MatrixXd curve(2, points.times.size());
-  curve.row(0) = Eigen::Map<const Eigen::RowVectorXd>(points.times.data(), curve.cols());
-  curve.row(1) = Eigen::Map<const Eigen::RowVectorXd>(points.values.data(), curve.cols());
-  return packed_numbers(curve);
-}
 
 class GeometryWriter {
  public:
@@ -199,10 +179,7 @@ class GeometryWriter {
     return list_of(scene_.joints, [&](const Joint& joint) {
       const Point& second = second_point(joint);
       Json entry = {{"places", {place(joint.bodies[0], joint.at), place(joint.bodies[1], second)}}};
-      if (joint.drive) {
-        entry["drive"] =
-            law_document(joint.drive->motion, problem_.simulation.end_time, design_, LawOf::motion);
-      }
+      if (joint.drive) entry["drive"] = curve(joint.drive->motion, LawOf::motion);
       return entry;
     });
   }
@@ -226,13 +203,19 @@ class GeometryWriter {
   }
   Json operator()(const JointForce& load) const {
     Json document = {{"places", Json::array()}, {"text", spring_text(load, design_)}};
-    if (load.motor && !depends_on_state(*load.motor)) document["value"] = curve(*load.motor);
+    if (load.motor && !depends_on_state(*load.motor))
+      document["value"] = curve(*load.motor, LawOf::load);
     return document;
   }
 
  private:
-  Json curve(const TimeFunction& function) const {
-    return law_document(function, problem_.simulation.end_time, design_, LawOf::load);
+  Json curve(const TimeFunction& function, LawOf purpose) const {
+    const auto [times, values] =
+        law_points(function, problem_.simulation.end_time, design_, purpose);
+    Eigen::MatrixXd curve(2, times.size());
+    curve.row(0) = Eigen::Map<const Eigen::RowVectorXd>(times.data(), curve.cols());
+    curve.row(1) = Eigen::Map<const Eigen::RowVectorXd>(values.data(), curve.cols());
+    return packed_numbers(curve);
   }
 
   template <class PointLoad>
@@ -243,7 +226,7 @@ class GeometryWriter {
       document["text"] =
           fmt::format("over the {} of {}", turns ? "angle" : "displacement", load.over->joint);
     } else {
-      document["value"] = curve(load.value);
+      document["value"] = curve(load.value, LawOf::load);
     }
     return document;
   }

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
-
 #include "cli/text/json.hpp"
 #include "core/scene/problem_file.hpp"
 

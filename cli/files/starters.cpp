@@ -10,8 +10,6 @@
 
 namespace pleuel {
 
-namespace fs = std::filesystem;
-
 std::vector<Starter> starters() {
   std::vector<Starter> all;
   for (const auto& [kind, text] : given_files::starters) {
@@ -29,11 +27,9 @@ std::string problem_schema() {
 
 void write_given_file(const fs::path& path, const std::string& text, const Arguments& arguments) {
   std::error_code error;
-  if (fs::is_directory(path, error)) throw InputError(path.string() + ": is a folder");
-  if (fs::exists(path, error) && !arguments.overwrites) {
-    if (fs::is_regular_file(path, error) && read_text_file(path) == text) return;
-    throw InputError(fmt::format("{}: is there already; --overwrite replaces it", path.string()));
-  }
+  const bool is_there = fs::is_regular_file(path, error) && read_text_file(path) == text;
+  if (is_there && !arguments.overwrites) return;
+  require_free(path, arguments);
   make_folder_of(path);
   WriteFailures failures;
   failures.silence();

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "cli/input/arguments.hpp"
 
 /// Files that the program carries with it: problems to begin with, and the schema of problem files.
@@ -25,7 +22,6 @@ inline constexpr const char* schema_name = "problem.schema.json";
 
 /// Writes a file that the user named. @throws InputError if there is one of another text and it
 /// shall not be overwritten, or if the text cannot be written
-void write_given_file(const std::filesystem::path& path, const std::string& text,
-                      const Arguments& arguments);
+void write_given_file(const fs::path& path, const std::string& text, const Arguments& arguments);
 
 }  // namespace pleuel

@@ -1,12 +1,10 @@
 #include "cli/files/vtk_series.hpp"
 
 #include <variant>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "core/base/int_size.hpp"
-#include "picture/motion.hpp"
 #include "picture/section_outline.hpp"
 
 namespace pleuel {

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <filesystem>
-#include <string>
-
 #include "cli/files/output_file.hpp"
 #include "core/response/analysis.hpp"
 

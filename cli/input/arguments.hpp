@@ -2,9 +2,6 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "core/jobs/parallel.hpp"
 #include "core/jobs/tasks.hpp"
@@ -12,19 +9,21 @@
 
 namespace pleuel {
 
+namespace fs = std::filesystem;
+
 /// What the user typed.
 struct Arguments {
   std::string program;  ///< as it was called: for commands to be typed next
   std::string command;
-  std::filesystem::path file;                   ///< of a command that takes one
-  std::vector<std::filesystem::path> files;     ///< of a command that takes several
-  std::vector<std::string> overrides;           ///< "/json/pointer=value" or "variable=value"
-  std::optional<std::string> load_case;         ///< the only one that is meant
-  std::optional<std::string> kind;              ///< of a new problem, or of a shell
-  std::optional<std::filesystem::path> output;  ///< run folder
-  std::optional<std::filesystem::path> design;  ///< file with another design than the start
-  std::optional<std::string> accuracy;          ///< target; one of the overrides, too
-  std::optional<std::string> gap;               ///< of a front; one of the overrides, too
+  fs::path file;                         ///< of a command that takes one
+  std::vector<fs::path> files;           ///< of a command that takes several
+  std::vector<std::string> overrides;    ///< "/json/pointer=value" or "variable=value"
+  std::optional<std::string> load_case;  ///< the only one that is meant
+  std::optional<std::string> kind;       ///< of a new problem, or of a shell
+  std::optional<fs::path> output;        ///< run folder
+  std::optional<fs::path> design;        ///< file with another design than the start
+  std::optional<std::string> accuracy;   ///< target; one of the overrides, too
+  std::optional<std::string> gap;        ///< of a front; one of the overrides, too
   std::optional<std::string> backend;
   std::optional<int> starts;        ///< designs that an optimization begins at
   std::optional<std::string> body;  ///< whose invariants are written; by default of all

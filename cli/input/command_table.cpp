@@ -79,6 +79,44 @@ const OptionKind jobs{"--jobs", &Arguments::jobs,
                       "all processors)",
                       "NUMBER", counts_to<1024>};
 
+const OptionKind effect_costs{"--effects", &Arguments::wants_effects,
+                              "show what each effect brings and costs: a simulation more for each"};
+const OptionKind with_optima{
+    "--optimum", &Arguments::wants_optimum,
+    "at the optimum (that of --design, or it is looked for), and with whole "
+    "optimizations for the settings that are worth it"};
+const OptionKind sampled_histories{
+    "--histories", &Arguments::wants_histories,
+    "sample deviations of histories, too: run.sqlite keeps all of them"};
+const OptionKind front_gap{
+    "--gap", &Arguments::gap,
+    "more points, until no neighbours are further apart, both goals over their "
+    "ranges: such as 0.05 or 5%",
+    "NUMBER"};
+const OptionKind optimal_design{
+    "--design", &Arguments::design,
+    "the optimum: result.json of an optimization (default: it is looked for first)", "FILE"};
+const OptionKind compared_methods{
+    "--method", &Arguments::methods,
+    "instead of the file's: auto (direct or adjoint, whichever is faster), direct, "
+    "adjoint, forward-difference, central-difference; repeat to compare",
+    "NAME", is_repeated};
+
+const OptionKind difference_step{"--step", &Arguments::difference_step,
+                                 "relative step of the differences instead of the file's",
+                                 "NUMBER"};
+const OptionKind gradient_histories{"--histories", &Arguments::wants_histories,
+                                    "write the derivatives of all histories into a run folder"};
+const OptionKind by_invariants{
+    "--by-invariants", &Arguments::differentiated_body,
+    "also derivatives by each number of this body, which is of the type \"invariants\": a "
+    "finite-element program makes those by its variables of them",
+    "BODY"};
+const OptionKind method_comparison{
+    "--compare", &Arguments::compares_methods,
+    "effort and accuracy of all methods, of differences with steps from 1e-2 to 1e-8, into a run "
+    "folder"};
+
 OptionKind verbose(const std::string& what) {
   return {"--verbose", &Arguments::is_verbose,
           "print " + what + ", too; result.json and the report have them in any case"};
@@ -120,6 +158,13 @@ std::vector<OptionKind> of_problem(std::initializer_list<OptionKind> more) {
   return all;
 }
 
+/// Of those that write a run folder.
+std::vector<OptionKind> of_run(const std::string& command, std::initializer_list<OptionKind> more) {
+  std::vector<OptionKind> all = of_problem({overwrite, no_report, output_folder(command)});
+  all.insert(all.end(), more);
+  return all;
+}
+
 }  // namespace
 
 std::vector<CommandKind> command_kinds() {
@@ -147,24 +192,14 @@ std::vector<CommandKind> command_kinds() {
        "all responses with their errors, and whether the design keeps its limits (exit code 4 if "
        "a design of yours breaks one); writes the motion and a report into a run folder.",
        "simulate pump.json --set \"rod_diameter=12 mm\"",
-       of_problem({overwrite,
-                   no_report,
-                   output_folder("simulate"),
-                   all_warnings,
-                   all_checks,
-                   no_checks,
-                   accuracy,
-                   {"--effects", &Arguments::wants_effects,
-                    "show what each effect brings and costs: a simulation more for each"},
-                   design})},
+       of_run("simulate", {all_warnings, all_checks, no_checks, accuracy, effect_costs, design})},
       {"optimize", "find the best design within the limits, and verify it",
        "Looks for the best design within the limits, tries to disprove it, and says VERIFIED only "
        "where that fails. Writes the design, the way to it and a report into a run folder.",
        "optimize pump.json --starts 4",
-       of_problem({overwrite, no_report, output_folder("optimize"), all_warnings, all_checks,
-                   no_checks, resume, accuracy, design,
-                   verbose("the audit, prices of limits, drives and effects"), effects, backend,
-                   starts, method, jobs, task_limit("one of several starts")})},
+       of_run("optimize", {all_warnings, all_checks, no_checks, resume, accuracy, design,
+                           verbose("the audit, prices of limits, drives and effects"), effects,
+                           backend, starts, method, jobs, task_limit("one of several starts")})},
       {"check", "validate, describe the mechanism, verify the derivatives, estimate the time",
        "Examines a problem before you spend time on it: simulates the start design, tells what "
        "can move and which effects matter, compares all derivatives with differences of "
@@ -178,90 +213,32 @@ std::vector<CommandKind> command_kinds() {
        "Simulates with many steps and elements, compares with a much finer reference, and "
        "recommends the cheapest setting for 1 %, 0.1 % and so on.",
        "accuracy pump.json",
-       of_problem({overwrite,
-                   no_report,
-                   output_folder("accuracy"),
-                   resume,
-                   design,
-                   {"--optimum", &Arguments::wants_optimum,
-                    "at the optimum (that of --design, or it is looked for), and with whole "
-                    "optimizations for the settings that are worth it"},
-                   verbose("the errors and times of all settings"),
-                   backend})},
+       of_run("accuracy", {resume, design, with_optima,
+                           verbose("the errors and times of all settings"), backend})},
       {"uncertainty", "deviations and bounds of responses; Monte Carlo as the check",
        "Tells how far the responses scatter if the numbers of /uncertainty do; samples (Monte "
        "Carlo) check the estimate by gradients.",
        "uncertainty pump.json --jobs 4",
-       of_problem({design,
-                   {"--histories", &Arguments::wants_histories,
-                    "sample deviations of histories, too: run.sqlite keeps all of them"},
-                   overwrite,
-                   no_report,
-                   output_folder("uncertainty"),
-                   resume,
-                   accuracy,
-                   jobs,
-                   task_limit("eight samples")})},
+       of_run("uncertainty",
+              {design, sampled_histories, resume, accuracy, jobs, task_limit("eight samples")})},
       {"pareto", "the best designs for a row of values of one limit",
        "Optimizes for a row of values of one limit, or trades two responses: what more of one "
        "costs of the other. The file says what in /pareto.",
        "pareto pump.json",
-       of_problem({overwrite,
-                   no_report,
-                   output_folder("pareto"),
-                   resume,
-                   {"--gap", &Arguments::gap,
-                    "more points, until no neighbours are further apart, both goals over their "
-                    "ranges: such as 0.05 or 5%",
-                    "NUMBER"},
-                   accuracy,
-                   backend,
-                   method,
-                   jobs,
-                   task_limit("one point")})},
+       of_run("pareto",
+              {resume, front_gap, accuracy, backend, method, jobs, task_limit("one point")})},
       {"prices", "what the optimum would gain by each number of the file",
        "Takes an optimum and tells for each number of the file what the objective would gain if "
        "it were one percent better: which limit, length or material to talk about.",
        "prices pump.json --design runs/pump-optimize/result.json",
-       of_problem({{"--design", &Arguments::design,
-                    "the optimum: result.json of an optimization (default: it is looked for first)",
-                    "FILE"},
-                   overwrite,
-                   no_report,
-                   output_folder("prices"),
-                   accuracy,
-                   backend,
-                   method,
-                   jobs})},
+       of_run("prices", {optimal_design, accuracy, backend, method, jobs})},
       {"gradient", "derivatives of all responses by the variables, at the start or another design",
        "Prints the derivatives of all responses with respect to all variables, by one or several "
        "methods.",
        "gradient pump.json --method direct --method adjoint",
-       of_problem(
-           {design,
-            {"--method", &Arguments::methods,
-             "instead of the file's: auto (direct or adjoint, whichever is faster), direct, "
-             "adjoint, forward-difference, central-difference; repeat to compare",
-             "NAME", is_repeated},
-            {"--step", &Arguments::difference_step,
-             "relative step of the differences instead of the file's", "NUMBER"},
-            jobs,
-            accuracy,
-            all_warnings,
-            all_checks,
-            no_checks,
-            {"--histories", &Arguments::wants_histories,
-             "write the derivatives of all histories into a run folder"},
-            {"--by-invariants", &Arguments::differentiated_body,
-             "also derivatives by each number of this body, which is of the type \"invariants\": a "
-             "finite-element program makes those by its variables of them",
-             "BODY"},
-            {"--compare", &Arguments::compares_methods,
-             "effort and accuracy of all methods, of differences with steps from 1e-2 to 1e-8, "
-             "into a run folder"},
-            overwrite,
-            no_report,
-            output_folder("gradient")})},
+       of_run("gradient",
+              {design, compared_methods, difference_step, jobs, accuracy, all_warnings, all_checks,
+               no_checks, gradient_histories, by_invariants, method_comparison})},
       {"compare",
        "two runs side by side: what differs in input and outcome",
        "Shows two runs side by side: where their inputs differ, and by how much their variables, "

@@ -16,10 +16,10 @@ namespace pleuel {
 /// or how closely numbers are looked at.
 using OptionTarget =
     std::variant<bool Arguments::*, int Arguments::*, double Arguments::*, std::string Arguments::*,
-                 std::filesystem::path Arguments::*, std::vector<std::string> Arguments::*,
-                 std::vector<std::filesystem::path> Arguments::*, std::optional<int> Arguments::*,
+                 fs::path Arguments::*, std::vector<std::string> Arguments::*,
+                 std::vector<fs::path> Arguments::*, std::optional<int> Arguments::*,
                  std::optional<double> Arguments::*, std::optional<std::string> Arguments::*,
-                 std::optional<std::filesystem::path> Arguments::*, Scrutiny>;
+                 std::optional<fs::path> Arguments::*, Scrutiny>;
 
 /// An option or a positional argument of a command.
 struct OptionKind {

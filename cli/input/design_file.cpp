@@ -1,9 +1,6 @@
 #include "cli/input/design_file.hpp"
 
 #include <algorithm>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -20,7 +17,7 @@ void check_names(const JsonNode& variables, const ProblemFile& problem) {
   std::vector<std::string> known;
   for (const DesignVariable& variable : problem.variables) known.push_back(variable.name);
   for (const auto& [name, member] : variables.members()) {
-    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    if (std::ranges::find(known, name) != known.end()) continue;
     fail_unknown_name(variables, "design variable", name, known);
   }
 }

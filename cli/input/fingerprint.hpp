@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 
 #include "cli/text/json.hpp"
 #include "core/base/fingerprint.hpp"

@@ -65,8 +65,6 @@ class OptionAdder {
   const OptionKind* kind_ = nullptr;
 };
 
-}  // namespace
-
 void add_commands(CLI::App& app, Arguments& arguments) {
   for (const CommandKind& kind : command_kinds()) {
     CLI::App* command = app.add_subcommand(kind.name, kind.description);
@@ -76,14 +74,12 @@ void add_commands(CLI::App& app, Arguments& arguments) {
   }
 }
 
-namespace {
-
 /// A misspelt command deserves better than "not expected".
 void check_command_name(const CLI::App& app, const std::vector<std::string>& words) {
   if (words.empty() || words.front().starts_with("-")) return;
   std::vector<std::string> known;
   for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
-  if (std::find(known.begin(), known.end(), words.front()) != known.end()) return;
+  if (std::ranges::find(known, words.front()) != known.end()) return;
   throw InputError(
       fmt::format("there is no command \"{}\"{}", words.front(), hint(words.front(), known)));
 }
@@ -161,7 +157,7 @@ std::optional<Arguments> parse_arguments(int argc, const char* const* argv) {
   add_commands(app, arguments);
   check_command_name(app, words);
   try {
-    std::reverse(words.begin(), words.end());  // as the library wants them
+    std::ranges::reverse(words);  // as the library wants them
     app.parse(words);
   } catch (const CLI::Success& success) {
     std::ostringstream text;

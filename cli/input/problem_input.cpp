@@ -1,7 +1,6 @@
 #include "cli/input/problem_input.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,10 +9,8 @@
 #include "cli/input/fingerprint.hpp"
 #include "cli/text/console.hpp"
 #include "core/base/error.hpp"
-#include "core/response/analysis.hpp"
 #include "core/response/effect_measurement.hpp"
 #include "core/scene/load_cases.hpp"
-#include "core/scene/problem_reader.hpp"
 #include "core/scene/reading/document_reader.hpp"
 #include "core/scene/reading/override.hpp"
 
@@ -25,12 +22,11 @@ namespace {
 /// short simulation shows it.
 void note_unstable_scheme(const ProblemInput& input) {
   const std::vector<const ProblemFile*> problems = simulated_problems(input.problem);
-  const bool is_unstable =
-      std::any_of(problems.begin(), problems.end(), [](const ProblemFile* problem) {
-        const SimulationSettings& settings = problem->simulation;
-        return settings.scheme != SchemeType::implicit_euler && settings.spectral_radius >= 1.0 &&
-               settings.formulation.constraints == ConstraintForm::index_3;
-      });
+  const bool is_unstable = std::ranges::any_of(problems, [](const ProblemFile* problem) {
+    const SimulationSettings& settings = problem->simulation;
+    return settings.scheme != SchemeType::implicit_euler && settings.spectral_radius >= 1.0 &&
+           settings.formulation.constraints == ConstraintForm::index_3;
+  });
   if (!is_unstable) return;
   show(stderr,
        fmt::format("{}: note: with the spectral radius 1 the forces in joints are unstable in the "
@@ -57,7 +53,7 @@ void set_method(SensitivitySettings& sensitivity, const Arguments& arguments) {
 }
 
 /// Optimizations look at all cases together.
-void require_one_case(const ProblemFile& problem, const std::filesystem::path& file,
+void require_one_case(const ProblemFile& problem, const fs::path& file,
                       const Arguments& arguments) {
   const bool takes_all = arguments.command == "optimize" || arguments.command == "pareto";
   if (!problem.has_cases() || takes_all) return;
@@ -66,7 +62,7 @@ void require_one_case(const ProblemFile& problem, const std::filesystem::path& f
       case_list(problem), arguments.command, problem.cases.front().load_case));
 }
 
-UndecidedProblem read_asked_case(const std::filesystem::path& file, const Arguments& arguments) {
+UndecidedProblem read_asked_case(const fs::path& file, const Arguments& arguments) {
   UndecidedProblem read = read_problem(file, arguments.overrides);
   if (arguments.load_case) {
     return UndecidedProblem(problem_of_case(read.complete(), *arguments.load_case));
@@ -85,11 +81,12 @@ void require_room_for_instants(const ProblemFile& problem) {
   }
 }
 
-ProblemInput read_file(const std::filesystem::path& file, const Arguments& arguments) {
+ProblemInput read_file(const fs::path& file, const Arguments& arguments) {
   ProblemInput input;
   input.file = file;
   UndecidedProblem read = read_asked_case(file, arguments);
   input.design = design_of(arguments, read.complete());
+  input.design_name = arguments.design ? "design" : "start";
   input.problem = decided(std::move(read));
   set_method(input.problem.sensitivity, arguments);
   for (ProblemFile& one : input.problem.cases) set_method(one.sensitivity, arguments);
@@ -107,7 +104,7 @@ ProblemInput read_file(const std::filesystem::path& file, const Arguments& argum
     fingerprint.add(*arguments.load_case);
   }
   if (arguments.design) {
-    const bool is_folder = std::filesystem::is_directory(*arguments.design);
+    const bool is_folder = fs::is_directory(*arguments.design);
     fingerprint.add(whole_text(is_folder ? *arguments.design / "result.json" : *arguments.design));
   }
   input.hash = fingerprint.text();
@@ -133,18 +130,18 @@ Eigen::VectorXd design_of(const Arguments& arguments, const ProblemFile& problem
 }
 
 bool tries_a_design(const Arguments& arguments) {
-  return arguments.design || std::any_of(arguments.overrides.begin(), arguments.overrides.end(),
-                                         [](const std::string& assignment) {
-                                           return !assigned_place(assignment).starts_with("/");
-                                         });
+  return arguments.design ||
+         std::ranges::any_of(arguments.overrides, [](const std::string& assignment) {
+           return !assigned_place(assignment).starts_with("/");
+         });
 }
 
 void require_units(const Arguments& arguments) {
   if (arguments.overrides.empty()) return;
-  std::vector<std::filesystem::path> files = arguments.files;
+  std::vector<fs::path> files = arguments.files;
   if (!arguments.file.empty()) files.push_back(arguments.file);
-  for (const std::filesystem::path& file : files) {
-    if (!std::filesystem::exists(file)) continue;  // who reads it says so
+  for (const fs::path& file : files) {
+    if (!fs::exists(file)) continue;  // who reads it says so
     const Json document = parse_json(whole_text(file), file.string());
     for (const std::string& assignment : arguments.overrides) {
       require_unit(document, assignment, file.string());

@@ -1,15 +1,7 @@
 #pragma once
 
-#include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include <Eigen/Core>
-
 #include "cli/input/arguments.hpp"
 #include "cli/text/json.hpp"
-#include "core/scene/problem_file.hpp"
 #include "core/scene/problem_numbers.hpp"
 #include "core/trust/setting_choice.hpp"
 
@@ -17,12 +9,13 @@ namespace pleuel {
 
 /// A problem file as a command sees it.
 struct ProblemInput {
-  std::filesystem::path file;
-  ProblemFile problem;     ///< with the method of the command line
-  Eigen::VectorXd design;  ///< [SI]: that of --design, else the start
-  ProblemText text;        ///< what it was read from
-  Json effective;          ///< the file with all overrides applied
-  std::string hash;        ///< of the file's text, the overrides and another design: "fnv1a64:…"
+  fs::path file;
+  ProblemFile problem;      ///< with the method of the command line
+  Eigen::VectorXd design;   ///< [SI]: that of --design, else the start
+  std::string design_name;  ///< "design" or "start": what people read of it
+  ProblemText text;         ///< what it was read from
+  Json effective;           ///< the file with all overrides applied
+  std::string hash;         ///< of the file's text, the overrides and another design: "fnv1a64:…"
   /// Steps and elements that were chosen at the design; the problem has them.
   std::optional<SettingChoice> choice;
 };

@@ -3,17 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <optional>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "cli/text/console.hpp"
-#include "cli/text/json.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/error.hpp"
-#include "core/scene/reading/json_text.hpp"
 #include "core/scene/reading/override.hpp"
 #include "core/scene/reading/syntax_error.hpp"
 #include "optimization/backends.hpp"
@@ -26,7 +22,7 @@ namespace {
 constexpr std::array<std::string_view, 5> commands = {"simulate", "gradient", "check", "prices",
                                                       "uncertainty"};
 
-Json document_of(const std::filesystem::path& file) {
+Json document_of(const fs::path& file) {
   return parse_json(read_text_file(file), file.string());
 }
 
@@ -52,7 +48,7 @@ std::string place_in_case(const std::string& load_case, const Json::json_pointer
 
 /// What the command line itself says stands above it.
 bool is_given(const std::string& place, const std::vector<std::string>& assignments) {
-  return std::any_of(assignments.begin(), assignments.end(), [&](const std::string& assignment) {
+  return std::ranges::any_of(assignments, [&](const std::string& assignment) {
     return assignment.starts_with(place + "=");
   });
 }
@@ -118,9 +114,8 @@ struct FoundSetting {
 
 /// Nothing where no accuracy was asked of the run, or where one is asked for now.
 FoundSetting setting_of_run(const Arguments& arguments) {
-  const std::filesystem::path& design = *arguments.design;
-  const Json result =
-      document_of(std::filesystem::is_directory(design) ? design / "result.json" : design);
+  const fs::path& design = *arguments.design;
+  const Json result = document_of(fs::is_directory(design) ? design / "result.json" : design);
   if (!result.contains("setting") || !was_chosen(result)) return {};
   Json problem = document_of(arguments.file);
   for (const std::string& assignment : arguments.overrides) {
@@ -135,8 +130,7 @@ FoundSetting setting_of_run(const Arguments& arguments) {
 }  // namespace
 
 void take_setting_of_run(Arguments& arguments) {
-  const bool looks_at_it =
-      std::find(commands.begin(), commands.end(), arguments.command) != commands.end();
+  const bool looks_at_it = std::ranges::find(commands, arguments.command) != commands.end();
   if (!looks_at_it || !arguments.design) return;
   FoundSetting found;
   try {

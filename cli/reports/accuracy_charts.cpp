@@ -21,25 +21,19 @@ constexpr double disorder = 0.3;
 
 /// What a chart shows of a run.
 struct Measure {
+  const char* what;
+  const char* work;
   Eigen::VectorXd AccuracyRun::*errors;
   double (*seconds)(const AccuracyRun& run);
 };
 
-const Measure of_values{&AccuracyRun::errors,
+const Measure of_values{"responses", "simulation", &AccuracyRun::errors,
                         [](const AccuracyRun& run) { return run.simulation_seconds; }};
-const Measure of_gradients{&AccuracyRun::gradient_errors,
+const Measure of_gradients{"gradients", "simulation with gradients", &AccuracyRun::gradient_errors,
                            [](const AccuracyRun& run) { return run.seconds(); }};
 
 std::string step_text(const Discretization& settings) {
   return fmt::format("{:.4g} ms", 1e3 * settings.step);
-}
-
-std::string division_text(const Discretization& settings) {
-  if (settings.elements > 0)
-    return fmt::format("{} element{} a segment", settings.elements,
-                       settings.elements == 1 ? "" : "s");
-  if (settings.factor == 1.0) return "elements of the file";
-  return fmt::format("{:g} times the elements", settings.factor);
 }
 
 ChartPoint point_of(const AccuracyStudy& study, const AccuracyRun& run, const Measure& measure,
@@ -58,8 +52,8 @@ ChartPoint point_of(const AccuracyStudy& study, const AccuracyRun& run, const Me
 }
 
 ChartSeries& series_named(const std::string& name, std::vector<ChartSeries>& all) {
-  const auto found = std::find_if(all.begin(), all.end(),
-                                  [&](const ChartSeries& one) { return one.name == name; });
+  const auto found =
+      std::ranges::find_if(all, [&](const ChartSeries& one) { return one.name == name; });
   if (found != all.end()) return *found;
   all.push_back({name, {}});
   return all.back();
@@ -76,7 +70,7 @@ std::vector<ChartSeries> series_of(const AccuracyStudy& study, const Measure& me
   }
   for (const VariedRun& one : study.knobs) {
     std::string name = one.variation.knob;
-    std::replace(name.begin(), name.end(), '_', ' ');
+    std::ranges::replace(name, '_', ' ');
     series_named(name, all).points.push_back(
         point_of(study, one.run, measure, variation_text(one.variation)));
   }
@@ -98,18 +92,18 @@ std::string counted_text(const ProblemFile& problem, const AccuracyStudy& study,
   return what == "responses" ? counted : what + " of " + counted;
 }
 
-/// @param what  "responses" or "gradients"
 LogLogChart study_chart(const ProblemFile& problem, const AccuracyStudy& study,
-                        const Measure& measure, const std::string& what) {
+                        const Measure& measure) {
   LogLogChart chart;
-  chart.title = fmt::format("{}: what accurate {} cost", problem.name, what);
+  chart.title = fmt::format("{}: what accurate {} cost", problem.name, measure.what);
   chart.notes = {order_text(study, measure)};
   if (!study.knobs.empty()) {
     chart.notes.front() +=
         fmt::format(" Other knobs at {}.", setting_text(study.runs[*study.base].settings));
   }
   chart.x_label =
-      fmt::format("largest relative error of {} [%]", counted_text(problem, study, what));
+      fmt::format("largest relative error of {} [%]", counted_text(problem, study, measure.what));
+  chart.y_label = fmt::format("processor time of a {} [ms]", measure.work);
   chart.series = series_of(study, measure);
   const double floor = study.counted_error(study.reference.*measure.errors);
   if (floor > 0.0) chart.floor = hundred * floor;
@@ -120,15 +114,11 @@ LogLogChart study_chart(const ProblemFile& problem, const AccuracyStudy& study,
 }  // namespace
 
 LogLogChart value_chart(const ProblemFile& problem, const AccuracyStudy& study) {
-  LogLogChart chart = study_chart(problem, study, of_values, "responses");
-  chart.y_label = "processor time of a simulation [ms]";
-  return chart;
+  return study_chart(problem, study, of_values);
 }
 
 LogLogChart gradient_chart(const ProblemFile& problem, const AccuracyStudy& study) {
-  LogLogChart chart = study_chart(problem, study, of_gradients, "gradients");
-  chart.y_label = "processor time of a simulation with gradients [ms]";
-  return chart;
+  return study_chart(problem, study, of_gradients);
 }
 
 LogLogChart optimum_chart(const ProblemFile& problem, const OptimumStudy& optima) {

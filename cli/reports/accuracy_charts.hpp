@@ -1,7 +1,6 @@
 #pragma once
 
 #include "cli/text/log_log_chart.hpp"
-#include "studies/accuracy.hpp"
 #include "studies/accuracy_optimum.hpp"
 
 /// Work–precision diagrams: time of each setting against its error.

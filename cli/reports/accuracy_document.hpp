@@ -1,11 +1,6 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "cli/input/problem_input.hpp"
-#include "cli/text/json.hpp"
-#include "studies/accuracy.hpp"
 #include "studies/accuracy_optimum.hpp"
 
 namespace pleuel {

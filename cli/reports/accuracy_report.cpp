@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "cli/reports/accuracy_document.hpp"
 #include "cli/reports/outcome.hpp"
 #include "cli/reports/time_text.hpp"
@@ -13,7 +11,6 @@
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/find_named.hpp"
 #include "core/base/number_text.hpp"
-#include "core/scene/shown_unit.hpp"
 
 namespace pleuel {
 
@@ -145,7 +142,7 @@ double objective_size(const ProblemFile& problem, const AccuracyStudy& study) {
 }
 
 std::string words_of(std::string name) {
-  std::replace(name.begin(), name.end(), '_', ' ');
+  std::ranges::replace(name, '_', ' ');
   return name;
 }
 
@@ -183,7 +180,7 @@ std::vector<const VariedRun*> knobs_that_pay(const AccuracyStudy& study) {
     if (one.run.has_failed() || study.counted_error(one.run.errors) > target) continue;
     if (one.time.is_measurable() && one.time.change < -least_saving) all.push_back(&one);
   }
-  std::stable_sort(all.begin(), all.end(), [](const VariedRun* one, const VariedRun* other) {
+  std::ranges::stable_sort(all, [](const VariedRun* one, const VariedRun* other) {
     return one->time.change < other->time.change;
   });
   if (all.size() > most_knobs) all.resize(most_knobs);
@@ -324,14 +321,18 @@ std::string optima_text(const ProblemFile& problem, const OptimumStudy* optima) 
 
 }  // namespace
 
+std::string division_text(const Discretization& settings) {
+  if (settings.elements > 0) {
+    return fmt::format("{} element{} a segment", settings.elements,
+                       settings.elements == 1 ? "" : "s");
+  }
+  const std::string times =
+      settings.factor == 1.0 ? "" : fmt::format("{:g} times ", settings.factor);
+  return times + "the elements of the file";
+}
+
 std::string setting_text(const Discretization& settings) {
-  std::string text = fmt::format("a step of {:.4g} ms and ", 1e3 * settings.step);
-  if (settings.elements > 0)
-    return text + fmt::format("{} element{} a segment", settings.elements,
-                              settings.elements == 1 ? "" : "s");
-  return text + (settings.factor == 1.0
-                     ? std::string("the elements of the file")
-                     : fmt::format("{:g} times the elements of the file", settings.factor));
+  return fmt::format("a step of {:.4g} ms and {}", 1e3 * settings.step, division_text(settings));
 }
 
 std::string variation_text(const Variation& variation) {

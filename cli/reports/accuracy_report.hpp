@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-
-#include "studies/accuracy.hpp"
 #include "studies/accuracy_optimum.hpp"
 
 namespace pleuel {
@@ -12,8 +9,10 @@ namespace pleuel {
 std::string accuracy_text(const ProblemFile& problem, const AccuracyStudy& study,
                           const OptimumStudy* optima, bool is_verbose);
 
-/// "a step of 0.2 ms and 4 elements a segment", "… the elements of the file", "… 0.5 times the
-/// elements of the file"
+/// "4 elements a segment", "the elements of the file", "0.5 times the elements of the file"
+std::string division_text(const Discretization& settings);
+
+/// "a step of 0.2 ms and 4 elements a segment"
 std::string setting_text(const Discretization& settings);
 
 /// "formulation stabilized-index-2", "geometric_stiffening off"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -29,8 +28,8 @@ std::string peak_text(const std::optional<Peak>& peak) {
 }
 
 bool has_peaks(const Analysis& analysis) {
-  return std::any_of(analysis.responses.begin(), analysis.responses.end(),
-                     [](const Response& response) { return response.is_peak_over_time(); });
+  return std::ranges::any_of(analysis.responses,
+                             [](const Response& response) { return response.is_peak_over_time(); });
 }
 
 }  // namespace
@@ -51,7 +50,7 @@ Json responses_document(const ProblemFile& problem, const Analysis& analysis,
 
 double size_of(const Model& model) {
   const auto moves = [](const BodyModel& body) { return body.frame.translations() > 0; };
-  const auto body = std::find_if(model.bodies.begin(), model.bodies.end(), moves);
+  const auto body = std::ranges::find_if(model.bodies, moves);
   return body == model.bodies.end() ? 0.0 : model.mechanism.scale(body->frame.offset);
 }
 

@@ -1,9 +1,6 @@
 #pragma once
 
-#include <string>
-
 #include "cli/reports/warnings.hpp"
-#include "cli/text/json.hpp"
 #include "core/response/analysis.hpp"
 #include "core/response/monitors.hpp"
 

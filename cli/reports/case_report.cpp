@@ -6,8 +6,6 @@
 #include <map>
 #include <numeric>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -112,7 +110,7 @@ std::size_t first_in_conflict(const ProblemFile& problem, const std::vector<std:
   for (const ExceededLimit& limit : result.least_violation->limits) {
     if (case_of(problem, limit.constraint).empty()) continue;
     const std::size_t here = problem.case_constraints[limit.constraint].load_case;
-    if (std::find(cases.begin(), cases.end(), here) != cases.end()) return here;
+    if (std::ranges::find(cases, here) != cases.end()) return here;
   }
   return cases.front();
 }
@@ -190,59 +188,44 @@ const Json& entry_of(const ProblemFile& joined, const Json& cases, std::size_t r
   return cases.at(one.load_case).at("responses").at(one.responses[of_case.index].name);
 }
 
-/// The methods that gradients of all parts were computed by; of `uncertainty` one without a name.
-std::vector<std::string> common_methods(const ProblemFile& joined, const Json& cases,
-                                        const std::vector<WeightedResponse>& parts) {
-  std::vector<std::string> methods;
-  for (const WeightedResponse& part : parts) {
-    const Json& entry = entry_of(joined, cases, part.response);
-    std::vector<std::string> here;
-    const Json gradients = entry.value("gradients", Json::object());
-    for (const auto& [method, gradient] : gradients.items()) {
-      if (gradient.is_object()) here.push_back(method);
-    }
-    if (&part == &parts.front()) methods = here;
-    std::erase_if(methods, [&](const std::string& method) {
-      return std::find(here.begin(), here.end(), method) == here.end();
-    });
-  }
-  return methods;
-}
-
-/// d(response)/d(variable), from the gradients that gradient_of() finds in the entries of its parts.
-template <class GradientOf>
-double slope_of(const ProblemFile& joined, const Json& cases, const LinearizedResponse& linear,
-                std::size_t variable, const GradientOf& gradient_of) {
-  double slope = linear.design(variable);
+/// The derivatives that stand there in the entries of all parts; none if one of them has none.
+std::optional<Eigen::VectorXd> gradient_at(const ProblemFile& joined, const Json& cases,
+                                           const LinearizedResponse& linear,
+                                           const Json::json_pointer& place) {
+  Eigen::VectorXd gradient = linear.design;
   for (const WeightedResponse& part : linear.parts) {
-    const Json& gradient = gradient_of(entry_of(joined, cases, part.response));
-    slope += part.weight * gradient.at(joined.variables[variable].name).template get<double>();
+    const Json slopes = entry_of(joined, cases, part.response).value(place, Json());
+    if (!slopes.is_object()) return std::nullopt;
+    for (Eigen::Index j = 0; j < gradient.size(); ++j) {
+      gradient(j) += part.weight * slopes.value(joined.variables[j].name, 0.0);
+    }
   }
-  return slope;
+  return gradient;
 }
 
+/// By each method that the gradients of all parts were computed by.
 void add_gradients(const ProblemFile& joined, const Json& cases, const LinearizedResponse& linear,
                    Json& entry) {
-  for (const std::string& method : common_methods(joined, cases, linear.parts)) {
-    for (std::size_t j = 0; j < joined.variables.size(); ++j) {
-      entry["gradients"][method][joined.variables[j].name] = slope_of(
-          joined, cases, linear, j,
-          [&](const Json& part) -> const Json& { return part.at("gradients").at(method); });
-    }
+  if (linear.parts.empty()) return;
+  const Json& first = entry_of(joined, cases, linear.parts.front().response);
+  const Json methods = first.value("gradients", Json::object());
+  for (const auto& [method, unused] : methods.items()) {
+    const auto gradient =
+        gradient_at(joined, cases, linear, Json::json_pointer("/gradients") / method);
+    if (gradient) entry["gradients"][method] = by_name(joined.variables, *gradient);
   }
 }
 
 /// First order, as of one case (studies/uncertainty.hpp): the parameters are the same in all of them.
 void add_uncertainty(const ProblemFile& joined, const Json& cases, const LinearizedResponse& linear,
                      Json& entry) {
+  const Eigen::VectorXd gradient =
+      gradient_at(joined, cases, linear, Json::json_pointer("/gradients")).value();
   double variance = 0.0, bound = 0.0;
   Json shares = Json::object();
   for (const UncertainParameter& parameter : joined.uncertainty->parameters) {
-    const std::size_t variable = parameter.variable;
-    const std::string& name = joined.variables[variable].name;
-    const double slope =
-        slope_of(joined, cases, linear, variable,
-                 [](const Json& part) -> const Json& { return part.at("gradients"); });
+    const std::string& name = joined.variables[parameter.variable].name;
+    const double slope = gradient(parameter.variable);
     const double deviation = slope * parameter.standard_deviation();
     entry["gradients"][name] = slope;
     shares[name] = deviation * deviation;
@@ -256,10 +239,6 @@ void add_uncertainty(const ProblemFile& joined, const Json& cases, const Lineari
   entry["deviation"] = std::sqrt(variance);
   entry["bounds"] = {value - bound, value + bound};
   entry["shares"] = shares;
-}
-
-bool has_uncertainty(const Json& cases) {
-  return cases.front().contains("parameters");
 }
 
 }  // namespace
@@ -277,7 +256,7 @@ Json over_cases_document(const ProblemFile& joined, const Eigen::VectorXd& x, co
     try {
       entry["value"] = value_over_cases(joined, i, x, value_of);
       const LinearizedResponse linear = linearized_over_cases(joined, i, x, value_of);
-      if (has_uncertainty(cases)) {
+      if (cases.front().contains("parameters")) {  // of `uncertainty`
         add_uncertainty(joined, cases, linear, entry);
       } else {
         add_gradients(joined, cases, linear, entry);
@@ -308,9 +287,8 @@ std::string over_cases_text(const ProblemFile& joined, const Json& document) {
   const NamedUnits units = units_of_responses(joined), of_limits = units_of_limits(joined);
   std::vector<DocumentColumn> columns = {name_column("response"),
                                          shown_column("value", "/value", units)};
-  const bool has_deviations = std::any_of(responses.begin(), responses.end(), [](const Json& one) {
-    return one.contains("deviation");
-  });
+  const bool has_deviations =
+      std::ranges::any_of(responses, [](const Json& one) { return one.contains("deviation"); });
   if (has_deviations) columns.push_back(shown_column("deviation", "/deviation", units));
   columns.push_back(unit_column(units));
   if (!responses.empty()) text += table_of(responses, columns).text();
@@ -329,8 +307,7 @@ std::string over_cases_text(const ProblemFile& joined, const Json& document) {
 
 bool lacks_numbers(const Json& document) {
   const Json all = document.value("responses", Json::object());
-  return std::any_of(all.begin(), all.end(),
-                     [](const Json& entry) { return entry.contains("error"); });
+  return std::ranges::any_of(all, [](const Json& entry) { return entry.contains("error"); });
 }
 
 }  // namespace pleuel

@@ -1,10 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
-#include <vector>
-
-#include <Eigen/Core>
 
 #include "cli/text/json.hpp"
 #include "core/scene/problem_file.hpp"

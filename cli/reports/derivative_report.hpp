@@ -1,10 +1,6 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "cli/text/json.hpp"
-#include "core/response/analysis.hpp"
 #include "sensitivity/constant_gradients.hpp"
 #include "studies/derivative_check.hpp"
 

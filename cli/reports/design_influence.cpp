@@ -37,9 +37,4 @@ std::optional<DesignInfluence> design_influence(const ProblemFile& problem, Anal
   }
 }
 
-Json influence_document(const ProblemFile& problem, const DesignInfluence& influence,
-                        std::size_t response) {
-  return by_name(problem.variables, influence.gradients.row(response));
-}
-
 }  // namespace pleuel

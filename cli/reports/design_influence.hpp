@@ -1,10 +1,6 @@
 #pragma once
 
-#include <optional>
-#include <vector>
-
 #include "cli/text/json.hpp"
-#include "core/response/analysis.hpp"
 #include "sensitivity/history_gradients.hpp"
 
 /// What the variables change of the responses of a simulated design.
@@ -20,9 +16,5 @@ struct DesignInfluence {
 /// direct differentiation, which gives the histories, too; with many by the cheaper exact method.
 /// Nothing without variables, and where the gradients cannot be computed.
 std::optional<DesignInfluence> design_influence(const ProblemFile& problem, Analysis& analysis);
-
-/// {VARIABLE: number} of a response [SI].
-Json influence_document(const ProblemFile& problem, const DesignInfluence& influence,
-                        std::size_t response);
 
 }  // namespace pleuel

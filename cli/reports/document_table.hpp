@@ -1,14 +1,9 @@
 #pragma once
 
-#include <functional>
 #include <map>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "cli/text/json.hpp"
 #include "cli/text/table.hpp"
-#include "core/scene/problem_file.hpp"
 #include "core/scene/shown_unit.hpp"
 
 /// Tables of the terminal that are made from what result.json says: a table is a list of columns.

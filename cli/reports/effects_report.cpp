@@ -1,8 +1,8 @@
 #include "cli/reports/effects_report.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -18,16 +18,8 @@ namespace pleuel {
 namespace {
 
 const char* kind_of(const EffectRecord& effect) {
-  switch (effect.kind) {
-    case EffectRecord::Kind::exact:
-      return "exact";
-    case EffectRecord::Kind::estimated:
-      return "estimated";
-    case EffectRecord::Kind::measured:
-      return "measured";
-    default:
-      return "forced";
-  }
+  static constexpr std::array<const char*, 4> names = {"exact", "estimated", "measured", "forced"};
+  return names[static_cast<std::size_t>(effect.kind)];
 }
 
 bool has_body(const EffectInfluence& influence, const std::string& body) {
@@ -47,29 +39,6 @@ void add_influence(const ProblemFile& problem, const EffectInfluence& influence,
   if (influence.time) entry["time"] = time_change_document(*influence.time);
 }
 
-bool are_alike(const EffectRecord& one, const EffectRecord& other) {
-  return one.name == other.name && one.is_built == other.is_built && one.kind == other.kind &&
-         one.reason == other.reason && one.coordinates_saved == other.coordinates_saved;
-}
-
-/// Effects that are decided alike, and of which bodies.
-struct AlikeEffects {
-  const EffectRecord* effect;
-  std::vector<std::string> bodies;
-};
-
-std::vector<AlikeEffects> alike_effects(const Model& model) {
-  std::vector<AlikeEffects> all;
-  for (const EffectRecord& effect : model.effects) {
-    auto same = std::find_if(all.begin(), all.end(), [&](const AlikeEffects& one) {
-      return are_alike(*one.effect, effect);
-    });
-    if (same == all.end()) same = all.insert(all.end(), {&effect, {}});
-    if (!effect.body.empty()) same->bodies.push_back(effect.body);
-  }
-  return all;
-}
-
 std::string bodies_text(const std::vector<std::string>& bodies) {
   constexpr std::size_t most = 3;
   if (bodies.empty()) return "–";
@@ -77,26 +46,22 @@ std::string bodies_text(const std::vector<std::string>& bodies) {
   return fmt::format("{}", fmt::join(bodies, ", "));
 }
 
-/// An effect, and the body that it is of, if it is of one.
-struct BodyEffect {
-  std::string effect, body;
-};
-
 /// "elasticity (crank, rod), spatial_motion"
-std::string names_text(const std::vector<BodyEffect>& effects) {
-  std::vector<std::pair<std::string, std::vector<std::string>>> all;  // name: bodies
-  for (const BodyEffect& one : effects) {
-    auto same = std::find_if(all.begin(), all.end(),
-                             [&](const auto& entry) { return entry.first == one.effect; });
-    if (same == all.end()) same = all.insert(all.end(), {one.effect, {}});
-    if (!one.body.empty()) same->second.push_back(one.body);
+/// @param effects  {EFFECT: [BODY]}
+std::string names_text(const Json& effects) {
+  std::vector<std::string> names;
+  for (const auto& [effect, bodies] : effects.items()) {
+    const auto listed = bodies.get<std::vector<std::string>>();
+    names.push_back(listed.empty() ? effect
+                                   : fmt::format("{} ({})", effect, fmt::join(listed, ", ")));
   }
-  std::string text;
-  for (const auto& [effect, bodies] : all) {
-    text += (text.empty() ? "" : ", ") + effect;
-    if (!bodies.empty()) text += fmt::format(" ({})", fmt::join(bodies, ", "));
-  }
-  return text;
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+void add_effect(const std::string& effect, const std::string& body, Json& effects) {
+  Json& bodies = effects[effect];
+  if (bodies.is_null()) bodies = Json::array();
+  if (!body.empty()) bodies.push_back(body);
 }
 
 /// "+3", "−2", "0"
@@ -176,10 +141,10 @@ std::string small_text(const MeasuredEffects& effects, const std::vector<bool>& 
 }
 
 std::string indispensable_text(const MeasuredEffects& effects) {
-  std::vector<BodyEffect> all;
+  Json all = Json::object();
   for (const EffectInfluence& one : effects.influences) {
     if (one.failure.empty()) continue;
-    for (const std::string& body : one.bodies) all.push_back({one.effect, body});
+    for (const std::string& body : one.bodies) add_effect(one.effect, body, all);
   }
   return all.empty() ? "" : names_text(all) + " cannot be left out";
 }
@@ -216,10 +181,9 @@ Json effects_document(const ProblemFile& problem, const Model& model,
     if (!effect.body.empty()) entry["body"] = effect.body;
     if (effect.estimate && std::isfinite(*effect.estimate)) entry["estimate"] = *effect.estimate;
     if (effect.coordinates_saved > 0) entry["coordinates_saved"] = effect.coordinates_saved;
-    const auto influence =
-        std::find_if(influences.begin(), influences.end(), [&](const EffectInfluence& one) {
-          return one.effect == effect.name && has_body(one, effect.body);
-        });
+    const auto influence = std::ranges::find_if(influences, [&](const EffectInfluence& one) {
+      return one.effect == effect.name && has_body(one, effect.body);
+    });
     if (influence != influences.end()) add_influence(problem, *influence, entry);
     document.push_back(std::move(entry));
   }
@@ -227,21 +191,35 @@ Json effects_document(const ProblemFile& problem, const Model& model,
 }
 
 std::string effects_text(const Model& model) {
+  struct Row {
+    std::vector<std::string> cells, bodies;
+  };
+  std::vector<Row> rows;
+  for (const EffectRecord& effect : model.effects) {
+    const int saved = effect.coordinates_saved;
+    const std::vector<std::string> cells = {effect.name,
+                                            "",
+                                            effect.is_built ? "yes" : "no",
+                                            kind_of(effect),
+                                            saved > 0 ? std::to_string(saved) : "–",
+                                            effect.reason};
+    auto same = std::ranges::find(rows, cells, &Row::cells);
+    if (same == rows.end()) same = rows.insert(rows.end(), {cells, {}});
+    if (!effect.body.empty()) same->bodies.push_back(effect.body);
+  }
   Table table({left_aligned("effect"), left_aligned("of"), left_aligned("built"),
                left_aligned("decision"), "saves", left_aligned("because")});
-  for (const auto& [effect, bodies] : alike_effects(model)) {
-    table.add_row({effect->name, bodies_text(bodies), effect->is_built ? "yes" : "no",
-                   kind_of(*effect),
-                   effect->coordinates_saved > 0 ? std::to_string(effect->coordinates_saved) : "–",
-                   effect->reason});
+  for (auto& [cells, bodies] : rows) {
+    cells[1] = bodies_text(bodies);
+    table.add_row(cells);
   }
   return table.text();
 }
 
 std::string left_out_text(const Model& model) {
-  std::vector<BodyEffect> all;
+  Json all = Json::object();
   for (const EffectRecord& effect : model.effects) {
-    if (!effect.is_built) all.push_back({effect.name, effect.body});
+    if (!effect.is_built) add_effect(effect.name, effect.body, all);
   }
   return all.empty() ? "" : wrapped(fmt::format("Left out: {}.\n", names_text(all)), "  ");
 }

@@ -1,13 +1,8 @@
 #pragma once
 
-#include <functional>
-#include <string>
-#include <vector>
-
 #include "cli/text/json.hpp"
 #include "core/model/model.hpp"
 #include "core/response/effect_influence.hpp"
-#include "core/scene/problem_file.hpp"
 
 /// Which effects are simulated, why, and what each of them brings and costs.
 namespace pleuel {

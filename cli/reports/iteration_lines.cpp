@@ -1,6 +1,7 @@
 #include "cli/reports/iteration_lines.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include <fmt/format.h>
@@ -22,18 +23,10 @@ std::string first_clause(const std::string& message) {
 }
 
 const char* describe(Purpose purpose) {
-  switch (purpose) {
-    case Purpose::search:
-      return "the backend goes on";
-    case Purpose::polish:
-      return "the answer is refined";
-    case Purpose::restoration:
-      return "the limits alone";
-    case Purpose::audit:
-      return "of the answer, by designs beside it";
-    default:
-      return "of choices of sizes, the best design of each";
-  }
+  static constexpr std::array<const char*, 5> texts = {
+      "the backend goes on", "the answer is refined", "the limits alone",
+      "of the answer, by designs beside it", "of choices of sizes, the best design of each"};
+  return texts[static_cast<std::size_t>(purpose)];
 }
 
 /// Without limits broken before one with: an order in which the last is the best.

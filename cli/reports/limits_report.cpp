@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -14,30 +13,11 @@
 #include "core/response/divided_deflection.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "optimization/verdict.hpp"
-#include "sensitivity/kinks.hpp"
 #include "studies/varied_limit.hpp"
 
 namespace pleuel {
 
 namespace {
-
-/// The limit of a constraint that is nearer to its value, and how much of it is used.
-struct UsedLimit {
-  double limit = 0.0;
-  bool is_upper = true;
-  std::optional<double> utilisation;  ///< 1 = at the limit; none where the ratio says nothing
-};
-
-UsedLimit used_limit(const ConstraintSettings& constraint, double value) {
-  UsedLimit used;
-  const bool has_both = constraint.lower && constraint.upper;
-  used.is_upper = has_both ? *constraint.upper - value <= value - *constraint.lower
-                           : constraint.upper.has_value();
-  used.limit = used.is_upper ? *constraint.upper : *constraint.lower;
-  if (used.limit > 0.0 && value >= 0.0 && used.is_upper) used.utilisation = value / used.limit;
-  if (used.limit > 0.0 && value > 0.0 && !used.is_upper) used.utilisation = used.limit / value;
-  return used;
-}
 
 /// Of the terms of a sum, which may cancel.
 constexpr double round_off_of_terms = 1e-12;
@@ -73,18 +53,15 @@ bool is_kept(const ConstraintSettings& constraint, const Eigen::VectorXd& x, dou
          !(constraint.lower && exceeds(*constraint.lower - value, *constraint.lower));
 }
 
-using Errors = std::vector<std::optional<ErrorBar>>;
-
 /// Whether a limit that is broken may be kept as far as the error of its response is known.
 bool is_within_error(const ProblemFile& problem, const ConstraintSettings& constraint, double value,
-                     const Errors& errors) {
+                     const ErrorBars& errors) {
   const auto index = index_of_named(problem.responses, constraint.response);
-  if (!index || *index >= errors.size() || !errors[*index]) return false;
-  const ErrorBar& bar = *errors[*index];
-  if (!bar.is_resolved() || !std::isfinite(bar.bound())) return false;
+  const auto bar = index ? error_of(errors, *index) : std::nullopt;
+  if (!bar || !bar->is_resolved() || !std::isfinite(bar->bound())) return false;
   const bool is_high = constraint.upper && value > *constraint.upper;
   const double excess = is_high ? value - *constraint.upper : *constraint.lower - value;
-  return excess <= bar.bound();
+  return excess <= bar->bound();
 }
 
 /// A difference that value and limit do not show, with their five digits, is none.
@@ -112,12 +89,16 @@ std::string sum_text(const Json& limits) {
 }  // namespace
 
 Json limit_entry(const ProblemFile& problem, const ConstraintSettings& constraint, double value) {
-  const UsedLimit used = used_limit(constraint, value);
+  const bool has_both = constraint.lower && constraint.upper;
+  const bool is_upper = has_both ? *constraint.upper - value <= value - *constraint.lower
+                                 : constraint.upper.has_value();
+  const double limit = is_upper ? *constraint.upper : *constraint.lower;
   Json entry = {{"value", value},
-                {"limit", used.limit},
-                {"side", used.is_upper ? "upper" : "lower"},
+                {"limit", limit},
+                {"side", is_upper ? "upper" : "lower"},
                 {"unit", unit_of(problem, constraint).si}};
-  if (used.utilisation) entry["utilisation"] = *used.utilisation;
+  if (limit > 0.0 && value >= 0.0 && is_upper) entry["utilisation"] = value / limit;
+  if (limit > 0.0 && value > 0.0 && !is_upper) entry["utilisation"] = limit / value;
   return entry;
 }
 
@@ -129,7 +110,7 @@ Json limit_document(const ProblemFile& problem, const ConstraintSettings& constr
 }
 
 Json limits_document(const ProblemFile& problem, const Eigen::VectorXd& x, const Analysis& analysis,
-                     const Errors& errors) {
+                     const ErrorBars& errors) {
   Json document = Json::object();
   for (const ConstraintSettings& constraint : problem.constraints) {
     const double value = value_of(constraint, problem, x, analysis);
@@ -165,8 +146,8 @@ std::string limits_text(const ProblemFile& problem, const Json& limits) {
 }
 
 bool keeps_limits(const Json& limits) {
-  return std::all_of(limits.begin(), limits.end(),
-                     [](const Json& limit) { return limit.at("kept").get<bool>(); });
+  return std::ranges::all_of(limits,
+                             [](const Json& limit) { return limit.at("kept").get<bool>(); });
 }
 
 namespace {
@@ -186,15 +167,10 @@ const char* reason(FrontGap::Cause cause) {
   return "searches failed, or came to designs that others dominate";
 }
 
-bool is_of_gap(const ProblemFile& problem, const ParetoFront& front) {
-  return problem.pareto->gap > 0.0 && front.is_whole && !front.choices;
-}
-
 }  // namespace
 
 std::string gaps_message(const ProblemFile& problem, const ParetoFront& front,
                          const std::string& limited) {
-  if (!is_of_gap(problem, front)) return "";
   const double asked = problem.pareto->gap;
   if (!front.gaps.largest && front.gaps.gaps.empty()) {
     return "there are no neighbours: fewer than two points keep the limits and are not dominated";
@@ -222,7 +198,6 @@ std::string gaps_message(const ProblemFile& problem, const ParetoFront& front,
 }
 
 Json gaps_document(const ProblemFile& problem, const ParetoFront& front) {
-  if (!is_of_gap(problem, front)) return nullptr;
   Json document = {{"asked", problem.pareto->gap}, {"largest", nullptr}};
   if (front.gaps.largest) document["largest"] = *front.gaps.largest;
   const auto limited = [&](std::size_t i) {

@@ -1,14 +1,8 @@
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "cli/reports/document_table.hpp"
-#include "cli/text/json.hpp"
-#include "core/base/error_bar.hpp"
+#include "cli/reports/warnings.hpp"
 #include "core/response/analysis.hpp"
-#include "core/scene/problem_file.hpp"
 #include "sensitivity/kinks.hpp"
 #include "studies/pareto_front.hpp"
 
@@ -28,7 +22,7 @@ Json limit_document(const ProblemFile& problem, const ConstraintSettings& constr
 /// those that are broken: whether by less than the error of the response
 /// @param errors  of the responses; may be empty
 Json limits_document(const ProblemFile& problem, const Eigen::VectorXd& x, const Analysis& analysis,
-                     const std::vector<std::optional<ErrorBar>>& errors);
+                     const ErrorBars& errors);
 
 /// "kept", "BROKEN" of an entry of such a document.
 DocumentColumn kept_column();
@@ -41,14 +35,14 @@ std::string limits_text(const ProblemFile& problem, const Json& limits);
 bool keeps_limits(const Json& limits);
 
 /// Sentences on the gaps of a front that was asked for one: how large they are, where it jumps, and
-/// what kept it from closing others. Empty of other fronts.
+/// what kept it from closing others.
 /// @param limited  name of what is limited
 std::string gaps_message(const ProblemFile& problem, const ParetoFront& front,
                          const std::string& limited);
 
 /// `largest` is null of fewer than two points.
-/// {"asked", "largest", "left": [{"points": [i, j], "limited": [a, b], "size", "cause"}]}; null of
-/// other fronts. Points are counted from 1.
+/// {"asked", "largest", "left": [{"points": [i, j], "limited": [a, b], "size", "cause"}]};
+/// points are counted from 1.
 Json gaps_document(const ProblemFile& problem, const ParetoFront& front);
 
 // Maxima that two peaks share. If the peaks move alike with the design that is no harm; if not,

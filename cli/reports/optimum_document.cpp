@@ -8,7 +8,6 @@
 #include "cli/reports/case_report.hpp"
 #include "cli/reports/limits_report.hpp"
 #include "cli/reports/scene_report.hpp"
-#include "cli/reports/warnings.hpp"
 #include "core/base/number_text.hpp"
 #include "core/scene/case_goals.hpp"
 #include "core/scene/response_quantity.hpp"
@@ -79,7 +78,7 @@ Json responses_document(const Optimum& optimum) {
     if (!errors.empty()) document[response.name]["error"] = error_document(error_of(errors, i));
     if (optimum.influence) {
       document[response.name]["gradients"] =
-          influence_document(optimum.problem, *optimum.influence, i);
+          by_name(optimum.problem.variables, optimum.influence->gradients.row(i));
     }
   }
   return document;

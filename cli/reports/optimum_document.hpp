@@ -1,11 +1,6 @@
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "cli/reports/design_influence.hpp"
-#include "cli/text/json.hpp"
 #include "core/response/effect_influence.hpp"
 #include "core/response/monitors.hpp"
 #include "core/scene/shown_unit.hpp"

@@ -1,18 +1,14 @@
 #include "cli/reports/optimum_report.hpp"
 
 #include <cmath>
-#include <optional>
 
 #include <fmt/format.h>
 
 #include "cli/reports/analysis_report.hpp"
 #include "cli/reports/case_report.hpp"
 #include "cli/reports/document_table.hpp"
-#include "cli/reports/optimum_document.hpp"
 #include "cli/reports/scene_report.hpp"
 #include "cli/reports/starts_report.hpp"
-#include "cli/reports/warnings.hpp"
-#include "cli/text/table.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/find_named.hpp"
 #include "core/base/number_text.hpp"

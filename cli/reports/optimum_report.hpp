@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "cli/reports/optimum_document.hpp"
 #include "cli/text/json.hpp"
 

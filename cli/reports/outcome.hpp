@@ -1,8 +1,8 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
-#include <vector>
+
+#include <fmt/format.h>
 
 #include "cli/text/json.hpp"
 
@@ -30,9 +30,13 @@ struct Outcome {
 };
 
 /// "done" or "interrupted": of a study that can tell what it knows so far.
-std::string study_status(bool is_whole);
+inline std::string study_status(bool is_whole) {
+  return is_whole ? "done" : "interrupted";
+}
 
 /// "INTERRUPTED: 3 of 7 points were done\n\n"
-std::string interrupted_text(std::size_t done, std::size_t all, const std::string& what);
+inline std::string interrupted_text(std::size_t done, std::size_t all, const std::string& what) {
+  return fmt::format("INTERRUPTED: {} of {} {} were done\n\n", done, all, what);
+}
 
 }  // namespace pleuel

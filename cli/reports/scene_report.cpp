@@ -10,12 +10,10 @@
 
 #include "cli/reports/document_table.hpp"
 #include "cli/reports/starts_report.hpp"
-#include "cli/text/table.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/number_text.hpp"
 #include "core/mechanism/configuration.hpp"
 #include "core/scene/joint_kind.hpp"
-#include "core/scene/shown_unit.hpp"
 #include "core/scene/time_breaks.hpp"
 
 namespace pleuel {
@@ -58,9 +56,8 @@ bool is_at(double bound, const DesignVariable& variable, double value) {
 constexpr double visible_shift = 1e-5;
 
 int drives(const Model& model) {
-  return static_cast<int>(
-      std::count_if(model.joints.begin(), model.joints.end(),
-                    [](const JointModel& joint) { return joint.drive_row >= 0; }));
+  return static_cast<int>(std::ranges::count_if(
+      model.joints, [](const JointModel& joint) { return joint.drive_row >= 0; }));
 }
 
 }  // namespace
@@ -262,11 +259,11 @@ class ActionRow {
 }  // namespace
 
 double LawPoints::lowest() const {
-  return *std::min_element(values.begin(), values.end());
+  return *std::ranges::min_element(values);
 }
 
 double LawPoints::highest() const {
-  return *std::max_element(values.begin(), values.end());
+  return *std::ranges::max_element(values);
 }
 
 LawPoints law_points(const TimeFunction& function, double end_time, const Design<double>& design,

@@ -1,10 +1,5 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
-#include <Eigen/Core>
-
 #include "cli/text/json.hpp"
 #include "core/model/scene_geometry.hpp"
 #include "core/response/analysis.hpp"

@@ -1,11 +1,6 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "cli/input/problem_input.hpp"
-#include "cli/text/json.hpp"
-#include "core/trust/setting_choice.hpp"
 #include "optimization/design/staged_solve.hpp"
 
 /// Which steps and elements were chosen for an accuracy.

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <string>
-
 #include "cli/text/json.hpp"
 #include "optimization/design/multi_start.hpp"
 #include "optimization/design/size_choice.hpp"

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "cli/text/json.hpp"
 #include "core/base/stopwatch.hpp"
 

@@ -28,28 +28,21 @@ void show_warnings_before(const ProblemFile& problem) {
 }
 
 void SharedWarnings::add(const std::vector<std::string>& warnings, const std::string& whose) {
-  for (const std::string& warning : warnings) {
-    const auto known = std::find_if(warnings_.begin(), warnings_.end(),
-                                    [&](const auto& entry) { return entry.first == warning; });
-    if (known == warnings_.end()) {
-      warnings_.emplace_back(warning, whose);
-    } else {
-      known->second += ", " + whose;
-    }
-  }
+  for (const std::string& warning : warnings) all_[warning].push_back(whose);
 }
 
 std::vector<std::string> SharedWarnings::sentences() const {
   std::vector<std::string> sentences;
-  for (const auto& [warning, whose] : warnings_) {
-    sentences.push_back(fmt::format("{} ({})", warning, whose));
+  for (const auto& [warning, whose] : all_.items()) {
+    sentences.push_back(
+        fmt::format("{} ({})", warning, fmt::join(whose.get<std::vector<std::string>>(), ", ")));
   }
   return sentences;
 }
 
 void add_new(std::vector<std::string>& warnings, const std::vector<std::string>& more) {
   for (const std::string& warning : more) {
-    const bool is_known = std::find(warnings.begin(), warnings.end(), warning) != warnings.end();
+    const bool is_known = std::ranges::find(warnings, warning) != warnings.end();
     if (!is_known) warnings.push_back(warning);
   }
 }

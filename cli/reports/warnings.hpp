@@ -1,14 +1,10 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "cli/text/json.hpp"
 #include "core/base/error_bar.hpp"
-#include "core/scene/problem_file.hpp"
 #include "core/scene/shown_unit.hpp"
 
 /// What speaks against numbers, as people read it.
@@ -30,7 +26,7 @@ class SharedWarnings {
   std::vector<std::string> sentences() const;
 
  private:
-  std::vector<std::pair<std::string, std::string>> warnings_;  ///< and whose they are
+  Json all_ = Json::object();  ///< {WARNING: [whose]}
 };
 
 /// Adds the sentences that are not there yet.

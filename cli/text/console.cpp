@@ -48,7 +48,7 @@ bool takes_colours(std::FILE* out) {
 std::string coloured(const std::string& text) {
   std::string shown;
   for (std::size_t i = 0; i < text.size();) {
-    const auto word = std::find_if(word_colours.begin(), word_colours.end(), [&](const auto& one) {
+    const auto word = std::ranges::find_if(word_colours, [&](const auto& one) {
       return text.compare(i, one.first.size(), one.first) == 0;
     });
     if (word == word_colours.end()) {

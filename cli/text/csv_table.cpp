@@ -46,7 +46,7 @@ double number_of(const std::string& cell) {
 }  // namespace
 
 int CsvTable::find(const std::string& name) const {
-  const auto found = std::find(names.begin(), names.end(), name);
+  const auto found = std::ranges::find(names, name);
   return found == names.end() ? -1 : static_cast<int>(found - names.begin());
 }
 

@@ -4,9 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include <fmt/format.h>
-
-#include "cli/text/xml_text.hpp"
+#include "cli/text/svg.hpp"
 #include "core/base/int_size.hpp"
 #include "core/base/number_text.hpp"
 #include "picture/thinned.hpp"
@@ -36,6 +34,13 @@ std::string tick_label(double value) {
   return fmt::format("{:.6g}", std::abs(value) < 1e-12 ? 0.0 : value);
 }
 
+constexpr const char* soft_end = R"(class="soft" text-anchor="end")";
+
+/// "rod_stress [MPa]"
+std::string titled(const HistoryChart& chart) {
+  return chart.title + (chart.unit == "1" ? "" : fmt::format(" [{}]", chart.unit));
+}
+
 /// From numbers to pixels of one chart.
 struct Scale {
   double from, to, first, last;
@@ -46,110 +51,95 @@ struct Scale {
 
 class ChartDrawing {
  public:
-  ChartDrawing(const HistoryChart& chart, double top) : chart_(chart), top_(top) {
+  ChartDrawing(const HistoryChart& chart, double top, Svg& svg)
+      : chart_(chart), top_(top), svg_(svg) {
     const auto [low, high] = range_of(chart);
     const Eigen::VectorXd& time = chart.curves.back().time;
     y_ = {low, high, top + plot_bottom, top + plot_top};
     x_ = {time.minCoeff(), std::max(time.maxCoeff(), time.minCoeff() + 1e-300), plot_left,
           plot_right};
-  }
-
-  std::string draw() {
-    add(R"(<text x="{:.0f}" y="{:.1f}" font-weight="600">{}{}</text>)", plot_left, top_ + 18.0,
-        xml_text(chart_.title),
-        chart_.unit == "1" ? "" : fmt::format(" [{}]", xml_text(chart_.unit)));
+    svg_.add_text(plot_left, top_ + 18.0, R"(font-weight="600")", titled(chart));
     draw_key();
     draw_axes();
     for (const double limit : chart_.limits) draw_limit(limit);
     for (const HistoryCurve& curve : chart_.curves) draw_curve(curve);
-    return std::move(svg_);
   }
 
  private:
-  template <class... Values>
-  void add(fmt::format_string<Values...> format, Values&&... values) {
-    svg_ += fmt::format(format, std::forward<Values>(values)...) + "\n";
-  }
-
   /// Which line is which design, at the right of the title.
   void draw_key() {
     if (chart_.curves.size() < 2) return;
     double right = plot_right;
     for (auto curve = chart_.curves.rbegin(); curve != chart_.curves.rend(); ++curve) {
-      add(R"(<text class="soft" x="{:.0f}" y="{:.1f}" text-anchor="end">{}</text>)", right,
-          top_ + 18.0, xml_text(curve->name));
+      svg_.add_text(right, top_ + 18.0, soft_end, curve->name);
       right -= 7.0 * static_cast<double>(curve->name.size()) + 10.0;
-      add(R"(<path class="{}" stroke-width="2" d="M{:.1f} {:.1f}h-18"/>)",
-          curve == chart_.curves.rbegin() ? "main" : "other", right, top_ + 14.0);
+      svg_.add(R"(<path class="{}" stroke-width="2" d="M{:.1f} {:.1f}h-18"/>)",
+               curve == chart_.curves.rbegin() ? "main" : "other", right, top_ + 14.0);
       right -= 34.0;
     }
   }
 
   void draw_axes() {
     for (const double tick : round_ticks(y_.from, y_.to, 5)) {
-      const double y = y_(tick);
-      add(R"(<path class="grid" d="M{:.1f} {:.1f}H{:.1f}"/>)", plot_left, y, plot_right);
-      add(R"(<text class="soft" x="{:.1f}" y="{:.1f}" text-anchor="end">{}</text>)",
-          plot_left - 8.0, y + 4.0, tick_label(tick));
+      svg_.add(R"(<path class="grid" d="M{:.1f} {:.1f}H{:.1f}"/>)", plot_left, y_(tick),
+               plot_right);
+      svg_.add_text(plot_left - 8.0, y_(tick) + 4.0, soft_end, tick_label(tick));
     }
     for (const double tick : round_ticks(x_.from, x_.to, 7)) {
-      add(R"(<text class="soft" x="{:.1f}" y="{:.1f}" text-anchor="middle">{}</text>)", x_(tick),
-          top_ + plot_bottom + 18.0, tick_label(tick));
+      svg_.add_text(x_(tick), top_ + plot_bottom + 18.0, R"(class="soft" text-anchor="middle")",
+                    tick_label(tick));
     }
-    add(R"(<text class="soft" x="{:.1f}" y="{:.1f}" text-anchor="end">time [{}]</text>)",
-        plot_right, top_ + plot_bottom + 34.0, chart_.time_unit);
+    svg_.add_text(plot_right, top_ + plot_bottom + 34.0, soft_end,
+                  fmt::format("time [{}]", chart_.time_unit));
   }
 
   void draw_limit(double limit) {
     if (limit < y_.from || limit > y_.to) return;
-    add(R"(<path class="limit" stroke-dasharray="6 4" d="M{:.1f} {:.1f}H{:.1f}"/>)", plot_left,
-        y_(limit), plot_right);
-    add(R"(<text class="soft" x="{:.1f}" y="{:.1f}">limit {}</text>)", plot_left + 6.0,
-        y_(limit) - 5.0, tick_label(limit));
+    svg_.add(R"(<path class="limit" stroke-dasharray="6 4" d="M{:.1f} {:.1f}H{:.1f}"/>)", plot_left,
+             y_(limit), plot_right);
+    svg_.add_text(plot_left + 6.0, y_(limit) - 5.0, R"(class="soft")",
+                  "limit " + tick_label(limit));
   }
 
   void draw_curve(const HistoryCurve& curve) {
     const bool is_main = &curve == &chart_.curves.back();
     const std::vector<int> points = thinned(curve.values, most_points, {});
     if (is_main && curve.band.size() == curve.values.size()) draw_band(curve, points);
-    std::string path;
-    for (const int i : points) {
-      path += fmt::format("{}{:.2f} {:.2f}", path.empty() ? "M" : "L", x_(curve.time(i)),
-                          y_(curve.values(i)));
-    }
+    SvgPath path;
+    for (const int i : points) path.go_to(x_(curve.time(i)), y_(curve.values(i)));
     Eigen::Index peak = 0;
     curve.values.cwiseAbs().maxCoeff(&peak);
-    add(R"(<path class="{}" data-name="{}" data-peak="{}" fill="none" stroke-width="{}" )"
-        R"(stroke-linejoin="round" d="{}"/>)",
-        is_main ? "main" : "other", xml_text(curve.name), curve.values(peak), is_main ? 1.8 : 1.2,
-        path);
+    svg_.add(R"(<path class="{}" data-name="{}" data-peak="{}" fill="none" stroke-width="{}" )"
+             R"(stroke-linejoin="round" d="{}"/>)",
+             is_main ? "main" : "other", xml_text(curve.name), curve.values(peak),
+             is_main ? 1.8 : 1.2, path.text());
     if (is_main) draw_peak(curve, peak);
   }
 
   void draw_band(const HistoryCurve& curve, const std::vector<int>& points) {
-    std::string path;
+    SvgPath path;
     const auto go_to = [&](int i, double side) {
-      path += fmt::format("{}{:.2f} {:.2f}", path.empty() ? "M" : "L", x_(curve.time(i)),
-                          y_(curve.values(i) + side * curve.band(i)));
+      path.go_to(x_(curve.time(i)), y_(curve.values(i) + side * curve.band(i)));
     };
     for (const int i : points) go_to(i, 1.0);
     for (auto i = points.rbegin(); i != points.rend(); ++i) go_to(*i, -1.0);
-    add(R"(<path class="band" opacity="0.25" d="{}Z"/>)", path);
+    svg_.add(R"(<path class="band" opacity="0.25" d="{}Z"/>)", path.text());
   }
 
   void draw_peak(const HistoryCurve& curve, Eigen::Index peak) {
     const double x = x_(curve.time(peak)), y = y_(curve.values(peak));
     const double below = curve.values(peak) < 0.0 ? 16.0 : -8.0;
     const char* anchor = x > plot_right - 60.0 ? "end" : x < plot_left + 60.0 ? "start" : "middle";
-    add(R"(<circle class="paper main" cx="{:.1f}" cy="{:.1f}" r="3.5" stroke-width="1.8"/>)", x, y);
-    add(R"(<text x="{:.1f}" y="{:.1f}" text-anchor="{}" font-weight="600">{}</text>)", x, y + below,
-        anchor, significant(curve.values(peak), 4));
+    svg_.add(R"(<circle class="paper main" cx="{:.1f}" cy="{:.1f}" r="3.5" stroke-width="1.8"/>)",
+             x, y);
+    svg_.add_text(x, y + below, fmt::format(R"(text-anchor="{}" font-weight="600")", anchor),
+                  significant(curve.values(peak), 4));
   }
 
   const HistoryChart& chart_;
   double top_;
   Scale x_{}, y_{};
-  std::string svg_;
+  Svg& svg_;
 };
 
 /// Dots of braille letters, two wide and four high (Unicode, U+2800 … U+28FF).
@@ -221,20 +211,14 @@ std::vector<double> round_ticks(double low, double high, int about) {
 }
 
 std::string to_svg(const std::vector<HistoryChart>& charts) {
-  const double height = chart_height * static_cast<double>(charts.size());
-  std::string svg =
-      fmt::format(R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {:.0f} {:.0f}" )"
-                  R"(font-family="sans-serif" role="img">)"
-                  "\n<style>{}</style>\n"
-                  R"(<rect class="paper" width="{:.0f}" height="{:.0f}"/>)"
-                  "\n",
-                  chart_width, height, svg_style, chart_width, height);
+  Svg svg(chart_width, chart_height * static_cast<double>(charts.size()), charts.front().title,
+          svg_style);
   double top = 0.0;
   for (const HistoryChart& chart : charts) {
-    svg += ChartDrawing(chart, top).draw();
+    ChartDrawing(chart, top, svg);
     top += chart_height;
   }
-  return svg + "</svg>\n";
+  return svg.text();
 }
 
 std::string to_braille(const HistoryChart& chart, int width) {
@@ -265,8 +249,7 @@ std::string to_braille(const HistoryChart& chart, int width) {
       for (int y = std::min(y0, y1); y <= std::max(y0, y1); ++y) dots.set(x, y);
     }
   }
-  std::string text =
-      fmt::format("{}{}\n", chart.title, chart.unit == "1" ? "" : fmt::format(" [{}]", chart.unit));
+  std::string text = titled(chart) + "\n";
   for (int row = 0; row < rows; ++row) {
     const bool has_label = row == 0 || row == rows - 1 || row == rows / 2;
     const double value = high - (row + 0.5) / rows * (high - low);

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <string>
-#include <vector>
 
 namespace pleuel {
 

@@ -5,10 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include <fmt/format.h>
-
+#include "cli/text/svg.hpp"
 #include "cli/text/wrapped_text.hpp"
-#include "cli/text/xml_text.hpp"
 
 namespace pleuel {
 
@@ -46,6 +44,9 @@ constexpr std::array<const char*, 8> marks = {"M-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -1
                                               "M-6 -2h4v-4h4v4h4v4h-4v4h-4v-4h-4z",
                                               "M-5.5 0L-2.7 -5H2.7L5.5 0L2.7 5H-2.7z",
                                               "M-6 -3h12v6h-12z"};
+
+constexpr const char* failure_mark = R"(<path class="failed" d="M-4 -4L4 4M-4 4L4 -4"/>)";
+constexpr const char* small_middle = R"(class="small" text-anchor="middle")";
 
 std::string moved(double x, double y) {
   return fmt::format("translate({:.2f} {:.2f})", x, y);
@@ -107,10 +108,9 @@ class Drawing {
       : chart_(chart),
         top_(44.0 + line_height * static_cast<double>(chart.notes.size())),
         x_(axis(&ChartPoint::x, left, right)),
-        y_(axis(&ChartPoint::y, bottom, top_)) {}
-
-  std::string draw() {
-    begin();
+        y_(axis(&ChartPoint::y, bottom, top_)),
+        svg_(width, height, chart.title, style()) {
+    draw_head();
     draw_axes();
     draw_floor();
     draw_front();
@@ -118,17 +118,40 @@ class Drawing {
     draw_failures();
     draw_labels();
     draw_legend();
-    return svg_ + "</svg>\n";
   }
+
+  std::string text() const { return svg_.text(); }
 
  private:
-  void add(const std::string& element) { svg_ += element + "\n"; }
-
-  void add_text(double x, double y, const std::string& text, const char* anchor,
-                const char* style = "small") {
-    add(fmt::format(R"(<text class="{}" x="{:.1f}" y="{:.1f}" text-anchor="{}">{}</text>)", style,
-                    x, y, anchor, xml_text(text)));
+  static std::string style() {
+    std::string light, dark;
+    for (std::size_t i = 0; i < colours.size(); ++i) {
+      light += fmt::format(".c{}{{stroke:{};fill:{}}}", i, colours[i].light, colours[i].light);
+      dark += fmt::format(".c{}{{stroke:{};fill:{}}}", i, colours[i].dark, colours[i].dark);
+    }
+    return ".paper{fill:#fff}text{fill:#222;stroke:none}.small{font-size:12px}"
+           ".label{font-size:12px;stroke:#fff;stroke-width:3;paint-order:stroke}"
+           ".head{font-size:15px;font-weight:bold}.grid{stroke:#ddd}.frame{stroke:#555;fill:none}"
+           ".floor{stroke:#555;stroke-dasharray:6 4}.front{stroke:#e0c94f;stroke-width:7;fill:none;"
+           "stroke-linejoin:round;stroke-linecap:round;opacity:.55}.join{fill:none!important;"
+           "stroke-width:1.3}.open{fill:none!important;stroke-width:1.6}.failed{stroke:#c00;"
+           "stroke-width:2;fill:none}" +
+           light +
+           "@media(prefers-color-scheme:dark){.paper{fill:#14171a}text{fill:#e8e8e8}"
+           ".label{stroke:#14171a}.grid{stroke:#33383d}.frame,.floor{stroke:#aaa}"
+           ".front{stroke:#8f7d1e}.failed{stroke:#ff6b6b}" +
+           dark + "}";
   }
+
+  template <class Action>
+  void for_each_point(const Action& action) const {
+    for (const ChartSeries& series : chart_.series) {
+      for (const ChartPoint& point : series.points) action(point);
+    }
+  }
+
+  /// Whether it is a mark between the axes.
+  static bool is_drawn(const ChartPoint& point) { return !point.has_failed && point.y > 0.0; }
 
   /// Of the points that succeeded.
   Axis axis(double ChartPoint::*number, double first, double last) const {
@@ -138,11 +161,9 @@ class Drawing {
       low = std::min(low, value);
       high = std::max(high, value);
     };
-    for (const ChartSeries& series : chart_.series) {
-      for (const ChartPoint& point : series.points) {
-        if (!point.has_failed) include(point.*number);
-      }
-    }
+    for_each_point([&](const ChartPoint& point) {
+      if (!point.has_failed) include(point.*number);
+    });
     if (number == &ChartPoint::x && chart_.floor) include(*chart_.floor);
     if (high == 0.0) low = high = 1.0;
     return {low, high, first, last};
@@ -150,138 +171,106 @@ class Drawing {
 
   double pixel_x(const ChartPoint& point) const { return point.x > 0.0 ? x_.pixel(point.x) : left; }
 
-  void begin() {
-    add(fmt::format(R"(<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {:.0f} {:.0f}" )"
-                    R"(font-family="sans-serif" role="img">)",
-                    width, height));
-    add("<title>" + xml_text(chart_.title) + "</title>");
-    std::string light, dark;
-    for (std::size_t i = 0; i < colours.size(); ++i) {
-      light += fmt::format(".c{}{{stroke:{};fill:{}}}", i, colours[i].light, colours[i].light);
-      dark += fmt::format(".c{}{{stroke:{};fill:{}}}", i, colours[i].dark, colours[i].dark);
-    }
-    add("<style>.paper{fill:#fff}text{fill:#222;stroke:none}.small{font-size:12px}"
-        ".label{font-size:12px;stroke:#fff;stroke-width:3;paint-order:stroke}"
-        ".head{font-size:15px;font-weight:bold}.grid{stroke:#ddd}.frame{stroke:#555;fill:none}"
-        ".floor{stroke:#555;stroke-dasharray:6 4}.front{stroke:#e0c94f;stroke-width:7;fill:none;"
-        "stroke-linejoin:round;stroke-linecap:round;opacity:.55}.join{fill:none!important;"
-        "stroke-width:1.3}.open{fill:none!important;stroke-width:1.6}.failed{stroke:#c00;"
-        "stroke-width:2;fill:none}" +
-        light +
-        "@media(prefers-color-scheme:dark){.paper{fill:#14171a}text{fill:#e8e8e8}.label{stroke:#"
-        "14171a}"
-        ".grid{stroke:#33383d}.frame,.floor{stroke:#aaa}.front{stroke:#8f7d1e}"
-        ".failed{stroke:#ff6b6b}" +
-        dark + "}</style>");
-    add(fmt::format(R"(<rect class="paper" width="{:.0f}" height="{:.0f}"/>)", width, height));
-    add_text(left, 26.0, shortened(chart_.title, longest_title), "start", "head");
+  void draw_head() {
+    svg_.add_text(left, 26.0, R"(class="head")", shortened(chart_.title, longest_title));
     for (std::size_t i = 0; i < chart_.notes.size(); ++i) {
-      add_text(left, 45.0 + line_height * static_cast<double>(i), chart_.notes[i], "start");
+      svg_.add_text(left, 45.0 + line_height * static_cast<double>(i), R"(class="small")",
+                    chart_.notes[i]);
     }
   }
 
   void draw_axes() {
     for (const double value : x_.ticks()) {
       const double x = x_.pixel(value);
-      add(fmt::format(R"(<path class="grid" d="M{:.2f} {:.1f}V{:.1f}"/>)", x, top_, bottom));
-      add(fmt::format(R"(<text class="small tick-x" data-value="{}" x="{:.2f}" y="{:.1f}" )"
-                      R"(text-anchor="middle">{}</text>)",
-                      value, x, bottom + 17.0, tick_text(value)));
+      svg_.add(R"(<path class="grid" d="M{:.2f} {:.1f}V{:.1f}"/>)", x, top_, bottom);
+      svg_.add(R"(<text class="small tick-x" data-value="{}" x="{:.2f}" y="{:.1f}" )"
+               R"(text-anchor="middle">{}</text>)",
+               value, x, bottom + 17.0, tick_text(value));
     }
     for (const double value : y_.ticks()) {
       const double y = y_.pixel(value);
-      add(fmt::format(R"(<path class="grid" d="M{:.1f} {:.2f}H{:.1f}"/>)", left, y, right));
+      svg_.add(R"(<path class="grid" d="M{:.1f} {:.2f}H{:.1f}"/>)", left, y, right);
       // Texts stand on their line; the tick is in the middle of the digits.
-      add(fmt::format(R"(<text class="small tick-y" data-value="{}" x="{:.1f}" y="{:.2f}" dy="4" )"
-                      R"(text-anchor="end">{}</text>)",
-                      value, left - 8.0, y, tick_text(value)));
+      svg_.add(R"(<text class="small tick-y" data-value="{}" x="{:.1f}" y="{:.2f}" dy="4" )"
+               R"(text-anchor="end">{}</text>)",
+               value, left - 8.0, y, tick_text(value));
     }
-    add(fmt::format(R"(<rect class="frame" x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}"/>)",
-                    left, top_, right - left, bottom - top_));
-    add_text(0.5 * (left + right), bottom + 40.0, chart_.x_label, "middle");
-    add(fmt::format(R"(<text class="small" text-anchor="middle" transform="{} {}">{}</text>)",
-                    moved(22.0, 0.5 * (top_ + bottom)), "rotate(-90)", xml_text(chart_.y_label)));
+    svg_.add(R"(<rect class="frame" x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}"/>)", left,
+             top_, right - left, bottom - top_);
+    svg_.add_text(0.5 * (left + right), bottom + 40.0, small_middle, chart_.x_label);
+    svg_.add(R"svg(<text {} transform="{} rotate(-90)">{}</text>)svg", small_middle,
+             moved(22.0, 0.5 * (top_ + bottom)), xml_text(chart_.y_label));
   }
 
+  bool has_floor() const { return chart_.floor && *chart_.floor > 0.0; }
+
   void draw_floor() {
-    if (!chart_.floor || !(*chart_.floor > 0.0)) return;
-    const double x = x_.pixel(*chart_.floor);
-    add(fmt::format(R"(<path class="floor" data-value="{}" d="M{:.2f} {:.1f}V{:.1f}"/>)",
-                    *chart_.floor, x, top_, bottom));
+    if (!has_floor()) return;
+    svg_.add(R"(<path class="floor" data-value="{}" d="M{:.2f} {:.1f}V{:.1f}"/>)", *chart_.floor,
+             x_.pixel(*chart_.floor), top_, bottom);
   }
 
   /// From the most accurate to the fastest.
   void draw_front() {
     std::vector<const ChartPoint*> points;
-    for (const ChartSeries& series : chart_.series) {
-      for (const ChartPoint& point : series.points) {
-        if (!point.has_failed && point.y > 0.0) points.push_back(&point);
-      }
-    }
-    std::stable_sort(points.begin(), points.end(), [](const ChartPoint* a, const ChartPoint* b) {
+    for_each_point([&](const ChartPoint& point) {
+      if (is_drawn(point)) points.push_back(&point);
+    });
+    std::ranges::stable_sort(points, [](const ChartPoint* a, const ChartPoint* b) {
       return a->x != b->x ? a->x < b->x : a->y < b->y;
     });
-    std::string path;
-    double least = std::numeric_limits<double>::infinity();
+    SvgPath path;
     for (const ChartPoint* point : points) {
-      if (point->y >= least) continue;
-      least = point->y;
-      path += fmt::format("{}{:.1f} {:.1f}", path.empty() ? "M" : "L", pixel_x(*point),
-                          y_.pixel(point->y));
+      if (!efficient_.empty() && point->y >= efficient_.back()->y) continue;
+      path.go_to(pixel_x(*point), y_.pixel(point->y));
       efficient_.push_back(point);
     }
-    if (efficient_.size() > 1) add(fmt::format(R"(<path class="front" d="{}"/>)", path));
+    if (efficient_.size() > 1) svg_.add(R"(<path class="front" d="{}"/>)", path.text());
   }
 
-  /// The first three are what the others are changes of: full marks.
+  /// Full marks of what the others are changes of.
   std::string mark_of(std::size_t series) const {
-    const bool is_open = !chart_.series[series].is_joined;
     return fmt::format(R"(<path class="c{}{}" d="{}"/>)", series % colours.size(),
-                       is_open ? " open" : "", marks[series % marks.size()]);
+                       chart_.series[series].is_joined ? "" : " open",
+                       marks[series % marks.size()]);
   }
 
   void draw_series(std::size_t index) {
     const ChartSeries& series = chart_.series[index];
-    std::string line, points;
+    SvgPath line;
     for (const ChartPoint& point : series.points) {
-      if (point.has_failed || !(point.y > 0.0)) continue;
+      if (is_drawn(point)) line.go_to(pixel_x(point), y_.pixel(point.y));
+    }
+    if (series.is_joined && !line.text().empty()) {
+      svg_.add(R"(<path class="c{} join" d="{}"/>)", index % colours.size(), line.text());
+    }
+    for (const ChartPoint& point : series.points) {
+      if (!is_drawn(point)) continue;
       const double x = pixel_x(point), y = y_.pixel(point.y);
-      line += fmt::format("{}{:.1f} {:.1f}", line.empty() ? "M" : "L", x, y);
-      points += fmt::format(R"(<g class="point" data-x="{}" data-y="{}" transform="{}">)"
-                            "<title>{}</title>{}</g>\n",
-                            point.x, point.y, moved(x, y), xml_text(point.name), mark_of(index));
+      svg_.add(R"(<g class="point" data-x="{}" data-y="{}" transform="{}"><title>{}</title>{}</g>)",
+               point.x, point.y, moved(x, y), xml_text(point.name), mark_of(index));
       taken_.push_back({x - mark_size, y - mark_size, x + mark_size, y + mark_size});
     }
-    if (series.is_joined && !line.empty()) {
-      add(fmt::format(R"(<path class="c{} join" d="{}"/>)", index % colours.size(), line));
-    }
-    svg_ += points;
   }
 
   void draw_failures() {
     double y = top_ + 14.0;
-    for (const ChartSeries& series : chart_.series) {
-      for (const ChartPoint& point : series.points) {
-        if (!point.has_failed) continue;
-        add(fmt::format(R"(<g class="point failure" transform="{}">)"
-                        R"(<title>{}</title><path class="failed" d="M-4 -4L4 4M-4 4L4 -4"/></g>)",
-                        moved(right, y), xml_text(point.name)));
-        y = std::min(y + 12.0, bottom - 6.0);
-        has_failures_ = true;
-      }
-    }
+    for_each_point([&](const ChartPoint& point) {
+      if (!point.has_failed) return;
+      svg_.add(R"(<g class="point failure" transform="{}"><title>{}</title>{}</g>)",
+               moved(right, y), xml_text(point.name), failure_mark);
+      y = std::min(y + 12.0, bottom - 6.0);
+      has_failures_ = true;
+    });
   }
 
   /// Beside efficient points first, where nothing is in the way.
   void draw_labels() {
     for (const ChartPoint* point : efficient_) draw_label(*point);
-    for (const ChartSeries& series : chart_.series) {
-      for (const ChartPoint& point : series.points) {
-        const bool is_done =
-            std::find(efficient_.begin(), efficient_.end(), &point) != efficient_.end();
-        if (!point.has_failed && point.y > 0.0 && !is_done) draw_label(point);
-      }
-    }
+    for_each_point([&](const ChartPoint& point) {
+      const bool is_done = std::ranges::find(efficient_, &point) != efficient_.end();
+      if (is_drawn(point) && !is_done) draw_label(point);
+    });
   }
 
   void draw_label(const ChartPoint& point) {
@@ -297,10 +286,11 @@ class Drawing {
     for (const Box& place : places) {
       const bool is_inside =
           place.x0 > left && place.x1 < right && place.y0 > top_ && place.y1 < bottom;
-      const bool is_free = std::none_of(taken_.begin(), taken_.end(),
-                                        [&](const Box& other) { return place.meets(other); });
+      const bool is_free =
+          std::ranges::none_of(taken_, [&](const Box& other) { return place.meets(other); });
       if (!is_inside || !is_free) continue;
-      add_text(0.5 * (place.x0 + place.x1), place.y1 - 3.0, point.label, "middle", "label");
+      svg_.add_text(0.5 * (place.x0 + place.x1), place.y1 - 3.0,
+                    R"(class="label" text-anchor="middle")", point.label);
       taken_.push_back(place);
       return;
     }
@@ -309,8 +299,8 @@ class Drawing {
   void draw_legend() {
     double y = top_ + 10.0;
     const auto add_line = [&](const std::string& sign, const std::string& name) {
-      add(fmt::format(R"(<g transform="{}">{}</g>)", moved(legend + 8.0, y), sign));
-      add_text(legend + 26.0, y + 4.0, shortened(name, 28), "start");
+      svg_.add(R"(<g transform="{}">{}</g>)", moved(legend + 8.0, y), sign);
+      svg_.add_text(legend + 26.0, y + 4.0, R"(class="small")", shortened(name, 28));
       y += 21.0;
     };
     for (std::size_t i = 0; i < chart_.series.size(); ++i) {
@@ -320,18 +310,14 @@ class Drawing {
     if (efficient_.size() > 1) {
       add_line(R"(<path class="front" d="M-7 0H8"/>)", "nothing better in both");
     }
-    if (chart_.floor && *chart_.floor > 0.0) {
-      add_line(R"(<path class="floor" d="M0 -8V8"/>)", chart_.floor_name);
-    }
-    if (has_failures_) {
-      add_line(R"(<path class="failed" d="M-4 -4L4 4M-4 4L4 -4"/>)", "failed (on the rim)");
-    }
+    if (has_floor()) add_line(R"(<path class="floor" d="M0 -8V8"/>)", chart_.floor_name);
+    if (has_failures_) add_line(failure_mark, "failed (on the rim)");
   }
 
   const LogLogChart& chart_;
   double top_;
   Axis x_, y_;
-  std::string svg_;
+  Svg svg_;
   std::vector<const ChartPoint*> efficient_;
   std::vector<Box> taken_;
   bool has_failures_ = false;
@@ -340,7 +326,7 @@ class Drawing {
 }  // namespace
 
 std::string to_svg(const LogLogChart& chart) {
-  return Drawing(chart).draw();
+  return Drawing(chart).text();
 }
 
 }  // namespace pleuel

@@ -43,9 +43,8 @@ std::string wrapped_line(const std::string& line, const std::string& indent, std
 
 std::size_t characters(const std::string& text) {
   // Bytes 10xxxxxx continue a character.
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-    return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
-  }));
+  return static_cast<std::size_t>(std::ranges::count_if(
+      text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
 std::string shortened(std::string text, std::size_t most) {
