@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <optional>
 #include <set>
 #include <string>
@@ -15,11 +14,11 @@
 #include "core/base/find_named.hpp"
 #include "core/base/plain_file_name.hpp"
 #include "core/scene/load_cases.hpp"
-#include "core/scene/reading/across_cases.hpp"
 #include "core/scene/reading/goal_reader.hpp"
 #include "core/scene/reading/override.hpp"
 #include "core/scene/reading/shared_by_cases.hpp"
 #include "core/scene/reading/suggestion.hpp"
+#include "core/scene/reading/symbols.hpp"
 #include "core/scene/response_parts.hpp"
 #include "core/scene/units.hpp"
 
@@ -169,20 +168,6 @@ void check_limit_names(const JsonNode& root, const std::vector<ProblemFile>& cas
   }
 }
 
-/// What the objective over cases says of the weights of cases; checks that it says enough.
-std::vector<double> read_weights(const JsonNode& root, const std::vector<ProblemFile>& cases) {
-  const Objective& objective = *cases.front().objective;
-  std::vector<double> weights(cases.size(), objective.weights.empty() ? 1.0 : 0.0);
-  if (objective.weights.empty()) return weights;
-  check_weights(root.at("objective").at("over_cases"), objective.weights, cases);
-  for (const auto& [name, weight] : objective.weights) {
-    for (std::size_t i = 0; i < cases.size(); ++i) {
-      if (is_in_case({name}, cases[i])) weights[i] = weight;
-    }
-  }
-  return weights;
-}
-
 /// Names with a case behind them are those of numbers of single cases.
 void forbid_names_in_cases(const JsonNode& root) {
   for (const char* block : {"constants", "variables", "responses", "constraints"}) {
@@ -226,20 +211,6 @@ void forget_missing_limit(Json& document) {
   if (!document["constraints"].contains(pareto["constraint"].get<std::string>())) {
     document.erase("pareto");
   }
-}
-
-bool is_letter_of_names(char letter) {
-  return std::isalnum(static_cast<unsigned char>(letter)) || letter == '_';
-}
-
-/// Whether a text has a name as a word of its own.
-bool has_word(const std::string& text, const std::string& word) {
-  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
-    const std::size_t end = at + word.size();
-    const bool begins = at == 0 || !is_letter_of_names(text[at - 1]);
-    if (begins && (end == text.size() || !is_letter_of_names(text[end]))) return true;
-  }
-  return false;
 }
 
 /// Whether a text in a value has one of the names: formulas that use it do.
@@ -399,7 +370,8 @@ Json document_of_case(Json document, const CaseChanges& changes, const std::stri
     replace_at(document, pointer, value, child_pointer(place, pointer), file);
   }
   document.erase("cases");
-  return without_across_cases(std::move(document), changes.name);
+  document[case_key] = changes.name;
+  return document;
 }
 
 Json lone_document(Json document, const CaseChanges& changes, const std::string& file) {
@@ -424,12 +396,12 @@ ProblemFile join_cases(const JsonNode& root, const std::vector<CaseChanges>& cha
   check_limit_names(root, cases);
   const ProblemFile& first = cases.front();
   const std::vector<bool> is_same = same_responses(first, root.value(), changes);
-  std::vector<double> weights;
   if (first.objective) {
     check_objective(root, first, is_same);
-    weights = read_weights(root, cases);
+    const auto& weights = first.objective->weights;
+    if (!weights.empty()) check_weights(root.at("objective").at("over_cases"), weights, cases);
   }
-  return joined_cases(std::move(cases), is_same, std::move(weights));
+  return joined_cases(std::move(cases), is_same);
 }
 
 void forbid_case_names(const JsonNode& root, const ProblemFile& problem) {

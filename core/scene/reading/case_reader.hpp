@@ -21,6 +21,10 @@ struct CaseChanges {
 /// @throws InputError
 std::vector<CaseChanges> read_cases(const JsonNode& root);
 
+/// Of documents that the program makes: the load case that one is of. What is made from several cases
+/// is left out where it is read (NumberReader::read_or_leave_out()).
+inline constexpr const char* case_key = "$case";
+
 /// The document with what the case changes. Limits and objective may still name cases.
 /// @throws InputError
 Json document_of_case(Json document, const CaseChanges& changes, const std::string& file);

@@ -101,11 +101,16 @@ std::string written_unit(std::initializer_list<JsonNode> nodes) {
 ReadExpression read_formula(const JsonNode& node, const std::vector<Symbol>& symbols,
                             const UnitSystem& units) {
   const std::string text = node.text();
+  const auto rule_of = [&](const ExpressionError& error) {
+    return fmt::format("has an error at column {} of \"{}\": {}", error.column(), text,
+                       error.what());
+  };
   try {
     return read_expression(text, symbols, units);
+  } catch (const CaseExpressionError& error) {
+    throw NamesCases(node.message(rule_of(error)), text);
   } catch (const ExpressionError& error) {
-    node.fail(
-        fmt::format("has an error at column {} of \"{}\": {}", error.column(), text, error.what()));
+    node.fail(rule_of(error));
   }
 }
 
@@ -173,6 +178,15 @@ bool is_name_character(char c) {
 
 bool is_digit_character(char c) {
   return std::isdigit(static_cast<unsigned char>(c)) != 0;
+}
+
+bool has_word(const std::string& text, const std::string& word) {
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+    const std::size_t end = at + word.size();
+    const bool begins = at == 0 || !is_name_character(text[at - 1]);
+    if (begins && (end == text.size() || !is_name_character(text[end]))) return true;
+  }
+  return false;
 }
 
 std::size_t unit_length(std::string_view text,

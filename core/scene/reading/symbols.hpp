@@ -4,12 +4,26 @@
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "core/base/error.hpp"
 #include "core/scene/reading/expression_parser.hpp"
 #include "core/scene/reading/json_node.hpp"
 
 namespace pleuel {
+
+/// What is read has to do with several load cases: a document of one case leaves it out.
+class NamesCases : public InputError {
+ public:
+  /// @param formula  that names them
+  NamesCases(const std::string& message, std::string formula)
+      : InputError(message), formula_(std::move(formula)) {}
+  const std::string& formula() const { return formula_; }
+
+ private:
+  std::string formula_;
+};
 
 /// Whether the value is a text that begins with "=": a formula where a number could stand.
 bool is_formula(const JsonNode& node);
@@ -21,7 +35,8 @@ std::string written_unit(std::initializer_list<JsonNode> nodes);
 /// column of its first sign, where the text looks like one; else empty.
 std::string formula_hint(const std::string& text, const std::vector<Symbol>& symbols);
 
-/// A formula of the document, or another text that is one. @throws InputError with its column
+/// A formula of the document, or another text that is one.
+/// @throws InputError with its column; NamesCases, which is one, where that is its only mistake
 ReadExpression read_formula(const JsonNode& node, const std::vector<Symbol>& symbols,
                             const UnitSystem& units);
 
@@ -34,6 +49,9 @@ std::vector<Symbol> read_symbols(const JsonNode& root, const UnitSystem& units);
 /// Whether a name can contain this character (UTF-8 bytes of letters beyond ASCII among them).
 bool is_name_character(char c);
 bool is_digit_character(char c);
+
+/// Whether a text has a name as a word of its own.
+bool has_word(const std::string& text, const std::string& word);
 
 /// How far a unit reaches that begins at the start of a text: "kg/m^3 * width" has the unit
 /// "kg/m^3". Words follow each other by a blank or "/", each with a whole power; "/" belongs to the
