@@ -194,25 +194,6 @@ void check_file_name(const JsonNode& node, const std::string& name,
   }
 }
 
-/// Whether a limit holds in a case: those without names hold in all.
-bool names_case(const Json& constraint, const CaseChanges& changes) {
-  if (!constraint.is_object() || !constraint.contains("cases")) return true;
-  const Json& names = constraint["cases"];
-  return std::any_of(names.begin(), names.end(), [&](const Json& name) {
-    return name == changes.name || (!changes.range.empty() && name == changes.range);
-  });
-}
-
-/// A study of a limit that does not hold in the case is none of its.
-void forget_missing_limit(Json& document) {
-  if (!document.contains("pareto") || !document["pareto"].is_object()) return;
-  const Json& pareto = document["pareto"];
-  if (!pareto.contains("constraint") || !pareto["constraint"].is_string()) return;
-  if (!document["constraints"].contains(pareto["constraint"].get<std::string>())) {
-    document.erase("pareto");
-  }
-}
-
 /// Whether a text in a value has one of the names: formulas that use it do.
 bool mentions_any(const Json& value, const std::set<std::string>& names) {
   if (value.is_string()) {
@@ -370,25 +351,18 @@ Json document_of_case(Json document, const CaseChanges& changes, const std::stri
     replace_at(document, pointer, value, child_pointer(place, pointer), file);
   }
   document.erase("cases");
-  document[case_key] = changes.name;
+  document[case_key] = {changes.name, changes.range};
   return document;
 }
 
-Json lone_document(Json document, const CaseChanges& changes, const std::string& file) {
-  document = document_of_case(std::move(document), changes, file);
-  if (document.contains("objective") && document["objective"].is_object()) {
-    document["objective"].erase("over_cases");
-  }
-  if (!document.contains("constraints") || !document["constraints"].is_object()) return document;
-  Json constraints = Json::object();
-  for (auto& [name, constraint] : document["constraints"].items()) {
-    if (!names_case(constraint, changes)) continue;
-    constraints[name] = constraint;
-    if (constraint.is_object()) constraints[name].erase("cases");
-  }
-  document["constraints"] = std::move(constraints);
-  forget_missing_limit(document);
-  return document;
+void keep_case(ProblemFile& problem) {
+  std::erase_if(problem.constraints, [&](const ConstraintSettings& constraint) {
+    return !is_in_case(constraint.cases, problem);
+  });
+  if (problem.objective) problem.objective->over_cases = OverCases::same;
+  // A study of a limit that does not hold in the case is none of its.
+  if (!problem.pareto || problem.pareto->constraint.empty()) return;
+  if (!find_named(problem.constraints, problem.pareto->constraint)) problem.pareto.reset();
 }
 
 ProblemFile join_cases(const JsonNode& root, const std::vector<CaseChanges>& changes,

@@ -21,17 +21,16 @@ struct CaseChanges {
 /// @throws InputError
 std::vector<CaseChanges> read_cases(const JsonNode& root);
 
-/// Of documents that the program makes: the load case that one is of. What is made from several cases
-/// is left out where it is read (NumberReader::read_or_leave_out()).
+/// Of documents that the program makes: name and range of the load case that one is of. What is made
+/// from several cases is left out where it is read (NumberReader::read_or_leave_out()).
 inline constexpr const char* case_key = "$case";
 
 /// The document with what the case changes. Limits and objective may still name cases.
 /// @throws InputError
 Json document_of_case(Json document, const CaseChanges& changes, const std::string& file);
 
-/// The document as if it were written for one case only: with the limits that hold in it.
-/// @throws InputError
-Json lone_document(Json document, const CaseChanges& changes, const std::string& file);
+/// What the document of a case says if it is read alone: with the limits that hold in the case.
+void keep_case(ProblemFile& problem);
 
 /// What the cases share, with the responses and constraints of all (ProblemFile::cases).
 /// @param cases    problems of the cases with their names, one each

@@ -26,7 +26,11 @@ void read_heading(const JsonNode& root, ProblemFile& problem) {
                                         "effects",   "simulation", "sensitivity", "constants",
                                         "variables", "responses",  "objective",   "constraints",
                                         "optimizer", "pareto",     "accuracy",    "uncertainty"};
-  if (root.find(case_key)) keys.push_back(case_key);
+  if (const auto of_case = root.find(case_key)) {
+    keys.push_back(case_key);
+    of_case->value().at(0).get_to(problem.load_case);
+    of_case->value().at(1).get_to(problem.case_range);
+  }
   root.allow_keys(keys);
   if (const auto schema = root.find("$schema")) schema->text();
   if (const auto name = root.find("name")) problem.name = name->text();
@@ -92,7 +96,7 @@ Json overridden_document(const ProblemText& text) {
   }
   if (text.load_case.empty()) return document;
   for (const CaseChanges& changes : cases_of(document, text.file)) {
-    if (changes.name == text.load_case) return lone_document(document, changes, text.file);
+    if (changes.name == text.load_case) return document_of_case(document, changes, text.file);
   }
   throw InputError(fmt::format("{}: /cases has no case \"{}\"", text.file, text.load_case));
 }
