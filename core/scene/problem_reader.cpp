@@ -67,15 +67,17 @@ ProblemFile complete_problem(const std::string& text, const std::string& file,
   }
   std::vector<ProblemFile> cases;
   std::vector<Json> documents;
+  std::vector<std::vector<Symbol>> symbols;
   for (const CaseChanges& one : changes) {
     documents.push_back(document_of_case(document, one, file));
     cases.push_back(read_case_problem(document, documents.back(), one, file, units));
+    symbols.push_back(read_symbols(JsonNode(documents.back(), file), units));
   }
-  check_shared_documents(root, changes, documents, units);
+  check_shared_documents(root, changes, documents, symbols, units);
   check_shared_numbers(root, cases, units);
-  ProblemFile joined = join_cases(root, changes, std::move(cases));
+  ProblemFile joined = join_cases(root, documents, differing_constants(symbols), std::move(cases));
   check_shared_limits(root, joined);
-  read_across_cases(root, documents, units, joined);
+  read_across_cases(root, symbols, units, joined);
   return joined;
 }
 

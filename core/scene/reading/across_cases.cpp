@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -23,27 +24,15 @@ namespace pleuel {
 namespace {
 
 /// The constants that are the same in all cases by their names, others with a case behind them.
-std::vector<Symbol> symbols_across(const std::vector<Json>& documents, const ProblemFile& joined,
-                                   const std::string& file, const UnitSystem& units) {
-  std::vector<std::vector<Symbol>> of_cases;
-  for (const Json& document : documents) {
-    of_cases.push_back(read_symbols(JsonNode(document, file), units));
-  }
+std::vector<Symbol> symbols_across(const std::vector<std::vector<Symbol>>& of_cases,
+                                   const ProblemFile& joined) {
+  const std::set<std::string> differing = differing_constants(of_cases);
   std::vector<Symbol> all;
   for (std::size_t c = 0; c < of_cases.size(); ++c) {
-    for (Symbol& symbol : of_cases[c]) {
-      const auto is_same = [&](const std::vector<Symbol>& other) {
-        const Symbol* there = find_named(other, symbol.name);
-        return there != nullptr && there->constant == symbol.constant &&
-               there->dimension == symbol.dimension;
-      };
-      if (symbol.argument || std::all_of(of_cases.begin(), of_cases.end(), is_same)) {
-        if (c == 0) all.push_back(symbol);
-        continue;
-      }
-      Symbol of_case = symbol;
-      of_case.name = name_in_case(symbol.name, joined.cases[c].load_case);
-      all.push_back(std::move(of_case));
+    for (Symbol symbol : of_cases[c]) {
+      const bool differs = differing.contains(symbol.name);
+      if (differs) symbol.name = name_in_case(symbol.name, joined.cases[c].load_case);
+      if (differs || c == 0) all.push_back(std::move(symbol));
     }
   }
   return all;
@@ -122,10 +111,10 @@ void ask_for_accuracies(const JsonNode& root, ProblemFile& joined) {
 
 }  // namespace
 
-void read_across_cases(const JsonNode& root, const std::vector<Json>& documents,
+void read_across_cases(const JsonNode& root, const std::vector<std::vector<Symbol>>& of_cases,
                        const UnitSystem& units, ProblemFile& joined) {
   NumberReader numbers(units, variable_names(root));
-  const std::vector<Symbol> symbols = symbols_across(documents, joined, root.file(), units);
+  const std::vector<Symbol> symbols = symbols_across(of_cases, joined);
   numbers.declare(symbols);
   if (const auto node = root.find("responses")) read_across_responses(*node, numbers, joined);
   const auto objective = root.find("objective");

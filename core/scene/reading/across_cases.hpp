@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/scene/problem_file.hpp"
-#include "core/scene/reading/json_node.hpp"
+#include "core/scene/reading/symbols.hpp"
 #include "core/scene/units.hpp"
 
 /// What a file makes from responses of several load cases: expressions such as
@@ -12,11 +12,11 @@ namespace pleuel {
 
 /// Reads them: responses and limits stand behind those of the joined problem. So does the study of a
 /// front, which may name them.
-/// @param root       of the file
-/// @param documents  of the cases, one each
-/// @param joined     the problem of all cases, without them
+/// @param root      of the file
+/// @param of_cases  names that formulas of each case may use
+/// @param joined    the problem of all cases, without them
 /// @throws InputError
-void read_across_cases(const JsonNode& root, const std::vector<Json>& documents,
+void read_across_cases(const JsonNode& root, const std::vector<std::vector<Symbol>>& of_cases,
                        const UnitSystem& units, ProblemFile& joined);
 
 }  // namespace pleuel

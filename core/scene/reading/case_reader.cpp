@@ -29,9 +29,6 @@ constexpr int most_cases = 1000;
 
 /// Blocks that a case may change.
 constexpr std::array changeable = {"/scene", "/simulation", "/effects", "/constants"};
-/// Places that masses do not depend on by themselves: constants count where they are used.
-constexpr std::array massless = {"/scene/joints", "/scene/loads", "/scene/gravity",
-                                 "/simulation",   "/effects",     "/constants"};
 
 /// Whether a pointer is this place, or leads into it.
 bool leads_into(const std::string& pointer, std::string_view place) {
@@ -39,17 +36,13 @@ bool leads_into(const std::string& pointer, std::string_view place) {
          (pointer.size() == place.size() || pointer[place.size()] == '/');
 }
 
-template <class Places>
-bool leads_into_any(const std::string& pointer, const Places& places) {
-  return std::any_of(places.begin(), places.end(),
-                     [&](const char* place) { return leads_into(pointer, place); });
-}
-
 void check_pointer(const std::string& pointer, const JsonNode& node) {
   if (!pointer.starts_with("/")) {
     node.fail("must be a JSON pointer such as \"/scene/gravity\", or \"range\"");
   }
-  if (!leads_into_any(pointer, changeable)) {
+  const bool is_changeable = std::ranges::any_of(
+      changeable, [&](const char* place) { return leads_into(pointer, place); });
+  if (!is_changeable) {
     node.fail(
         "must lead into /scene, /simulation, /effects or /constants: variables, responses, "
         "objective and limits are the same in all cases");
@@ -206,51 +199,26 @@ bool mentions_any(const Json& value, const std::set<std::string>& names) {
          });
 }
 
-/// The elements of a beam without segments, whose lengths may go by their numbers.
-bool is_number_of_elements(const std::string& pointer) {
-  const Json::json_pointer place(pointer);
-  return pointer.starts_with("/scene/bodies/") && place.back() == "elements" &&
-         place.parent_pointer().parent_pointer() == Json::json_pointer("/scene/bodies");
-}
-
-/// Whether a change leaves the masses of these bodies as they are (none: of all bodies).
-bool keeps_masses(const std::string& pointer, const std::vector<std::string>& bodies) {
-  if (leads_into_any(pointer, massless) || is_number_of_elements(pointer)) return true;
-  if (bodies.empty() || !pointer.starts_with("/scene/bodies/")) return false;
-  return std::none_of(bodies.begin(), bodies.end(), [&](const std::string& body) {
-    return leads_into(pointer, child_pointer("/scene/bodies", body));
-  });
-}
-
-/// The constants that cases change, and those that are made of them.
-std::set<std::string> changed_constants(const Json& document,
-                                        const std::vector<CaseChanges>& changes) {
-  std::set<std::string> names;
-  for (const CaseChanges& one : changes) {
-    for (const auto& [pointer, value] : one.values) {
-      if (pointer == "/constants") {
-        for (const auto& constant : value.items()) names.insert(constant.key());
-      } else if (leads_into(pointer, "/constants")) {
-        names.insert(Json::json_pointer(pointer).back());
-      }
-    }
+/// What the masses of these bodies (none: of all) follow from, besides constants. The lengths of segments
+/// may go by the numbers of their elements, the length of a beam does not.
+Json masses_in(const Json& document, const std::vector<std::string>& bodies) {
+  Json scene = document["scene"];
+  for (const char* massless : {"joints", "loads", "gravity"}) scene.erase(massless);
+  Json counted = Json::object();
+  for (const auto& [name, body] : scene["bodies"].items()) {
+    if (!bodies.empty() && std::ranges::find(bodies, name) == bodies.end()) continue;
+    counted[name] = body;
+    counted[name].erase("elements");
   }
-  if (names.empty()) return names;
-  const Json constants = document.value("constants", Json::object());
-  for (std::size_t before = 0; before != names.size();) {
-    before = names.size();
-    for (const auto& constant : constants.items()) {
-      if (mentions_any(constant.value(), names)) names.insert(constant.key());
-    }
-  }
-  return names;
+  scene["bodies"] = std::move(counted);
+  return scene;
 }
 
 /// Whether the value of a response is the same in all cases at each design.
+/// @param constants  that differ from case to case
 bool is_same_response(const ProblemFile& problem, std::size_t response, const Json& document,
-                      const std::vector<CaseChanges>& changes) {
+                      const std::vector<Json>& of_cases, const std::set<std::string>& constants) {
   if (!depends_on_masses_only(problem, response)) return false;
-  const std::set<std::string> constants = changed_constants(document, changes);
   const auto is_used_in = [&](const char* place) {
     const Json::json_pointer pointer(place);
     return document.contains(pointer) && mentions_any(document.at(pointer), constants);
@@ -259,25 +227,24 @@ bool is_same_response(const ProblemFile& problem, std::size_t response, const Js
   if (is_used_in("/constraints")) return false;  // there may be another limit in each case
   const bool is_formula = problem.responses[response].type == ResponseType::expression;
   if (is_formula && is_used_in("/responses")) return false;
-  for (const std::size_t part : parts_of(problem, response)) {
-    for (const CaseChanges& one : changes) {
-      for (const auto& [pointer, value] : one.values) {
-        if (!keeps_masses(pointer, problem.responses[part].bodies)) return false;
-      }
-    }
-  }
-  return true;
+  return std::ranges::all_of(parts_of(problem, response), [&](std::size_t part) {
+    const std::vector<std::string>& bodies = problem.responses[part].bodies;
+    const Json masses = masses_in(of_cases.front(), bodies);
+    return std::ranges::all_of(of_cases,
+                               [&](const Json& one) { return masses_in(one, bodies) == masses; });
+  });
 }
 
 std::vector<bool> same_responses(const ProblemFile& problem, const Json& document,
-                                 const std::vector<CaseChanges>& changes) {
+                                 const std::vector<Json>& of_cases,
+                                 const std::set<std::string>& constants) {
   std::vector<bool> is_same;
   for (std::size_t i = 0; i < problem.responses.size(); ++i) {
-    is_same.push_back(is_same_response(problem, i, document, changes));
+    is_same.push_back(is_same_response(problem, i, document, of_cases, constants));
   }
   // Who says how the masses of cases with other constants count may say so.
   const bool is_said = problem.objective && problem.objective->over_cases != OverCases::same;
-  if (is_said && !changed_constants(document, changes).empty()) {
+  if (is_said && !constants.empty()) {
     is_same[index_of_named(problem.responses, problem.objective->response).value()] = false;
   }
   return is_same;
@@ -365,11 +332,11 @@ void keep_case(ProblemFile& problem) {
   if (!find_named(problem.constraints, problem.pareto->constraint)) problem.pareto.reset();
 }
 
-ProblemFile join_cases(const JsonNode& root, const std::vector<CaseChanges>& changes,
-                       std::vector<ProblemFile> cases) {
+ProblemFile join_cases(const JsonNode& root, const std::vector<Json>& documents,
+                       const std::set<std::string>& constants, std::vector<ProblemFile> cases) {
   check_limit_names(root, cases);
   const ProblemFile& first = cases.front();
-  const std::vector<bool> is_same = same_responses(first, root.value(), changes);
+  const std::vector<bool> is_same = same_responses(first, root.value(), documents, constants);
   if (first.objective) {
     check_objective(root, first, is_same);
     const auto& weights = first.objective->weights;

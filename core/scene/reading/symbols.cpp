@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/find_named.hpp"
+
 namespace pleuel {
 
 namespace {
@@ -132,6 +134,23 @@ std::vector<Symbol> read_symbols(const JsonNode& root, const UnitSystem& units) 
                    ExpressionArgument{ExpressionArgument::Kind::variable, index++}});
   }
   return all;
+}
+
+std::set<std::string> differing_constants(const std::vector<std::vector<Symbol>>& documents) {
+  std::set<std::string> names;
+  const auto compare = [&](const std::vector<Symbol>& one, const std::vector<Symbol>& other) {
+    for (const Symbol& symbol : one) {
+      const Symbol* there = find_named(other, symbol.name);
+      const bool is_same = there != nullptr && there->constant == symbol.constant &&
+                           there->dimension == symbol.dimension;
+      if (symbol.constant && !is_same) names.insert(symbol.name);
+    }
+  };
+  for (const std::vector<Symbol>& one : documents) {
+    compare(one, documents.front());
+    compare(documents.front(), one);
+  }
+  return names;
 }
 
 namespace {

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <initializer_list>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -45,6 +46,9 @@ ReadExpression read_formula(const JsonNode& node, const std::vector<Symbol>& sym
 /// "start" (or else a bound) is written with.
 /// @throws InputError
 std::vector<Symbol> read_symbols(const JsonNode& root, const UnitSystem& units);
+
+/// Names of the constants that do not stand for the same in all documents.
+std::set<std::string> differing_constants(const std::vector<std::vector<Symbol>>& documents);
 
 /// Whether a name can contain this character (UTF-8 bytes of letters beyond ASCII among them).
 bool is_name_character(char c);
