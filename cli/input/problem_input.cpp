@@ -117,7 +117,7 @@ ProblemInput read_file(const fs::path& file, const Arguments& arguments) {
 
 Json document_in_case(const Json& document, const std::string& load_case, const std::string& file) {
   for (const CaseChanges& changes : cases_of(document, file)) {
-    if (changes.name == load_case) return lone_document(document, changes, file);
+    if (changes.name == load_case) return document_of_case(document, changes, file);
   }
   throw InputError(fmt::format("{}: /cases has no case \"{}\"", file, load_case));
 }

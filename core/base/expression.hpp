@@ -43,6 +43,7 @@ struct ExpressionStep {
   Operation operation = Operation::constant;
   double constant = 0.0;        ///< of a constant [SI]
   int first = -1, second = -1;  ///< operands: earlier steps; of an argument `first` is its index
+  bool operator==(const ExpressionStep&) const = default;
 };
 
 /// What an expression depends on.
@@ -56,6 +57,7 @@ struct ExpressionArgument {
   };
   Kind kind = Kind::variable;
   std::size_t index = 0;  ///< of the design variable, or of the response in the file
+  bool operator==(const ExpressionArgument&) const = default;
 };
 
 /// A formula of the problem file, taken apart: its value is the result of the last step. In SI

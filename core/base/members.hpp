@@ -7,220 +7,122 @@
 /// each, such as packing, is done with a member that is added later, too.
 namespace pleuel {
 
-inline constexpr std::size_t most_members = 26;
-
 namespace members {
 
-/// Whether a struct has at least so many members: as many can be initialized.
-template <class Struct, std::size_t count>
-constexpr bool has() {
-  if constexpr (count == 1) return requires {
-      Struct{{}};
-    };
-  if constexpr (count == 2) return requires {
-      Struct{{}, {}};
-    };
-  if constexpr (count == 3) return requires {
-      Struct{{}, {}, {}};
-    };
-  if constexpr (count == 4) return requires {
-      Struct{{}, {}, {}, {}};
-    };
-  if constexpr (count == 5) return requires {
-      Struct{{}, {}, {}, {}, {}};
-    };
-  if constexpr (count == 6) return requires {
-      Struct{{}, {}, {}, {}, {}, {}};
-    };
-  if constexpr (count == 7) return requires {
-      Struct{{}, {}, {}, {}, {}, {}, {}};
-    };
-  if constexpr (count == 8) return requires {
-      Struct{{}, {}, {}, {}, {}, {}, {}, {}};
-    };
-  if constexpr (count == 9) return requires {
-      Struct{{}, {}, {}, {}, {}, {}, {}, {}, {}};
-    };
-  if constexpr (count == 10) return requires {
-      Struct{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
-    };
-  if constexpr (count == 11) return requires {
-      Struct{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
-    };
-  if constexpr (count == 12) return requires {
-      Struct{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
-    };
-  if constexpr (count == 13) return requires {
-      Struct{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
-    };
-  if constexpr (count == 14) return requires {
-      Struct{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
-    };
-  if constexpr (count == 15) return requires {
-      Struct{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
-    };
-  if constexpr (count == 16) return requires {
-      Struct{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
-    };
-  if constexpr (count == 17) return requires {
-      Struct{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
-    };
-  if constexpr (count == 18) return requires {
-      Struct{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
-    };
-  if constexpr (count == 19) return requires {
-      Struct{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
-    };
-  if constexpr (count == 20) return requires {
-      Struct{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
-    };
-  if constexpr (count == 21) return requires {
-      Struct{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
-    };
-  if constexpr (count == 22) return requires {
-      Struct{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {},
-             {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
-    };
-  if constexpr (count == 23) return requires {
-      Struct{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {},
-             {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
-    };
-  if constexpr (count == 24) return requires {
-      Struct{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {},
-             {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
-    };
-  if constexpr (count == 25) return requires {
-      Struct{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {},
-             {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
-    };
-  if constexpr (count == 26) return requires {
-      Struct{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {},
-             {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
-    };
-  if constexpr (count == 27) return requires {
-      Struct{{}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {},
-             {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
-    };
-}
+/// They initialize any member, of a class and else.
+struct OfClass {
+  template <class Member>
+  requires std::is_class_v<Member>
+  operator Member() const;
+};
+struct OfPlainType {
+  template <class Member>
+  requires(!std::is_class_v<Member>) operator Member() const;
+};
 
-template <class Struct, std::size_t count = 0>
-constexpr std::size_t count_from() {
-  if constexpr (count == most_members + 1) {
-    return count;
-  } else if constexpr (has<Struct, count + 1>()) {
-    return count_from<Struct, count + 1>();
+/// As many as can be initialized.
+template <class Struct, class... Known>
+constexpr std::size_t count() {
+  if constexpr (requires { Struct{Known()..., OfClass()}; }) {
+    return count<Struct, Known..., OfClass>();
+  } else if constexpr (requires { Struct{Known()..., OfPlainType()}; }) {
+    return count<Struct, Known..., OfPlainType>();
   } else {
-    return count;
+    return sizeof...(Known);
   }
 }
 
 }  // namespace members
 
+inline constexpr std::size_t most_members = 26;
+
 template <class Struct>
-inline constexpr std::size_t member_count = members::count_from<Struct>();
+inline constexpr std::size_t member_count = members::count<Struct>();
 
 /// Calls use(first, second, …) with all members of the struct.
-/// @pre an aggregate without bases, of members that `{}` initializes; more than `most_members` and
-///   others do not compile
+/// @pre an aggregate without bases and arrays of C; more than `most_members` do not compile
 template <class Struct, class Use>
 decltype(auto) with_members(Struct& object, Use&& use) {
   constexpr std::size_t count = member_count<std::remove_const_t<Struct>>;
   static_assert(count > 0 && count <= most_members);
   if constexpr (count == 1) {
-    auto& [m1] = object;
-    return use(m1);
+    auto& [a] = object;
+    return use(a);
   } else if constexpr (count == 2) {
-    auto& [m1, m2] = object;
-    return use(m1, m2);
+    auto& [a, b] = object;
+    return use(a, b);
   } else if constexpr (count == 3) {
-    auto& [m1, m2, m3] = object;
-    return use(m1, m2, m3);
+    auto& [a, b, c] = object;
+    return use(a, b, c);
   } else if constexpr (count == 4) {
-    auto& [m1, m2, m3, m4] = object;
-    return use(m1, m2, m3, m4);
+    auto& [a, b, c, d] = object;
+    return use(a, b, c, d);
   } else if constexpr (count == 5) {
-    auto& [m1, m2, m3, m4, m5] = object;
-    return use(m1, m2, m3, m4, m5);
+    auto& [a, b, c, d, e] = object;
+    return use(a, b, c, d, e);
   } else if constexpr (count == 6) {
-    auto& [m1, m2, m3, m4, m5, m6] = object;
-    return use(m1, m2, m3, m4, m5, m6);
+    auto& [a, b, c, d, e, f] = object;
+    return use(a, b, c, d, e, f);
   } else if constexpr (count == 7) {
-    auto& [m1, m2, m3, m4, m5, m6, m7] = object;
-    return use(m1, m2, m3, m4, m5, m6, m7);
+    auto& [a, b, c, d, e, f, g] = object;
+    return use(a, b, c, d, e, f, g);
   } else if constexpr (count == 8) {
-    auto& [m1, m2, m3, m4, m5, m6, m7, m8] = object;
-    return use(m1, m2, m3, m4, m5, m6, m7, m8);
+    auto& [a, b, c, d, e, f, g, h] = object;
+    return use(a, b, c, d, e, f, g, h);
   } else if constexpr (count == 9) {
-    auto& [m1, m2, m3, m4, m5, m6, m7, m8, m9] = object;
-    return use(m1, m2, m3, m4, m5, m6, m7, m8, m9);
+    auto& [a, b, c, d, e, f, g, h, i] = object;
+    return use(a, b, c, d, e, f, g, h, i);
   } else if constexpr (count == 10) {
-    auto& [m1, m2, m3, m4, m5, m6, m7, m8, m9, m10] = object;
-    return use(m1, m2, m3, m4, m5, m6, m7, m8, m9, m10);
+    auto& [a, b, c, d, e, f, g, h, i, j] = object;
+    return use(a, b, c, d, e, f, g, h, i, j);
   } else if constexpr (count == 11) {
-    auto& [m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11] = object;
-    return use(m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11);
+    auto& [a, b, c, d, e, f, g, h, i, j, k] = object;
+    return use(a, b, c, d, e, f, g, h, i, j, k);
   } else if constexpr (count == 12) {
-    auto& [m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12] = object;
-    return use(m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12);
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l] = object;
+    return use(a, b, c, d, e, f, g, h, i, j, k, l);
   } else if constexpr (count == 13) {
-    auto& [m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13] = object;
-    return use(m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13);
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = object;
+    return use(a, b, c, d, e, f, g, h, i, j, k, l, m);
   } else if constexpr (count == 14) {
-    auto& [m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14] = object;
-    return use(m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14);
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n] = object;
+    return use(a, b, c, d, e, f, g, h, i, j, k, l, m, n);
   } else if constexpr (count == 15) {
-    auto& [m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15] = object;
-    return use(m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15);
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o] = object;
+    return use(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o);
   } else if constexpr (count == 16) {
-    auto& [m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16] = object;
-    return use(m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16);
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = object;
+    return use(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p);
   } else if constexpr (count == 17) {
-    auto& [m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17] = object;
-    return use(m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17);
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q] = object;
+    return use(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q);
   } else if constexpr (count == 18) {
-    auto& [m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18] =
-        object;
-    return use(m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18);
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r] = object;
+    return use(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r);
   } else if constexpr (count == 19) {
-    auto& [m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19] =
-        object;
-    return use(m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18,
-               m19);
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s] = object;
+    return use(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s);
   } else if constexpr (count == 20) {
-    auto& [m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19,
-           m20] = object;
-    return use(m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19,
-               m20);
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t] = object;
+    return use(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t);
   } else if constexpr (count == 21) {
-    auto& [m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19,
-           m20, m21] = object;
-    return use(m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19,
-               m20, m21);
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u] = object;
+    return use(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u);
   } else if constexpr (count == 22) {
-    auto& [m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19,
-           m20, m21, m22] = object;
-    return use(m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19,
-               m20, m21, m22);
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v] = object;
+    return use(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v);
   } else if constexpr (count == 23) {
-    auto& [m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19,
-           m20, m21, m22, m23] = object;
-    return use(m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19,
-               m20, m21, m22, m23);
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w] = object;
+    return use(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w);
   } else if constexpr (count == 24) {
-    auto& [m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19,
-           m20, m21, m22, m23, m24] = object;
-    return use(m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19,
-               m20, m21, m22, m23, m24);
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x] = object;
+    return use(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x);
   } else if constexpr (count == 25) {
-    auto& [m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19,
-           m20, m21, m22, m23, m24, m25] = object;
-    return use(m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19,
-               m20, m21, m22, m23, m24, m25);
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y] = object;
+    return use(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y);
   } else if constexpr (count == 26) {
-    auto& [m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19,
-           m20, m21, m22, m23, m24, m25, m26] = object;
-    return use(m1, m2, m3, m4, m5, m6, m7, m8, m9, m10, m11, m12, m13, m14, m15, m16, m17, m18, m19,
-               m20, m21, m22, m23, m24, m25, m26);
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z] = object;
+    return use(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x, y, z);
   }
 }
 

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <cstring>
 #include <map>
 #include <memory>
@@ -19,7 +18,8 @@
 #include "core/base/members.hpp"
 
 /// Values as bytes and back, for other processes of the same program on the same kind of machine:
-/// doubles bit by bit. Plain structs go member by member (core/base/members.hpp); others say how:
+/// doubles bit by bit. Plain structs go member by member (core/base/members.hpp); others say how,
+/// once for both ways:
 ///
 ///     template <class Archive>
 ///     void transfer(Archive& archive, Interval& interval) {
@@ -29,106 +29,47 @@
 ///     const Interval same = unpacked<Interval>(packed(interval));
 namespace pleuel {
 
-/// Appends what it is called with to its bytes.
+/// Goes through values one by one, whichever way they go.
+template <class Archive, class Value>
+void pass(Archive& archive, Value& value) {
+  if constexpr (std::is_arithmetic_v<Value> || std::is_enum_v<Value>) {
+    archive.raw(&value, sizeof value);
+  } else if constexpr (requires { transfer(archive, value); }) {
+    transfer(archive, value);
+  } else {
+    with_members(value, archive);
+  }
+}
+
+/// Appends what it is called with to its bytes. Values are only read.
 class Packer {
  public:
+  static constexpr bool is_filling = false;
+
   template <class... Values>
   void operator()(Values&... values) {
-    (one(values), ...);
-  }
-  std::string take() { return std::move(bytes_); }
-
- private:
-  template <class Value>
-  void one(Value& value) {
-    if constexpr (std::is_arithmetic_v<Value> || std::is_enum_v<Value>) {
-      raw(&value, sizeof value);
-    } else if constexpr (requires { transfer(*this, value); }) {
-      transfer(*this, value);
-    } else {
-      with_members(value, *this);
-    }
+    (pass(*this, values), ...);
   }
   void raw(const void* data, std::size_t size) {
     bytes_.append(static_cast<const char*>(data), size);
   }
-  friend void transfer(Packer& archive, std::string& text) {
-    archive.size(text.size());
-    archive.raw(text.data(), text.size());
-  }
-  template <int Rows, int Columns>
-  friend void transfer(Packer& archive, Eigen::Matrix<double, Rows, Columns>& matrix) {
-    archive.size(static_cast<std::size_t>(matrix.rows()));
-    archive.size(static_cast<std::size_t>(matrix.cols()));
-    archive.raw(matrix.data(), static_cast<std::size_t>(matrix.size()) * sizeof(double));
-  }
-  template <class Value>
-  friend void transfer(Packer& archive, std::vector<Value>& values) {
-    archive.size(values.size());
-    for (Value& value : values) archive(value);
-  }
-  template <class Value>
-  friend void transfer(Packer& archive, std::optional<Value>& value) {
-    bool is_there = value.has_value();
-    archive(is_there);
-    if (is_there) archive(*value);
-  }
-  template <class Value>
-  friend void transfer(Packer& archive, std::shared_ptr<const Value>& value) {
-    bool is_there = value != nullptr;
-    archive(is_there);
-    if (is_there) archive(const_cast<Value&>(*value));  // only read
-  }
-  template <class Value, std::size_t count>
-  friend void transfer(Packer& archive, std::array<Value, count>& values) {
-    for (Value& value : values) archive(value);
-  }
-  template <class... Kinds>
-  friend void transfer(Packer& archive, std::variant<Kinds...>& value) {
-    archive.size(value.index());
-    std::visit([&](auto& kind) { archive(kind); }, value);
-  }
-  template <class Key, class Value>
-  friend void transfer(Packer& archive, std::map<Key, Value>& values) {
-    archive.size(values.size());
-    for (auto& [key, value] : values) {
-      Key copy = key;
-      archive(copy, value);
-    }
-  }
-  void size(std::size_t size) {
-    std::uint64_t number = size;
-    raw(&number, sizeof number);
-  }
+  std::string take() { return std::move(bytes_); }
 
+ private:
   std::string bytes_;
 };
 
 /// Fills what it is called with from bytes, in the order of packing.
 class Unpacker {
  public:
+  static constexpr bool is_filling = true;
+
   /// @param bytes  must outlive this
   explicit Unpacker(const std::string& bytes) : next_(bytes.data()), left_(bytes.size()) {}
 
   template <class... Values>
   void operator()(Values&... values) {
-    (one(values), ...);
-  }
-
- private:
-  template <class Value>
-  void one(Value& value) {
-    if constexpr (std::is_arithmetic_v<Value> || std::is_enum_v<Value>) {
-      raw(&value, sizeof value);
-    } else if constexpr (requires { transfer(*this, value); }) {
-      transfer(*this, value);
-    } else {
-      with_members(value, *this);
-    }
-  }
-  /// So many parts of so many bytes have to be there, before room is made for them.
-  void require(std::size_t count, std::size_t bytes) const {
-    if (count > left_ / bytes) throw std::runtime_error("packed values end too early");
+    (pass(*this, values), ...);
   }
   void raw(void* data, std::size_t size) {
     require(size, 1);
@@ -136,84 +77,97 @@ class Unpacker {
     next_ += size;
     left_ -= size;
   }
-  friend void transfer(Unpacker& archive, std::string& text) {
-    const std::size_t size = archive.size();
-    archive.require(size, 1);
-    text.resize(size);
-    archive.raw(text.data(), text.size());
-  }
-  template <int Rows, int Columns>
-  friend void transfer(Unpacker& archive, Eigen::Matrix<double, Rows, Columns>& matrix) {
-    const std::size_t rows = archive.size(), columns = archive.size();
-    if (rows > 0 && columns > 0) {
-      archive.require(columns, sizeof(double));
-      archive.require(rows, columns * sizeof(double));
-    }
-    matrix.resize(rows, columns);
-    archive.raw(matrix.data(), static_cast<std::size_t>(matrix.size()) * sizeof(double));
-  }
-  template <class Value>
-  friend void transfer(Unpacker& archive, std::vector<Value>& values) {
-    values.clear();
-    for (std::size_t count = archive.size(); count > 0; --count) {
-      archive(values.emplace_back());
-    }
-  }
-  template <class Value>
-  friend void transfer(Unpacker& archive, std::optional<Value>& value) {
-    bool is_there = false;
-    archive(is_there);
-    value.reset();
-    if (is_there) archive(value.emplace());
-  }
-  template <class Value>
-  friend void transfer(Unpacker& archive, std::shared_ptr<const Value>& value) {
-    bool is_there = false;
-    archive(is_there);
-    value.reset();
-    if (!is_there) return;
-    const auto made = std::make_shared<Value>();
-    archive(*made);
-    value = made;
-  }
-  template <class Value, std::size_t count>
-  friend void transfer(Unpacker& archive, std::array<Value, count>& values) {
-    for (Value& value : values) archive(value);
-  }
-  template <class... Kinds>
-  friend void transfer(Unpacker& archive, std::variant<Kinds...>& value) {
-    const std::size_t index = archive.size();
-    std::size_t i = 0;
-    const auto take = [&]<class Kind>(Kind kind) {
-      if (i++ != index) return;
-      archive(kind);
-      value = std::move(kind);
-    };
-    (take(Kinds()), ...);
-    if (index >= sizeof...(Kinds)) throw std::runtime_error("packed values have an unknown kind");
-  }
-  template <class Key, class Value>
-  friend void transfer(Unpacker& archive, std::map<Key, Value>& values) {
-    values.clear();
-    for (std::size_t count = archive.size(); count > 0; --count) {
-      Key key;
-      archive(key);
-      archive(values[std::move(key)]);
-    }
-  }
-  std::size_t size() {
-    std::uint64_t number = 0;
-    raw(&number, sizeof number);
-    return static_cast<std::size_t>(number);
+  /// So many parts of so many bytes have to be there, before room is made for them.
+  void require(std::size_t count, std::size_t bytes) const {
+    if (count > left_ / bytes) throw std::runtime_error("packed values end too early");
   }
 
+ private:
   const char* next_;
   std::size_t left_;
 };
 
+/// The size of a text or a list, which gets room for what is filled in.
+template <class Archive, class List>
+void transfer_size(Archive& archive, List& list) {
+  std::size_t size = list.size();
+  archive(size);
+  if constexpr (Archive::is_filling) {
+    archive.require(size, 1);
+    list.resize(size);
+  }
+}
+
+template <class Archive>
+void transfer(Archive& archive, std::string& text) {
+  transfer_size(archive, text);
+  archive.raw(text.data(), text.size());
+}
+
+template <class Archive, class Value>
+void transfer(Archive& archive, std::vector<Value>& values) {
+  transfer_size(archive, values);
+  for (Value& value : values) archive(value);
+}
+
+template <class Archive, class Value, std::size_t count>
+void transfer(Archive& archive, std::array<Value, count>& values) {
+  for (Value& value : values) archive(value);
+}
+
+template <class Archive, int Rows, int Columns>
+void transfer(Archive& archive, Eigen::Matrix<double, Rows, Columns>& matrix) {
+  Eigen::Index rows = matrix.rows(), columns = matrix.cols();
+  archive(rows, columns);
+  if constexpr (Archive::is_filling) {
+    const std::size_t row = static_cast<std::size_t>(columns) * sizeof(double);
+    if (rows > 0 && columns > 0) {
+      archive.require(columns, sizeof(double));
+      archive.require(rows, row);
+    }
+    matrix.resize(rows, columns);
+  }
+  archive.raw(matrix.data(), static_cast<std::size_t>(matrix.size()) * sizeof(double));
+}
+
 template <class Archive, class First, class Second>
 void transfer(Archive& archive, std::pair<First, Second>& pair) {
   archive(pair.first, pair.second);
+}
+
+template <class Archive, class Key, class Value>
+void transfer(Archive& archive, std::map<Key, Value>& values) {
+  std::vector<std::pair<Key, Value>> entries(values.begin(), values.end());
+  archive(entries);
+  if constexpr (Archive::is_filling) values = {entries.begin(), entries.end()};
+}
+
+template <class Archive, class Value>
+void transfer(Archive& archive, std::optional<Value>& value) {
+  bool is_there = value.has_value();
+  archive(is_there);
+  if constexpr (Archive::is_filling) value = is_there ? std::optional(Value()) : std::nullopt;
+  if (is_there) archive(*value);
+}
+
+template <class Archive, class Value>
+void transfer(Archive& archive, std::shared_ptr<const Value>& value) {
+  bool is_there = value != nullptr;
+  archive(is_there);
+  if constexpr (Archive::is_filling) value = is_there ? std::make_shared<Value>() : nullptr;
+  if (is_there) archive(const_cast<Value&>(*value));
+}
+
+template <class Archive, class... Kinds>
+void transfer(Archive& archive, std::variant<Kinds...>& value) {
+  std::size_t index = value.index();
+  archive(index);
+  if constexpr (Archive::is_filling) {
+    std::size_t i = 0;
+    ((i++ == index ? void(value = Kinds()) : void()), ...);
+    if (index >= i) throw std::runtime_error("packed values have an unknown kind");
+  }
+  std::visit(archive, value);
 }
 
 /// Of values that are not changed: packing only reads them.

@@ -1,7 +1,6 @@
 #include "core/response/value_over_cases.hpp"
 
 #include <cmath>
-#include <set>
 #include <string>
 
 #include <fmt/format.h>
@@ -73,16 +72,6 @@ class OverCasesValue {
   const ValueInCase& value_of_;
 };
 
-void add_parts(const ProblemFile& joined, std::size_t response, std::set<std::size_t>& parts) {
-  if (!is_over_cases(joined, response)) {
-    parts.insert(response);
-    return;
-  }
-  for (const ExpressionArgument& argument : joined.responses[response].expression->arguments) {
-    if (argument.kind == Kind::response) add_parts(joined, argument.index, parts);
-  }
-}
-
 }  // namespace
 
 double value_over_cases(const ProblemFile& joined, std::size_t response, const Eigen::VectorXd& x,
@@ -93,12 +82,6 @@ double value_over_cases(const ProblemFile& joined, std::size_t response, const E
 LinearizedResponse linearized_over_cases(const ProblemFile& joined, std::size_t response,
                                          const Eigen::VectorXd& x, const ValueInCase& value_of) {
   return OverCasesValue(joined, x, value_of).linearized(response);
-}
-
-std::vector<std::size_t> parts_in_cases(const ProblemFile& joined, std::size_t response) {
-  std::set<std::size_t> parts;
-  add_parts(joined, response, parts);
-  return {parts.begin(), parts.end()};
 }
 
 }  // namespace pleuel

@@ -28,7 +28,4 @@ double value_over_cases(const ProblemFile& joined, std::size_t response, const E
 LinearizedResponse linearized_over_cases(const ProblemFile& joined, std::size_t response,
                                          const Eigen::VectorXd& x, const ValueInCase& value_of);
 
-/// Responses of one case that it is made from, each once, in increasing order.
-std::vector<std::size_t> parts_in_cases(const ProblemFile& joined, std::size_t response);
-
 }  // namespace pleuel

@@ -8,6 +8,7 @@
 #include "core/base/find_named.hpp"
 #include "core/base/int_size.hpp"
 #include "core/scene/load_cases.hpp"
+#include "core/scene/response_parts.hpp"
 #include "core/scene/response_quantity.hpp"
 
 namespace pleuel {
@@ -93,17 +94,7 @@ ResponseSettings response_over_cases(const ProblemFile& joined, const Objective&
 }
 
 bool is_same(const Expression& one, const Expression& other) {
-  const auto same_step = [](const ExpressionStep& a, const ExpressionStep& b) {
-    return a.operation == b.operation && a.constant == b.constant && a.first == b.first &&
-           a.second == b.second;
-  };
-  const auto same_argument = [](const ExpressionArgument& a, const ExpressionArgument& b) {
-    return a.kind == b.kind && a.index == b.index;
-  };
-  return std::equal(one.steps.begin(), one.steps.end(), other.steps.begin(), other.steps.end(),
-                    same_step) &&
-         std::equal(one.arguments.begin(), one.arguments.end(), other.arguments.begin(),
-                    other.arguments.end(), same_argument);
+  return one.steps == other.steps && one.arguments == other.arguments;
 }
 
 ConstraintSettings limit_on(const Objective& goal, double value, const std::string& name,
@@ -198,19 +189,13 @@ std::vector<std::size_t> constraints_of_limit(const ProblemFile& problem, const 
 }
 
 void ask_for_accuracy(ProblemFile& problem, std::size_t response) {
-  if (is_over_cases(problem, response)) {
-    for (const ExpressionArgument& argument : problem.responses[response].expression->arguments) {
-      if (argument.kind == ExpressionArgument::Kind::response) {
-        ask_for_accuracy(problem, argument.index);
-      }
-    }
-    return;
+  for (const std::size_t part : parts_in_cases(problem, response)) {
+    const OfCase of_case = problem.case_responses[part];
+    ProblemFile& one = problem.cases[of_case.load_case];
+    const std::string& name = one.responses[of_case.index].name;
+    std::vector<std::string>& asked = one.accuracy.responses;
+    if (std::find(asked.begin(), asked.end(), name) == asked.end()) asked.push_back(name);
   }
-  const OfCase of_case = problem.case_responses[response];
-  ProblemFile& one = problem.cases[of_case.load_case];
-  const std::string& name = one.responses[of_case.index].name;
-  std::vector<std::string>& asked = one.accuracy.responses;
-  if (std::find(asked.begin(), asked.end(), name) == asked.end()) asked.push_back(name);
 }
 
 }  // namespace pleuel

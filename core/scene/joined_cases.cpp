@@ -14,8 +14,7 @@ namespace pleuel {
 namespace {
 
 std::size_t index_of(const ProblemFile& problem, const std::string& response) {
-  if (const auto index = index_of_named(problem.responses, response)) return *index;
-  throw std::logic_error("no response " + response);
+  return index_of_named(problem.responses, response).value();
 }
 
 void add_responses(ProblemFile& joined, const std::vector<bool>& is_same) {
@@ -80,13 +79,8 @@ void add_constraints(ProblemFile& joined, const std::vector<bool>& is_same) {
   for (const ConstraintSettings& constraint : all) {
     const bool is_once = is_same_in_all(constraint, joined.cases.front(), is_same);
     for (std::size_t c = 0; c < (is_once ? 1 : joined.cases.size()); ++c) {
-      const auto& here = joined.cases[c].constraints;
-      const auto found = std::find_if(here.begin(), here.end(), [&](const ConstraintSettings& one) {
-        return one.name == constraint.name;
-      });
-      if (found != here.end()) {
-        add_constraint(joined, {c, static_cast<std::size_t>(found - here.begin())});
-      }
+      const auto index = index_of_named(joined.cases[c].constraints, constraint.name);
+      if (index) add_constraint(joined, {c, *index});
     }
   }
 }
@@ -97,19 +91,17 @@ void join_objective(ProblemFile& joined) {
     const std::size_t index = index_of(joined.cases.front(), objective.response);
     objective.response = joined.responses[joined_response(joined, {0, index})].name;
   } else {
-    joined.objective = goal_of_problem(joined, objective);
+    set_objective(joined, goal_of_problem(joined, objective));
   }
 }
 
 }  // namespace
 
-ProblemFile joined_cases(std::vector<ProblemFile> cases, const std::vector<bool>& is_same,
-                         std::vector<double> weights) {
+ProblemFile joined_cases(std::vector<ProblemFile> cases, const std::vector<bool>& is_same) {
   ProblemFile joined = cases.front();
   joined.load_case.clear();
   joined.case_range.clear();
   joined.cases = std::move(cases);
-  joined.case_weights = std::move(weights);
   for (ProblemFile& one : joined.cases) {
     // The trajectories of all cases are kept at a time.
     one.sensitivity.memory /= static_cast<double>(joined.cases.size());

@@ -12,8 +12,6 @@ namespace pleuel {
 /// @param cases    at least one, read from one file; constraints that a case is not meant by are
 ///                 taken from its problem
 /// @param is_same  one a response of the file: whether it is the same in all cases
-/// @param weights  one a case, of an objective that is a weighted sum
-ProblemFile joined_cases(std::vector<ProblemFile> cases, const std::vector<bool>& is_same,
-                         std::vector<double> weights);
+ProblemFile joined_cases(std::vector<ProblemFile> cases, const std::vector<bool>& is_same);
 
 }  // namespace pleuel

@@ -7,7 +7,6 @@
 #include "core/base/error.hpp"
 #include "core/base/find_named.hpp"
 #include "core/scene/reading/suggestion.hpp"
-#include "core/scene/response_parts.hpp"
 
 namespace pleuel {
 
@@ -15,13 +14,6 @@ bool is_in_case(const std::vector<std::string>& names, const ProblemFile& load_c
   return names.empty() || std::any_of(names.begin(), names.end(), [&](const std::string& name) {
            return name == load_case.load_case || name == load_case.case_range;
          });
-}
-
-bool depends_on_masses_only(const ProblemFile& problem, std::size_t response) {
-  const std::vector<std::size_t> parts = parts_of(problem, response);
-  return std::all_of(parts.begin(), parts.end(), [&](std::size_t part) {
-    return problem.responses[part].type == ResponseType::mass;
-  });
 }
 
 std::string name_in_case(const std::string& name, const std::string& load_case) {

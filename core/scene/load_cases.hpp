@@ -19,9 +19,6 @@ inline bool is_of_several(const OfCase& number) {
 /// Whether a list of names means a case: by its own name or that of its range; an empty one all.
 bool is_in_case(const std::vector<std::string>& names, const ProblemFile& load_case);
 
-/// Whether a response is made from masses and variables only.
-bool depends_on_masses_only(const ProblemFile& problem, std::size_t response);
-
 /// "peak [slow]"
 std::string name_in_case(const std::string& name, const std::string& load_case);
 

@@ -23,43 +23,38 @@ void transfer(Archive& archive, Drive& drive) {
   archive(motion, coordinate);
 }
 
-void transfer(Packer& archive, Quantity& quantity) {
+/// Names of quantities live as long as the program.
+template <class Archive>
+void transfer(Archive& archive, Quantity& quantity) {
+  static std::set<std::string> names;
   std::string name(quantity.name), unit(quantity.unit);
   archive(name, unit);
-}
-
-/// Names of quantities live as long as the program.
-void transfer(Unpacker& archive, Quantity& quantity) {
-  static std::set<std::string> names;
-  std::string name, unit;
-  archive(name, unit);
-  quantity = {*names.insert(name).first, *names.insert(unit).first};
+  if constexpr (Archive::is_filling) {
+    quantity = {*names.insert(name).first, *names.insert(unit).first};
+  }
 }
 
 /// Texts of invariants read back exactly.
-void transfer(Packer& archive, InvariantsFile& file) {
-  std::string text = write_invariants(file);
-  archive(text);
-}
-
-void transfer(Unpacker& archive, InvariantsFile& file) {
+template <class Archive>
+void transfer(Archive& archive, InvariantsFile& file) {
   std::string text;
+  if constexpr (!Archive::is_filling) text = write_invariants(file);
   archive(text);
-  file = read_invariants_text(text, "invariants of another process");
+  if constexpr (Archive::is_filling) {
+    file = read_invariants_text(text, "invariants of another process");
+  }
 }
 
 /// A source goes as the program behind it: what that wrote is in its record.
-void transfer(Packer& archive, std::shared_ptr<const BodySource>& source) {
+template <class Archive>
+void transfer(Archive& archive, std::shared_ptr<const BodySource>& source) {
   std::optional<BodyGenerator> generator;
   if (source) generator = program_behind(*source);
   archive(generator);
-}
-
-void transfer(Unpacker& archive, std::shared_ptr<const BodySource>& source) {
-  std::optional<BodyGenerator> generator;
-  archive(generator);
-  const ProgramPermission permission;  // who sent it had it
-  source = generator ? make_body_source(std::move(*generator)) : nullptr;
+  if constexpr (Archive::is_filling) {
+    const ProgramPermission permission;  // who sent it had it
+    source = generator ? make_body_source(std::move(*generator)) : nullptr;
+  }
 }
 
 /// Of a struct with a base there is no list of all members: what is not named here is seen here.
@@ -75,14 +70,6 @@ void transfer(Archive& archive, SimulationSettings& settings) {
 }
 
 // Declared elsewhere: the members are packed here alone.
-
-void transfer(Packer& archive, EffectSettings& effects) {
-  with_members(effects, archive);
-}
-
-void transfer(Unpacker& archive, EffectSettings& effects) {
-  with_members(effects, archive);
-}
 
 void transfer(Packer& archive, ProblemFile& problem) {
   with_members(problem, archive);

@@ -10,7 +10,4 @@ namespace pleuel {
 void transfer(Packer& archive, ProblemFile& problem);
 void transfer(Unpacker& archive, ProblemFile& problem);
 
-void transfer(Packer& archive, EffectSettings& effects);
-void transfer(Unpacker& archive, EffectSettings& effects);
-
 }  // namespace pleuel

@@ -97,6 +97,7 @@ ProblemFile bind_numbers(const ProblemText& text, const std::vector<NumberGroup>
   const JsonNode root(document, text.file);
   NumberReader reader(units, variable_names(root));
   ProblemFile problem = read_document(root, reader);
+  if (!problem.load_case.empty()) keep_case(problem);
   check_places(problem, groups);
   return problem;
 }

@@ -37,11 +37,11 @@ std::vector<std::string> mistakes_in(const Json& document, const std::string& fi
 }
 
 /// What is wrong with a case only is told with its name.
-ProblemFile read_case_problem(const Json& document, const CaseChanges& changes,
+/// @param of_case  the document of the case
+ProblemFile read_case_problem(const Json& document, const Json& of_case, const CaseChanges& changes,
                               const std::string& file, const UnitSystem& units) {
-  Json of_case = document_of_case(document, changes, file);
   try {
-    return read_expanded(std::move(of_case), file, units);
+    return read_expanded(of_case, file, units);
   } catch (const InputError& error) {
     const Json without = document_of_case(document, CaseChanges(), file);
     const std::vector<std::string> shared = mistakes_in(without, file, units);
@@ -62,22 +62,22 @@ ProblemFile complete_problem(const std::string& text, const std::string& file,
   const std::vector<CaseChanges> changes = cases_of(document, file);
   if (changes.empty()) {
     ProblemFile problem = read_expanded(document, file, units);
-    forbid_case_names(root, problem);
+    problem.load_case.empty() ? forbid_case_names(root, problem) : keep_case(problem);
     return problem;
   }
   std::vector<ProblemFile> cases;
   std::vector<Json> documents;
+  std::vector<std::vector<Symbol>> symbols;
   for (const CaseChanges& one : changes) {
-    cases.push_back(read_case_problem(document, one, file, units));
-    cases.back().load_case = one.name;
-    cases.back().case_range = one.range;
     documents.push_back(document_of_case(document, one, file));
+    cases.push_back(read_case_problem(document, documents.back(), one, file, units));
+    symbols.push_back(read_symbols(JsonNode(documents.back(), file), units));
   }
-  check_shared_documents(root, changes, documents, units);
+  check_shared_documents(root, changes, documents, symbols, units);
   check_shared_numbers(root, cases, units);
-  ProblemFile joined = join_cases(root, changes, std::move(cases));
+  ProblemFile joined = join_cases(root, documents, differing_constants(symbols), std::move(cases));
   check_shared_limits(root, joined);
-  read_across_cases(root, documents, units, joined);
+  read_across_cases(root, symbols, units, joined);
   return joined;
 }
 

@@ -3,29 +3,44 @@
 #include <algorithm>
 #include <set>
 
+#include "core/scene/load_cases.hpp"
+
 namespace pleuel {
 
 namespace {
 
-void add_parts(const ProblemFile& problem, std::size_t response, std::set<std::size_t>& parts) {
-  const ResponseSettings& settings = problem.responses[response];
-  if (settings.type != ResponseType::expression) {
+/// @param is_made  whether a response counts as made from others
+template <class IsMade>
+void add_parts(const ProblemFile& problem, std::size_t response, const IsMade& is_made,
+               std::set<std::size_t>& parts) {
+  if (!is_made(response)) {
     parts.insert(response);
     return;
   }
-  for (const ExpressionArgument& argument : settings.expression->arguments) {
-    if (argument.kind == ExpressionArgument::Kind::response) {
-      add_parts(problem, argument.index, parts);
-    }
+  for (const ExpressionArgument& argument : problem.responses[response].expression->arguments) {
+    if (argument.kind != ExpressionArgument::Kind::response) continue;
+    add_parts(problem, argument.index, is_made, parts);
   }
+}
+
+template <class IsMade>
+std::vector<std::size_t> all_parts(const ProblemFile& problem, std::size_t response,
+                                   const IsMade& is_made) {
+  std::set<std::size_t> parts;
+  add_parts(problem, response, is_made, parts);
+  return {parts.begin(), parts.end()};
 }
 
 }  // namespace
 
 std::vector<std::size_t> parts_of(const ProblemFile& problem, std::size_t response) {
-  std::set<std::size_t> parts;
-  add_parts(problem, response, parts);
-  return {parts.begin(), parts.end()};
+  return all_parts(problem, response, [&](std::size_t one) {
+    return problem.responses[one].type == ResponseType::expression;
+  });
+}
+
+std::vector<std::size_t> parts_in_cases(const ProblemFile& joined, std::size_t response) {
+  return all_parts(joined, response, [&](std::size_t one) { return is_over_cases(joined, one); });
 }
 
 namespace {
@@ -62,6 +77,13 @@ bool is_monitor(const ProblemFile& problem, std::size_t response) {
   return std::any_of(parts.begin(), parts.end(), [&](std::size_t part) {
     const ResponseType type = problem.responses[part].type;
     return type == ResponseType::energy_balance || type == ResponseType::constraint_drift;
+  });
+}
+
+bool depends_on_masses_only(const ProblemFile& problem, std::size_t response) {
+  const std::vector<std::size_t> parts = parts_of(problem, response);
+  return std::all_of(parts.begin(), parts.end(), [&](std::size_t part) {
+    return problem.responses[part].type == ResponseType::mass;
   });
 }
 

@@ -12,6 +12,9 @@ namespace pleuel {
 /// increasing order; of one that is no expression its own.
 std::vector<std::size_t> parts_of(const ProblemFile& problem, std::size_t response);
 
+/// Of a response of a joined problem: those of single cases (load_cases.hpp).
+std::vector<std::size_t> parts_in_cases(const ProblemFile& joined, std::size_t response);
+
 /// Whether it is an error itself, or is made from one: an energy balance, a drift of constraints.
 bool is_monitor(const ProblemFile& problem, std::size_t response);
 
@@ -36,5 +39,8 @@ inline constexpr Choice<OverTime> over_time_kinds[] = {
     {"rms", OverTime::rms},     {"mean", OverTime::mean}, {"integral", OverTime::integral},
     {"final", OverTime::final},
 };
+
+/// Whether a response is made from masses and variables only.
+bool depends_on_masses_only(const ProblemFile& problem, std::size_t response);
 
 }  // namespace pleuel

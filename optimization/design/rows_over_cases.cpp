@@ -7,6 +7,7 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/scene/load_cases.hpp"
+#include "core/scene/response_parts.hpp"
 
 namespace pleuel {
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <optional>
 #include <set>
 #include <string>
@@ -16,11 +15,12 @@
 #include "core/base/plain_file_name.hpp"
 #include "core/scene/joined_cases.hpp"
 #include "core/scene/load_cases.hpp"
-#include "core/scene/reading/across_cases.hpp"
 #include "core/scene/reading/case_suffix.hpp"
 #include "core/scene/reading/goal_reader.hpp"
 #include "core/scene/reading/override.hpp"
 #include "core/scene/reading/suggestion.hpp"
+#include "core/scene/reading/symbols.hpp"
+#include "core/scene/reading/unit_scanner.hpp"
 #include "core/scene/response_parts.hpp"
 #include "core/scene/units.hpp"
 
@@ -31,9 +31,6 @@ constexpr int most_cases = 1000;
 
 /// Blocks that a case may change.
 constexpr std::array changeable = {"/scene", "/simulation", "/effects", "/constants"};
-/// Places that masses do not depend on by themselves: constants count where they are used.
-constexpr std::array massless = {"/scene/joints", "/scene/loads", "/scene/gravity",
-                                 "/simulation",   "/effects",     "/constants"};
 
 /// Whether a pointer is this place, or leads into it.
 bool leads_into(const std::string& pointer, std::string_view place) {
@@ -41,17 +38,13 @@ bool leads_into(const std::string& pointer, std::string_view place) {
          (pointer.size() == place.size() || pointer[place.size()] == '/');
 }
 
-template <class Places>
-bool leads_into_any(const std::string& pointer, const Places& places) {
-  return std::any_of(places.begin(), places.end(),
-                     [&](const char* place) { return leads_into(pointer, place); });
-}
-
 void check_pointer(const std::string& pointer, const JsonNode& node) {
   if (!pointer.starts_with("/")) {
     node.fail("must be a JSON pointer such as \"/scene/gravity\", or \"range\"");
   }
-  if (!leads_into_any(pointer, changeable)) {
+  const bool is_changeable = std::ranges::any_of(
+      changeable, [&](const char* place) { return leads_into(pointer, place); });
+  if (!is_changeable) {
     node.fail(
         "must lead into /scene, /simulation, /effects or /constants: variables, responses, "
         "objective and limits are the same in all cases");
@@ -170,20 +163,6 @@ void check_limit_names(const JsonNode& root, const std::vector<ProblemFile>& cas
   }
 }
 
-/// What the objective over cases says of the weights of cases; checks that it says enough.
-std::vector<double> read_weights(const JsonNode& root, const std::vector<ProblemFile>& cases) {
-  const Objective& objective = *cases.front().objective;
-  std::vector<double> weights(cases.size(), objective.weights.empty() ? 1.0 : 0.0);
-  if (objective.weights.empty()) return weights;
-  check_weights(root.at("objective").at("over_cases"), objective.weights, cases);
-  for (const auto& [name, weight] : objective.weights) {
-    for (std::size_t i = 0; i < cases.size(); ++i) {
-      if (is_in_case({name}, cases[i])) weights[i] = weight;
-    }
-  }
-  return weights;
-}
-
 /// Names with a case behind them are those of numbers of single cases.
 void forbid_names_in_cases(const JsonNode& root) {
   for (const char* block : {"constants", "variables", "responses", "constraints"}) {
@@ -210,39 +189,6 @@ void check_file_name(const JsonNode& node, const std::string& name,
   }
 }
 
-/// Whether a limit holds in a case: those without names hold in all.
-bool names_case(const Json& constraint, const CaseChanges& changes) {
-  if (!constraint.is_object() || !constraint.contains("cases")) return true;
-  const Json& names = constraint["cases"];
-  return std::any_of(names.begin(), names.end(), [&](const Json& name) {
-    return name == changes.name || (!changes.range.empty() && name == changes.range);
-  });
-}
-
-/// A study of a limit that does not hold in the case is none of its.
-void forget_missing_limit(Json& document) {
-  if (!document.contains("pareto") || !document["pareto"].is_object()) return;
-  const Json& pareto = document["pareto"];
-  if (!pareto.contains("constraint") || !pareto["constraint"].is_string()) return;
-  if (!document["constraints"].contains(pareto["constraint"].get<std::string>())) {
-    document.erase("pareto");
-  }
-}
-
-bool is_letter_of_names(char letter) {
-  return std::isalnum(static_cast<unsigned char>(letter)) || letter == '_';
-}
-
-/// Whether a text has a name as a word of its own.
-bool has_word(const std::string& text, const std::string& word) {
-  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
-    const std::size_t end = at + word.size();
-    const bool begins = at == 0 || !is_letter_of_names(text[at - 1]);
-    if (begins && (end == text.size() || !is_letter_of_names(text[end]))) return true;
-  }
-  return false;
-}
-
 /// Whether a text in a value has one of the names: formulas that use it do.
 bool mentions_any(const Json& value, const std::set<std::string>& names) {
   if (value.is_string()) {
@@ -255,51 +201,26 @@ bool mentions_any(const Json& value, const std::set<std::string>& names) {
          });
 }
 
-/// The elements of a beam without segments, whose lengths may go by their numbers.
-bool is_number_of_elements(const std::string& pointer) {
-  const Json::json_pointer place(pointer);
-  return pointer.starts_with("/scene/bodies/") && place.back() == "elements" &&
-         place.parent_pointer().parent_pointer() == Json::json_pointer("/scene/bodies");
-}
-
-/// Whether a change leaves the masses of these bodies as they are (none: of all bodies).
-bool keeps_masses(const std::string& pointer, const std::vector<std::string>& bodies) {
-  if (leads_into_any(pointer, massless) || is_number_of_elements(pointer)) return true;
-  if (bodies.empty() || !pointer.starts_with("/scene/bodies/")) return false;
-  return std::none_of(bodies.begin(), bodies.end(), [&](const std::string& body) {
-    return leads_into(pointer, child_pointer("/scene/bodies", body));
-  });
-}
-
-/// The constants that cases change, and those that are made of them.
-std::set<std::string> changed_constants(const Json& document,
-                                        const std::vector<CaseChanges>& changes) {
-  std::set<std::string> names;
-  for (const CaseChanges& one : changes) {
-    for (const auto& [pointer, value] : one.values) {
-      if (pointer == "/constants") {
-        for (const auto& constant : value.items()) names.insert(constant.key());
-      } else if (leads_into(pointer, "/constants")) {
-        names.insert(Json::json_pointer(pointer).back());
-      }
-    }
+/// What the masses of these bodies (none: of all) follow from, besides constants. The lengths of segments
+/// may go by the numbers of their elements, the length of a beam does not.
+Json masses_in(const Json& document, const std::vector<std::string>& bodies) {
+  Json scene = document["scene"];
+  for (const char* massless : {"joints", "loads", "gravity"}) scene.erase(massless);
+  Json counted = Json::object();
+  for (const auto& [name, body] : scene["bodies"].items()) {
+    if (!bodies.empty() && std::ranges::find(bodies, name) == bodies.end()) continue;
+    counted[name] = body;
+    counted[name].erase("elements");
   }
-  if (names.empty()) return names;
-  const Json constants = document.value("constants", Json::object());
-  for (std::size_t before = 0; before != names.size();) {
-    before = names.size();
-    for (const auto& constant : constants.items()) {
-      if (mentions_any(constant.value(), names)) names.insert(constant.key());
-    }
-  }
-  return names;
+  scene["bodies"] = std::move(counted);
+  return scene;
 }
 
 /// Whether the value of a response is the same in all cases at each design.
+/// @param constants  that differ from case to case
 bool is_same_response(const ProblemFile& problem, std::size_t response, const Json& document,
-                      const std::vector<CaseChanges>& changes) {
+                      const std::vector<Json>& of_cases, const std::set<std::string>& constants) {
   if (!depends_on_masses_only(problem, response)) return false;
-  const std::set<std::string> constants = changed_constants(document, changes);
   const auto is_used_in = [&](const char* place) {
     const Json::json_pointer pointer(place);
     return document.contains(pointer) && mentions_any(document.at(pointer), constants);
@@ -308,25 +229,24 @@ bool is_same_response(const ProblemFile& problem, std::size_t response, const Js
   if (is_used_in("/constraints")) return false;  // there may be another limit in each case
   const bool is_formula = problem.responses[response].type == ResponseType::expression;
   if (is_formula && is_used_in("/responses")) return false;
-  for (const std::size_t part : parts_of(problem, response)) {
-    for (const CaseChanges& one : changes) {
-      for (const auto& [pointer, value] : one.values) {
-        if (!keeps_masses(pointer, problem.responses[part].bodies)) return false;
-      }
-    }
-  }
-  return true;
+  return std::ranges::all_of(parts_of(problem, response), [&](std::size_t part) {
+    const std::vector<std::string>& bodies = problem.responses[part].bodies;
+    const Json masses = masses_in(of_cases.front(), bodies);
+    return std::ranges::all_of(of_cases,
+                               [&](const Json& one) { return masses_in(one, bodies) == masses; });
+  });
 }
 
 std::vector<bool> same_responses(const ProblemFile& problem, const Json& document,
-                                 const std::vector<CaseChanges>& changes) {
+                                 const std::vector<Json>& of_cases,
+                                 const std::set<std::string>& constants) {
   std::vector<bool> is_same;
   for (std::size_t i = 0; i < problem.responses.size(); ++i) {
-    is_same.push_back(is_same_response(problem, i, document, changes));
+    is_same.push_back(is_same_response(problem, i, document, of_cases, constants));
   }
   // Who says how the masses of cases with other constants count may say so.
   const bool is_said = problem.objective && problem.objective->over_cases != OverCases::same;
-  if (is_said && !changed_constants(document, changes).empty()) {
+  if (is_said && !constants.empty()) {
     is_same[index_of_named(problem.responses, problem.objective->response).value()] = false;
   }
   return is_same;
@@ -400,37 +320,31 @@ Json document_of_case(Json document, const CaseChanges& changes, const std::stri
     replace_at(document, pointer, value, child_pointer(place, pointer), file);
   }
   document.erase("cases");
-  return without_across_cases(std::move(document), changes.name);
-}
-
-Json lone_document(Json document, const CaseChanges& changes, const std::string& file) {
-  document = document_of_case(std::move(document), changes, file);
-  if (document.contains("objective") && document["objective"].is_object()) {
-    document["objective"].erase("over_cases");
-  }
-  if (!document.contains("constraints") || !document["constraints"].is_object()) return document;
-  Json constraints = Json::object();
-  for (auto& [name, constraint] : document["constraints"].items()) {
-    if (!names_case(constraint, changes)) continue;
-    constraints[name] = constraint;
-    if (constraint.is_object()) constraints[name].erase("cases");
-  }
-  document["constraints"] = std::move(constraints);
-  forget_missing_limit(document);
+  document[case_key] = {changes.name, changes.range};
   return document;
 }
 
-ProblemFile join_cases(const JsonNode& root, const std::vector<CaseChanges>& changes,
-                       std::vector<ProblemFile> cases) {
+void keep_case(ProblemFile& problem) {
+  std::erase_if(problem.constraints, [&](const ConstraintSettings& constraint) {
+    return !is_in_case(constraint.cases, problem);
+  });
+  if (problem.objective) problem.objective->over_cases = OverCases::same;
+  // A study of a limit that does not hold in the case is none of its.
+  if (!problem.pareto || problem.pareto->constraint.empty()) return;
+  if (!find_named(problem.constraints, problem.pareto->constraint)) problem.pareto.reset();
+}
+
+ProblemFile join_cases(const JsonNode& root, const std::vector<Json>& documents,
+                       const std::set<std::string>& constants, std::vector<ProblemFile> cases) {
   check_limit_names(root, cases);
   const ProblemFile& first = cases.front();
-  const std::vector<bool> is_same = same_responses(first, root.value(), changes);
-  std::vector<double> weights;
+  const std::vector<bool> is_same = same_responses(first, root.value(), documents, constants);
   if (first.objective) {
     check_objective(root, first, is_same);
-    weights = read_weights(root, cases);
+    const auto& weights = first.objective->weights;
+    if (!weights.empty()) check_weights(root.at("objective").at("over_cases"), weights, cases);
   }
-  return joined_cases(std::move(cases), is_same, std::move(weights));
+  return joined_cases(std::move(cases), is_same);
 }
 
 void forbid_case_names(const JsonNode& root, const ProblemFile& problem) {

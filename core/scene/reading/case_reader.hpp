@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,16 +26,16 @@ std::vector<CaseChanges> read_cases(const JsonNode& root);
 /// @throws InputError
 Json document_of_case(Json document, const CaseChanges& changes, const std::string& file);
 
-/// The document as if it were written for one case only: with the limits that hold in it.
-/// @throws InputError
-Json lone_document(Json document, const CaseChanges& changes, const std::string& file);
+/// What the document of a case says if it is read alone: with the limits that hold in the case.
+void keep_case(ProblemFile& problem);
 
 /// What the cases share, with the responses and constraints of all (ProblemFile::cases).
-/// @param cases    problems of the cases with their names, one each
-/// @param changes  likewise
+/// @param documents  of the cases, one each
+/// @param constants  that differ from case to case
+/// @param cases      problems of the cases with their names, one each
 /// @throws InputError at places of `root` that name cases
-ProblemFile join_cases(const JsonNode& root, const std::vector<CaseChanges>& changes,
-                       std::vector<ProblemFile> cases);
+ProblemFile join_cases(const JsonNode& root, const std::vector<Json>& documents,
+                       const std::set<std::string>& constants, std::vector<ProblemFile> cases);
 
 /// @throws InputError where a file without cases names some
 void forbid_case_names(const JsonNode& root, const ProblemFile& problem);

@@ -8,6 +8,10 @@
 /// Names with a load case behind them: `bow[fast]` in a formula, "bow [fast]" in a table.
 namespace pleuel {
 
+/// Of documents that the program makes: name and range of the load case that one is of. What is made
+/// from several cases is left out where it is read (NumberReader::read_or_leave_out()).
+inline constexpr const char* case_key = "$case";
+
 /// A case in brackets behind a name.
 struct CaseSuffix {
   std::string load_case;

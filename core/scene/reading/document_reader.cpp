@@ -7,7 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/machine_memory.hpp"
-#include "core/scene/reading/across_cases.hpp"
+#include "core/scene/reading/case_suffix.hpp"
 #include "core/scene/reading/catalogue.hpp"
 #include "core/scene/reading/goal_reader.hpp"
 #include "core/scene/reading/mistakes.hpp"
@@ -27,7 +27,11 @@ void read_heading(const JsonNode& root, ProblemFile& problem) {
                                         "effects",   "simulation", "sensitivity", "constants",
                                         "variables", "responses",  "objective",   "constraints",
                                         "optimizer", "pareto",     "accuracy",    "uncertainty"};
-  if (root.find(mentioned_key)) keys.push_back(mentioned_key);
+  if (const auto of_case = root.find(case_key)) {
+    keys.push_back(case_key);
+    of_case->value().at(0).get_to(problem.load_case);
+    of_case->value().at(1).get_to(problem.case_range);
+  }
   root.allow_keys(keys);
   if (const auto schema = root.find("$schema")) schema->text();
   if (const auto name = root.find("name")) problem.name = name->text();
@@ -48,8 +52,10 @@ void read_settings(const JsonNode& root, NumberReader& numbers, ProblemFile& pro
   read("optimizer", [&](const JsonNode& node) {
     problem.optimizer = read_optimizer(node, problem.variables, numbers);
   });
-  read("pareto",
-       [&](const JsonNode& node) { problem.pareto = read_pareto(node, problem, numbers); });
+  read("pareto", [&](const JsonNode& node) {
+    numbers.read_or_leave_out("pareto",
+                              [&] { problem.pareto = read_pareto(node, problem, numbers); });
+  });
   read("accuracy", [&](const JsonNode& node) {
     problem.accuracy = read_accuracy(node, problem.responses, numbers);
   });
@@ -91,7 +97,7 @@ Json overridden_document(const ProblemText& text) {
   }
   if (text.load_case.empty()) return document;
   for (const CaseChanges& changes : cases_of(document, text.file)) {
-    if (changes.name == text.load_case) return lone_document(document, changes, text.file);
+    if (changes.name == text.load_case) return document_of_case(document, changes, text.file);
   }
   throw InputError(fmt::format("{}: /cases has no case \"{}\"", text.file, text.load_case));
 }
@@ -106,15 +112,6 @@ Json whole_document(const ProblemText& text, const UnitSystem& units) {
   return document;
 }
 
-/// Variables that only formulas over several load cases name (across_cases.hpp).
-void count_mentioned(const JsonNode& root, NumberReader& numbers) {
-  const auto mentioned = root.find(mentioned_key);
-  if (!mentioned) return;
-  for (const JsonNode& name : mentioned->items()) {
-    numbers.count_as_used(numbers.variable(name, name.text()));
-  }
-}
-
 /// The variables come late: where they are used tells what they measure. What follows from a part
 /// with mistakes is not read.
 ProblemFile read_document(const JsonNode& root, NumberReader& numbers) {
@@ -122,7 +119,6 @@ ProblemFile read_document(const JsonNode& root, NumberReader& numbers) {
   MistakeCollector mistakes;
   mistakes.collect([&] { read_heading(root, problem); });
   numbers.declare(root);
-  count_mentioned(root, numbers);
   mistakes.collect([&] { problem.scene = read_scene(root.at("scene"), numbers); });
   mistakes.collect([&] { problem.simulation = read_simulation(root.at("simulation"), numbers); });
   mistakes.fail_if_any();
@@ -131,7 +127,9 @@ ProblemFile read_document(const JsonNode& root, NumberReader& numbers) {
   }
   mistakes.collect([&] {
     if (const auto objective = root.find("objective")) {
-      problem.objective = read_objective(*objective, problem.responses, numbers);
+      numbers.read_or_leave_out("objective", [&] {
+        problem.objective = read_objective(*objective, problem.responses, numbers);
+      });
     }
   });
   mistakes.collect([&] {

@@ -24,12 +24,12 @@ std::string without_blanks_at_powers(const std::string& unit) {
 
 }  // namespace
 
-void ExpressionBuilder::fail(std::size_t position, const std::string& why) const {
+std::size_t ExpressionBuilder::column_of(std::size_t position) const {
   std::size_t column = 1;
   for (std::size_t i = 0; i < std::min(position, text_.size()); ++i) {
     if ((static_cast<unsigned char>(text_[i]) & 0xC0U) != 0x80U) ++column;
   }
-  throw ExpressionError(column, why);
+  return column;
 }
 
 int ExpressionBuilder::add_quantity(std::size_t position, double value, const std::string& unit) {
@@ -55,6 +55,9 @@ int ExpressionBuilder::add_name(std::size_t position, const std::string& name) {
                                     [&](const Symbol& one) { return one.name == name; }) > 1;
   if (is_of_two) {
     fail(position, fmt::format("the name \"{}\" stands for two things; rename one of them", name));
+  }
+  if (!symbol->constant && !symbol->argument) {
+    throw CaseExpressionError(column_of(position), "is made from several load cases");
   }
   return add_symbol(*symbol);
 }
@@ -253,10 +256,11 @@ void ExpressionBuilder::fail_unknown_case(std::size_t position, const NameInCase
   const auto& [name, load_case] = wanted;
   const std::vector<std::string> names = names_with_cases();
   if (names.empty()) {
-    fail(position,
-         fmt::format("\"[{}]\" names a load case: only responses, limits and the objective of a "
-                     "file with \"cases\" can do so",
-                     load_case));
+    throw CaseExpressionError(
+        column_of(position),
+        fmt::format("\"[{}]\" names a load case: only responses, limits and the objective of a "
+                    "file with \"cases\" can do so",
+                    load_case));
   }
   if (find(name) != nullptr) {
     fail(position,

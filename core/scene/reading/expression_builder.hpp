@@ -20,7 +20,8 @@ inline bool is_of_cycles(const std::string& unit) {
   return unit.find("Hz") != std::string::npos;
 }
 
-/// A name that an expression may use, and what it stands for.
+/// A name that an expression may use, and what it stands for: neither a constant nor an argument where
+/// that is made from several load cases.
 struct Symbol {
   std::string name;
   Dimension dimension;
@@ -38,6 +39,12 @@ class ExpressionError : public std::runtime_error {
 
  private:
   std::size_t column_;
+};
+
+/// It names load cases, or what is made from several, where none are known.
+class CaseExpressionError : public ExpressionError {
+ public:
+  using ExpressionError::ExpressionError;
 };
 
 struct ReadExpression {
@@ -58,7 +65,9 @@ class ExpressionBuilder {
       : text_(text), symbols_(symbols), units_(units) {}
 
   /// @throws ExpressionError at the column of the position, always
-  [[noreturn]] void fail(std::size_t position, const std::string& why) const;
+  [[noreturn]] void fail(std::size_t position, const std::string& why) const {
+    throw ExpressionError(column_of(position), why);
+  }
 
   /// @param value  the number before the unit
   int add_quantity(std::size_t position, double value, const std::string& unit);
@@ -86,6 +95,7 @@ class ExpressionBuilder {
     bool is_zero() const { return constant && *constant == 0.0 && dimension.is_number(); }
   };
 
+  std::size_t column_of(std::size_t position) const;
   const StepFacts& fact(int step) const { return facts_[step]; }
   std::string described(int step) const { return describe(fact(step).dimension, units_); }
 

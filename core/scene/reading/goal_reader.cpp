@@ -101,7 +101,7 @@ void read_over_cases(const JsonNode& node, Objective& objective) {
 
 /// Of a limit that holds in several cases the first of them.
 const ConstraintSettings& read_varied_constraint(const JsonNode& node, const ProblemFile& problem,
-                                                 std::string& name) {
+                                                 const NumberReader& numbers, std::string& name) {
   name = node.text();
   std::vector<std::size_t> rows = constraints_of_limit(problem, name);
   if (rows.empty() && problem.has_cases()) {
@@ -109,6 +109,7 @@ const ConstraintSettings& read_varied_constraint(const JsonNode& node, const Pro
     rows = constraints_of_limit(problem, name);
   }
   if (rows.empty()) {
+    numbers.require_here(node);
     std::vector<std::string> known = names_of(problem.constraints);
     for (const ProblemFile& one : problem.cases) {
       for (const ConstraintSettings& limit : one.constraints) {
@@ -176,7 +177,9 @@ std::vector<ConstraintSettings> read_constraints(const JsonNode& node,
                                                  NumberReader& numbers) {
   std::vector<ConstraintSettings> constraints;
   read_each(node, [&](const std::string& name, const JsonNode& constraint) {
-    constraints.push_back(read_constraint(name, constraint, responses, numbers));
+    numbers.read_or_leave_out(name, [&] {
+      constraints.push_back(read_constraint(name, constraint, responses, numbers));
+    });
   });
   return constraints;
 }
@@ -237,7 +240,7 @@ void read_goal_over_cases(const std::optional<JsonNode>& node, const ProblemFile
 
 /// "mass", {"minimize": "mass"} or {"maximize": "speed"}; with load cases also a response of one of
 /// them, "bow[fast]", or of all, {"minimize": "bow", "over_cases": "sum"}.
-Objective read_goal(const JsonNode& node, const ProblemFile& problem) {
+Objective read_goal(const JsonNode& node, const ProblemFile& problem, const NumberReader& numbers) {
   std::vector<std::string> known = names_of(problem.responses);
   std::optional<JsonNode> over_cases;
   JsonNode name = node;
@@ -252,12 +255,13 @@ Objective read_goal(const JsonNode& node, const ProblemFile& problem) {
   }
   const std::string written = problem.has_cases() ? spaced_case(name.text()) : name.text();
   if (find_named(problem.responses, written) != nullptr) {
-    if (over_cases) {
+    if (over_cases && !numbers.is_of_case()) {
       over_cases->fail(problem.has_cases() ? "is for a response that differs from case to case"
                                            : "names cases, and the problem has none (\"cases\")");
     }
     return {written, aim};
   }
+  numbers.require_here(name);
   if (problem.has_cases()) {
     for (const std::string& one : names_of(problem.cases.front().responses)) known.push_back(one);
   }
@@ -291,12 +295,13 @@ ParetoSettings read_front_between(const JsonNode& node, const JsonNode& response
   node.allow_keys({"responses", "points", "gap", "most_points"});
   ParetoSettings pareto;
   for (const JsonNode& goal : responses.items(2)) {
-    pareto.goals.push_back(read_goal(goal, problem));
+    pareto.goals.push_back(read_goal(goal, problem, numbers));
   }
   const Objective &first = pareto.goals[0], &second = pareto.goals[1];
   if (first.response == second.response && first.over_cases == second.over_cases &&
       first.weights == second.weights) {
-    responses.fail("must be two different responses");
+    numbers.fail_or_leave_out(responses,
+                              "must be two different responses");  // over cases they may be
   }
   read_spacing(node, numbers, pareto);
   return pareto;
@@ -310,10 +315,12 @@ ParetoSettings read_pareto(const JsonNode& node, const ProblemFile& problem,
     return read_front_between(node, *responses, problem, numbers);
   }
   node.allow_keys({"constraint", "from", "to", "points", "gap", "most_points", "responses"});
-  if (!problem.objective) node.fail("needs an objective, and the problem has none");
+  if (!problem.objective) {
+    numbers.fail_or_leave_out(node, "needs an objective, and the problem has none");
+  }
   ParetoSettings pareto;
   const ConstraintSettings& constraint =
-      read_varied_constraint(node.at("constraint"), problem, pareto.constraint);
+      read_varied_constraint(node.at("constraint"), problem, numbers, pareto.constraint);
   const Quantity quantity = quantity_of(constraint, problem, numbers);
   pareto.from = numbers.fixed(node.at("from"), quantity);
   pareto.to = numbers.fixed(node.at("to"), quantity);

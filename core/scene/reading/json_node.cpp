@@ -25,8 +25,12 @@ JsonNode::JsonNode(const Json& value, const std::string& file, std::string point
       pointer_(std::move(pointer)),
       place_(pointer_.empty() ? whole : pointer_) {}
 
+std::string JsonNode::message(const std::string& rule) const {
+  return fmt::format("{}: {} {}", *file_, place_, rule);
+}
+
 void JsonNode::fail(const std::string& rule) const {
-  throw InputError(fmt::format("{}: {} {}", *file_, place_, rule));
+  throw InputError(message(rule));
 }
 
 void JsonNode::fail_with_value(const std::string& rule, const std::string& more) const {

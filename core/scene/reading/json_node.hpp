@@ -30,7 +30,10 @@ class JsonNode {
   /// Where it is, for a message: the JSON pointer, or what the whole document is called.
   const std::string& place() const { return place_; }
 
-  /// Ends the reading with "file: pointer rule".
+  /// "file: pointer rule"
+  std::string message(const std::string& rule) const;
+
+  /// Ends the reading with the message.
   [[noreturn]] void fail(const std::string& rule) const;
   /// Ends the reading with "file: pointer rule, got value", and what else there is to say.
   [[noreturn]] void fail_with_value(const std::string& rule, const std::string& more = "") const;

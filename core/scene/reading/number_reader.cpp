@@ -5,7 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "core/scene/reading/case_suffix.hpp"
 #include "core/scene/reading/symbols.hpp"
+#include "core/scene/reading/unit_scanner.hpp"
 
 namespace pleuel {
 namespace {
@@ -77,11 +79,38 @@ Number NumberReader::designable(const JsonNode& node, const Quantity& quantity, 
 void NumberReader::declare(const JsonNode& root) {
   symbols_ = read_symbols(root, *units_);
   root_ = root;
+  is_of_case_ = root.find(case_key).has_value();
+}
+
+void NumberReader::leave_out(const std::string& name, const std::string& formula) {
+  left_out_.push_back(name);
+  for (std::size_t i = 0; i < variables_.size(); ++i) {
+    if (has_word(formula, variables_[i])) count_as_used(static_cast<int>(i));
+  }
+}
+
+bool NumberReader::leaves_out(const std::string& name) const {
+  if (!is_of_case_) return false;
+  return split_case(name) || std::find(left_out_.begin(), left_out_.end(), name) != left_out_.end();
+}
+
+void NumberReader::require_here(const JsonNode& node) const {
+  if (leaves_out(node.text())) fail_or_leave_out(node, "is of several load cases");
+}
+
+void NumberReader::fail_or_leave_out(const JsonNode& node, const std::string& rule) const {
+  if (is_of_case_) throw NamesCases(node.message(rule), "");
+  node.fail(rule);
 }
 
 ReadExpression NumberReader::formula(const JsonNode& node, const std::vector<Symbol>& more) {
   std::vector<Symbol> all = symbols_;
   all.insert(all.end(), more.begin(), more.end());
+  for (const std::string& name : left_out_) {
+    const bool is_known =
+        std::ranges::any_of(all, [&](const Symbol& one) { return one.name == name; });
+    if (!is_known) all.push_back({name, {}});
+  }
   ReadExpression read = read_formula(node, all, *units_);
   for (const ExpressionArgument& argument : read.expression->arguments) {
     if (argument.kind != ExpressionArgument::Kind::variable) continue;
@@ -98,7 +127,13 @@ ReadExpression NumberReader::formula_of(const JsonNode& node, const Quantity& qu
 }
 
 double NumberReader::constant_formula(const JsonNode& node, const Quantity& quantity) const {
-  const ReadExpression read = read_formula(node, symbols_, *units_);
+  const ReadExpression read = [&] {
+    try {
+      return read_formula(node, symbols_, *units_);
+    } catch (const NamesCases& error) {
+      throw InputError(error.what());
+    }
+  }();
   if (!read.constant) {
     node.fail_with_value(
         "must be fixed here; a formula of design variables can stand for numbers "

@@ -9,6 +9,7 @@
 #include "core/scene/number.hpp"
 #include "core/scene/reading/expression_parser.hpp"
 #include "core/scene/reading/json_node.hpp"
+#include "core/scene/reading/symbols.hpp"
 #include "core/scene/units.hpp"
 
 namespace pleuel {
@@ -45,13 +46,39 @@ class NumberReader {
   /// @param variables  names in the order of the design.
   NumberReader(const UnitSystem& units, std::vector<std::string> variables);
 
-  /// Takes from the document what formulas may name (symbols.hpp).
+  /// Takes from the document what formulas may name (symbols.hpp), and whether it is that of one of
+  /// several load cases (case_key).
   void declare(const JsonNode& root);
   /// The same names, from elsewhere.
   void declare(std::vector<Symbol> symbols) { symbols_ = std::move(symbols); }
 
-  /// A design variable that a formula outside of this document names.
+  /// A design variable that a limit on variables names.
   void count_as_used(int variable) { used_elsewhere_.push_back(variable); }
+
+  /// Reads a part of the document. That of one load case leaves out what is made from several
+  /// (across_cases.hpp); variables that are named there count as used.
+  /// @param name  of the part: what names it is left out, too
+  /// @returns     whether it was read
+  template <class Read>
+  bool read_or_leave_out(const std::string& name, const Read& read) {
+    try {
+      read();
+      return true;
+    } catch (const NamesCases& cause) {
+      if (!is_of_case_) throw;
+      leave_out(name, cause.formula());
+      return false;
+    }
+  }
+
+  bool is_of_case() const { return is_of_case_; }
+  /// Whether a document of one load case leaves out what has this name: a part that it has left out,
+  /// or "bow [fast]", which is a number of a case.
+  bool leaves_out(const std::string& name) const;
+  /// The node is a name. @throws NamesCases if leaves_out()
+  void require_here(const JsonNode& node) const;
+  /// What is wrong in the document of one load case need not be where all of them are known.
+  [[noreturn]] void fail_or_leave_out(const JsonNode& node, const std::string& rule) const;
 
   /// A number in SI, a text with unit or a formula of constants, not designable.
   double fixed(const JsonNode& node, const Quantity& quantity, Range range = Range::any) const;
@@ -115,6 +142,7 @@ class NumberReader {
   }
 
  private:
+  void leave_out(const std::string& name, const std::string& formula);
   const VariableUse* first_use(int variable) const;
   Number binding(const JsonNode& node, const Quantity& quantity, Range range);
   /// {"variable": name, "path": [values]}, which section_choices.hpp writes.
@@ -132,6 +160,8 @@ class NumberReader {
   std::optional<JsonNode> root_;
   std::vector<VariableMention> mentions_;
   std::vector<int> used_elsewhere_;
+  bool is_of_case_ = false;
+  std::vector<std::string> left_out_;
   std::vector<VariableUse> uses_;
   std::vector<FixedNumber> fixed_;
 };

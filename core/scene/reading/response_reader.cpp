@@ -1,6 +1,7 @@
 #include "core/scene/reading/response_reader.hpp"
 
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -50,6 +51,25 @@ ResponseSettings read_response(const std::string& name, const JsonNode& node,
   return response;
 }
 
+/// Reads the expressions among the responses.
+/// @returns names of those that a document of one load case leaves out
+std::set<std::string> read_expressions(const JsonNode& node, std::vector<ResponseSettings>& all,
+                                       NumberReader& numbers) {
+  std::set<std::string> left_out;
+  MistakeCollector mistakes;
+  for (ResponseSettings& one : all) {
+    if (one.type != ResponseType::expression) continue;
+    mistakes.collect([&] {
+      const bool is_read = numbers.read_or_leave_out(one.name, [&] {
+        one = read_expression_response(one.name, node.at(one.name), all, numbers);
+      });
+      if (!is_read) left_out.insert(one.name);
+    });
+  }
+  if (left_out.empty()) mistakes.fail_if_any();
+  return left_out;
+}
+
 }  // namespace
 
 std::vector<ResponseSettings> read_responses(const JsonNode& node, const Scene& scene,
@@ -61,16 +81,14 @@ std::vector<ResponseSettings> read_responses(const JsonNode& node, const Scene& 
     check_column(name, response);
     responses.push_back(read_response(name, response, scope, numbers));
   });
-  MistakeCollector mistakes;
-  for (ResponseSettings& response : responses) {
-    if (response.type != ResponseType::expression) continue;
-    mistakes.collect([&] {
-      response =
-          read_expression_response(response.name, node.at(response.name), responses, numbers);
-    });
+  // Formulas know responses by their places, which are known when it is known which are left out.
+  while (true) {
+    std::vector<ResponseSettings> all = responses;
+    const std::set<std::string> left_out = read_expressions(node, all, numbers);
+    if (left_out.empty()) return all;
+    std::erase_if(responses,
+                  [&](const ResponseSettings& one) { return left_out.contains(one.name); });
   }
-  mistakes.fail_if_any();
-  return responses;
 }
 
 namespace {
@@ -275,6 +293,7 @@ ResponseSettings& read_response_or_formula(const JsonNode& node,
     for (const std::string& name : {node.text(), spaced_case(node.text())}) {
       if (ResponseSettings* known = find_named(responses, name)) return *known;
     }
+    numbers.require_here(node);
     return *find_named(responses, read_known_name(node, "response", names_of(responses)));
   }
   std::string name = formula_name(node);

@@ -76,10 +76,12 @@ OptimizerSettings read_optimizer(const JsonNode& node, const std::vector<DesignV
 namespace {
 
 std::vector<std::string> read_names(const JsonNode& node,
-                                    const std::vector<ResponseSettings>& responses) {
+                                    const std::vector<ResponseSettings>& responses,
+                                    const NumberReader& numbers) {
   std::vector<std::string> known, names;
   for (const ResponseSettings& response : responses) known.push_back(response.name);
   for (const JsonNode& item : node.items()) {
+    if (numbers.leaves_out(item.text())) continue;
     names.push_back(read_known_name(item, "response", known));
   }
   return names;
@@ -108,7 +110,7 @@ AccuracySettings read_accuracy(const JsonNode& node, const std::vector<ResponseS
     if (settings.elements.empty()) elements->fail("must have at least one number");
   }
   if (const auto names = node.find("responses")) {
-    settings.responses = read_names(*names, responses);
+    settings.responses = read_names(*names, responses, numbers);
   }
   if (const auto target = node.find("target")) {
     settings.chooses_setting = true;

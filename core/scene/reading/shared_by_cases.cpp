@@ -45,17 +45,12 @@ void check_dimensions(const JsonNode& changed, const std::string& pointer,
   }
 }
 
-void check_constants(const JsonNode& root, const CaseChanges& changes, const Json& document,
-                     const UnitSystem& units) {
-  constexpr const char* block = "/constants";
-  const bool has_any = std::any_of(changes.values.begin(), changes.values.end(),
-                                   [](const auto& one) { return one.first.starts_with(block); });
-  if (!has_any) return;
-  const std::vector<Symbol> base = read_symbols(root, units);
-  const std::vector<Symbol> of_case = read_symbols(JsonNode(document, root.file()), units);
+void check_constants(const JsonNode& root, const CaseChanges& changes,
+                     const std::vector<Symbol>& of_case, const UnitSystem& units) {
   for (const auto& [pointer, value] : changes.values) {
-    if (!pointer.starts_with(block)) continue;
-    check_dimensions(node_of_change(root, changes, pointer), pointer, base, of_case, units);
+    if (!pointer.starts_with("/constants")) continue;
+    check_dimensions(node_of_change(root, changes, pointer), pointer, read_symbols(root, units),
+                     of_case, units);
   }
 }
 
@@ -174,9 +169,11 @@ void check_quantities(const JsonNode& root, const ProblemFile& first, const Prob
 }  // namespace
 
 void check_shared_documents(const JsonNode& root, const std::vector<CaseChanges>& changes,
-                            const std::vector<Json>& documents, const UnitSystem& units) {
+                            const std::vector<Json>& documents,
+                            const std::vector<std::vector<Symbol>>& of_cases,
+                            const UnitSystem& units) {
   for (std::size_t i = 0; i < changes.size(); ++i) {
-    check_constants(root, changes[i], documents[i], units);
+    check_constants(root, changes[i], of_cases[i], units);
     check_catalogue(root, changes[i], documents[i]);
   }
 }

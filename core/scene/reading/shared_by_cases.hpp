@@ -9,11 +9,16 @@
 /// that stand once for all cases, and what constants and responses measure.
 namespace pleuel {
 
+struct Symbol;
+
 /// @param documents  of the cases, one each
+/// @param of_cases   names that their formulas may use
 /// @throws InputError  if a case gives a constant another dimension, or changes the catalogue that a
 ///                     variable is chosen from
 void check_shared_documents(const JsonNode& root, const std::vector<CaseChanges>& changes,
-                            const std::vector<Json>& documents, const UnitSystem& units);
+                            const std::vector<Json>& documents,
+                            const std::vector<std::vector<Symbol>>& of_cases,
+                            const UnitSystem& units);
 
 /// @param cases  problems of the cases with their names, one each
 /// @throws InputError  if a number that stands once follows from a constant that a case changes, or

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/find_named.hpp"
+
 namespace pleuel {
 
 namespace {
@@ -100,11 +102,16 @@ std::string written_unit(std::initializer_list<JsonNode> nodes) {
 ReadExpression read_formula(const JsonNode& node, const std::vector<Symbol>& symbols,
                             const UnitSystem& units) {
   const std::string text = node.text();
+  const auto rule_of = [&](const ExpressionError& error) {
+    return fmt::format("has an error at column {} of \"{}\": {}", error.column(), text,
+                       error.what());
+  };
   try {
     return read_expression(text, symbols, units);
+  } catch (const CaseExpressionError& error) {
+    throw NamesCases(node.message(rule_of(error)), text);
   } catch (const ExpressionError& error) {
-    node.fail(
-        fmt::format("has an error at column {} of \"{}\": {}", error.column(), text, error.what()));
+    node.fail(rule_of(error));
   }
 }
 
@@ -126,6 +133,23 @@ std::vector<Symbol> read_symbols(const JsonNode& root, const UnitSystem& units) 
                    ExpressionArgument{ExpressionArgument::Kind::variable, index++}});
   }
   return all;
+}
+
+std::set<std::string> differing_constants(const std::vector<std::vector<Symbol>>& documents) {
+  std::set<std::string> names;
+  const auto compare = [&](const std::vector<Symbol>& one, const std::vector<Symbol>& other) {
+    for (const Symbol& symbol : one) {
+      const Symbol* there = find_named(other, symbol.name);
+      const bool is_same = there != nullptr && there->constant == symbol.constant &&
+                           there->dimension == symbol.dimension;
+      if (symbol.constant && !is_same) names.insert(symbol.name);
+    }
+  };
+  for (const std::vector<Symbol>& one : documents) {
+    compare(one, documents.front());
+    compare(documents.front(), one);
+  }
+  return names;
 }
 
 }  // namespace pleuel

@@ -1,13 +1,28 @@
 #pragma once
 
 #include <initializer_list>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "core/base/error.hpp"
 #include "core/scene/reading/expression_parser.hpp"
 #include "core/scene/reading/json_node.hpp"
 
 namespace pleuel {
+
+/// What is read has to do with several load cases: a document of one case leaves it out.
+class NamesCases : public InputError {
+ public:
+  /// @param formula  that names them
+  NamesCases(const std::string& message, std::string formula)
+      : InputError(message), formula_(std::move(formula)) {}
+  const std::string& formula() const { return formula_; }
+
+ private:
+  std::string formula_;
+};
 
 /// Whether the value is a text that begins with "=": a formula where a number could stand.
 bool is_formula(const JsonNode& node);
@@ -19,7 +34,8 @@ std::string written_unit(std::initializer_list<JsonNode> nodes);
 /// column of its first sign, where the text looks like one; else empty.
 std::string formula_hint(const std::string& text, const std::vector<Symbol>& symbols);
 
-/// A formula of the document, or another text that is one. @throws InputError with its column
+/// A formula of the document, or another text that is one.
+/// @throws InputError with its column; NamesCases, which is one, where that is its only mistake
 ReadExpression read_formula(const JsonNode& node, const std::vector<Symbol>& symbols,
                             const UnitSystem& units);
 
@@ -28,5 +44,8 @@ ReadExpression read_formula(const JsonNode& node, const std::vector<Symbol>& sym
 /// "start" (or else a bound) is written with.
 /// @throws InputError
 std::vector<Symbol> read_symbols(const JsonNode& root, const UnitSystem& units);
+
+/// Names of the constants that do not stand for the same in all documents.
+std::set<std::string> differing_constants(const std::vector<std::vector<Symbol>>& documents);
 
 }  // namespace pleuel

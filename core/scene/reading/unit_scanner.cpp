@@ -50,6 +50,15 @@ bool is_digit_character(char c) {
   return std::isdigit(static_cast<unsigned char>(c)) != 0;
 }
 
+bool has_word(const std::string& text, const std::string& word) {
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
+    const std::size_t end = at + word.size();
+    const bool begins = at == 0 || !is_name_character(text[at - 1]);
+    if (begins && (end == text.size() || !is_name_character(text[end]))) return true;
+  }
+  return false;
+}
+
 std::size_t unit_length(std::string_view text,
                         const std::function<bool(const std::string&)>& is_unit) {
   std::size_t end = 0, at = skip_blanks(text, 0);

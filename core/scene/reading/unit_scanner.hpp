@@ -10,6 +10,9 @@ namespace pleuel {
 bool is_name_character(char c);
 bool is_digit_character(char c);
 
+/// Whether a text has a name as a word of its own.
+bool has_word(const std::string& text, const std::string& word);
+
 /// How far a unit reaches that begins at the start of a text: "kg/m^3 * width" has the unit
 /// "kg/m^3". Words follow each other by a blank or "/", each with a whole power; "/" belongs to the
 /// unit only before a word that `is_unit` knows.
