@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "cli/files/output_file.hpp"
+#include "cli/files/run_folder.hpp"
 #include "cli/given_files.hpp"
 #include "core/base/error.hpp"
 #include "core/scene/reading/json_text.hpp"
