@@ -46,14 +46,16 @@ INSTANTIATE_TEST_SUITE_P(
     named_by(&Slip::pointer));
 
 /// Just within and just beyond what is said of each: from foams to osmium, from rubber to what is
-/// meant as rigid, from half a metre to 250 m/s².
+/// meant as rigid, for what is as dense as steel from 1 GPa on, from half a metre to 250 m/s².
 TEST(SizesOutOfProportion, BeginWhereTheyAreSaidTo) {
   struct Edge {
     const char *pointer, *within, *beyond;
+    std::string density = "7850";
   };
   for (const Edge& edge : {Edge{"/scene/materials/steel/density", "10.1", "9.9"},
                            Edge{"/scene/materials/steel/density", "24900", "25100"},
-                           Edge{"/scene/materials/steel/young", "1.01e6", "0.99e6"},
+                           Edge{"/scene/materials/steel/young", "1.01e6", "0.99e6", "1200"},
+                           Edge{"/scene/materials/steel/young", "1.01e9", "0.99e9"},
                            Edge{"/scene/materials/steel/young", "0.99e18", "1.01e18"},
                            Edge{"/scene/gravity", "[0, 0.51, 0]", "[0, 0.49, 0]"},
                            Edge{"/scene/gravity", "[0, 249, 0]", "[0, 251, 0]"}}) {
@@ -64,7 +66,9 @@ TEST(SizesOutOfProportion, BeginWhereTheyAreSaidTo) {
     const Monitors monitors = monitor(analysis->model, analysis->trajectory);
     const auto count = [&](const char* value) {
       problem.scene =
-          sample_problem("slider_crank", {std::string(edge.pointer) + "=" + value}).scene;
+          sample_problem("slider_crank", {"/scene/materials/steel/density=" + edge.density,
+                                          std::string(edge.pointer) + "=" + value})
+              .scene;
       return check_proportions(TrustedRun{problem, x, *analysis, monitors}).size();
     };
     EXPECT_EQ(count(edge.within), 0u) << edge.pointer << " " << edge.within;
