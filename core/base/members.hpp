@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdlib>
 #include <type_traits>
 
 /// The members of a plain struct, in their order and without a list of their names: what is done with
@@ -9,15 +10,15 @@ namespace pleuel {
 
 namespace members {
 
-/// They initialize any member, of a class and else.
+/// They initialize any member, of a class and else, where nothing runs.
 struct OfClass {
   template <class Member>
   requires std::is_class_v<Member>
-  operator Member() const;
+  operator Member() const { std::abort(); }
 };
 struct OfPlainType {
   template <class Member>
-  requires(!std::is_class_v<Member>) operator Member() const;
+  requires(!std::is_class_v<Member>) operator Member() const { std::abort(); }
 };
 
 /// As many as can be initialized.
