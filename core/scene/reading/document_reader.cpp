@@ -29,8 +29,9 @@ void read_heading(const JsonNode& root, ProblemFile& problem) {
                                         "optimizer", "pareto",     "accuracy",    "uncertainty"};
   if (const auto of_case = root.find(case_key)) {
     keys.push_back(case_key);
-    of_case->value().at(0).get_to(problem.load_case);
-    of_case->value().at(1).get_to(problem.case_range);
+    const std::vector<JsonNode> names = of_case->items(2);
+    problem.load_case = names[0].text();
+    if (names[1].value() != "") problem.case_range = names[1].text();
   }
   root.allow_keys(keys);
   if (const auto schema = root.find("$schema")) schema->text();
