@@ -8,7 +8,7 @@
 #include <camd.h>
 #include <klu.h>
 
-#include "core/mechanism/block_factors.hpp"
+#include "core/mechanism/pivoted_factors.hpp"
 
 namespace pleuel {
 
@@ -21,10 +21,7 @@ constexpr double poor = 1e-10;
 /// Where pivots on the diagonal make entries grow all the same, the largest one is the pivot.
 constexpr double full_threshold = 1.0;
 
-/// With so many right-hand sides, more than KLU takes at a time, the factors are copied for all.
-constexpr Eigen::Index least_columns = 5;
-
-using Block = Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+using Block = PivotedFactors::Block;
 
 /// The power of two next to 1/x.
 double inverse_power(double x) {
@@ -48,8 +45,9 @@ std::vector<int> elimination_order(LinearSolver::Matrix& pattern, const std::vec
 struct LinearSolver::Implementation {
   klu_common common;
   klu_symbolic* symbolic = nullptr;
-  klu_numeric* numeric = nullptr;
-  double pivoted_condition = 0.0;  ///< rcond when pivots were last chosen
+  klu_numeric* numeric = nullptr;  ///< for which pivots were last chosen
+  PivotedFactors factors;
+  double pivot_ratio = 0.0, chosen_ratio = 0.0;  ///< of the last factors; when pivots were chosen
   int factorizations = 0;
   bool has_new_pivots = false;
   Matrix matrix;         ///< pattern and the scaled values factorised last
@@ -61,8 +59,6 @@ struct LinearSolver::Implementation {
   Eigen::MatrixXd rhs, residual;              ///< scratch
   Eigen::VectorXd summed_x, summed_residual;  ///< scratch
   double backward_error = 0.0;
-  BlockFactors factors;
-  bool are_factors_copied = false;
 
   int* starts() { return matrix.outerIndexPtr(); }
   int* rows() { return matrix.innerIndexPtr(); }
@@ -106,12 +102,14 @@ struct LinearSolver::Implementation {
     if (numeric == nullptr) return false;
     take(unscaled);
     has_new_pivots = false;
-    are_factors_copied = false;
-    const bool done = klu_refactor(starts(), rows(), values(), symbolic, numeric, &common) != 0;
-    if (!done || common.status != KLU_OK) return false;
-    klu_rcond(symbolic, numeric, &common);
-    // The old pivots still serve unless the condition estimate has dropped a lot.
-    return std::isfinite(common.rcond) && common.rcond > 1e-3 * pivoted_condition;
+    factorize();
+    // The old pivots still serve unless their ratio has dropped a lot.
+    return std::isfinite(pivot_ratio) && pivot_ratio > 1e-3 * chosen_ratio;
+  }
+
+  void factorize() {
+    factors.factorize(matrix);
+    pivot_ratio = factors.pivot_ratio();
   }
 
   bool factorize_with_new_pivots(const Matrix& unscaled) {
@@ -122,41 +120,25 @@ struct LinearSolver::Implementation {
 
   bool choose_pivots() {
     has_new_pivots = true;
-    are_factors_copied = false;
     ++pivot_choices;
     pivoted_values = Eigen::Map<const Eigen::VectorXd>(values(), matrix.nonZeros());
     klu_free_numeric(&numeric, &common);
     numeric = klu_factor(starts(), rows(), values(), symbolic, &common);
     if (numeric == nullptr || common.status != KLU_OK) return false;
-    klu_rcond(symbolic, numeric, &common);
-    pivoted_condition = common.rcond;
-    return std::isfinite(common.rcond) && common.rcond > 0.0;
+    const std::vector<int> row_order(numeric->Pnum, numeric->Pnum + symbolic->n);
+    if (row_order != factors.row_order()) {
+      factors = PivotedFactors(matrix, row_order, {symbolic->Q, symbolic->Q + symbolic->n});
+    }
+    factorize();
+    chosen_ratio = pivot_ratio;
+    return std::isfinite(pivot_ratio) && pivot_ratio > 0.0;
   }
 
   /// Also false if it is not a number.
   bool is_accurate() const { return backward_error <= poor; }
 
-  void copy_factors() {
-    BlockFactors& to = factors;
-    to.resize(symbolic->n, numeric->lnz, numeric->unz, numeric->nzoff, symbolic->nblocks);
-    const int done = klu_extract(
-        numeric, symbolic, to.lower.starts.data(), to.lower.rows.data(), to.lower.values.data(),
-        to.upper.starts.data(), to.upper.rows.data(), to.upper.values.data(),
-        to.above.starts.data(), to.above.rows.data(), to.above.values.data(), to.row_order.data(),
-        to.column_order.data(), nullptr, to.blocks.data(), &common);
-    assert(done != 0);
-    static_cast<void>(done);
-    are_factors_copied = true;
-  }
-
   void solve_scaled(bool is_transposed, Block x) {
-    if (x.cols() >= least_columns) {
-      if (!are_factors_copied) copy_factors();
-      is_transposed ? factors.solve_transposed(x) : factors.solve(x);
-      return;
-    }
-    (is_transposed ? klu_tsolve : klu_solve)(symbolic, numeric, static_cast<int>(x.outerStride()),
-                                             static_cast<int>(x.cols()), x.data(), &common);
+    is_transposed ? factors.solve_transposed(x) : factors.solve(x);
   }
 
   /// left −= A right or Aᵀ right.
@@ -270,11 +252,12 @@ double LinearSolver::backward_error() const {
 }
 
 double LinearSolver::reciprocal_condition() const {
-  return implementation_->common.rcond;
+  return implementation_->pivot_ratio;
 }
 
 double LinearSolver::condition() const {
   Implementation& klu = *implementation_;
+  klu_refactor(klu.starts(), klu.rows(), klu.values(), klu.symbolic, klu.numeric, &klu.common);
   klu_condest(klu.starts(), klu.values(), klu.symbolic, klu.numeric, &klu.common);
   return klu.common.condest;
 }
@@ -284,8 +267,7 @@ int LinearSolver::factorizations() const {
 }
 
 int LinearSolver::factor_entries() const {
-  const Implementation& klu = *implementation_;
-  return klu.numeric == nullptr ? 0 : klu.numeric->lnz + klu.numeric->unz;
+  return implementation_->factors.entries();
 }
 
 LinearSolver::Pivots LinearSolver::pivots() const {

@@ -8,10 +8,10 @@
 namespace pleuel {
 
 /// Sparse LU of matrices with one fixed pattern (KLU: Davis & Palamadai Natarajan 2010): the
-/// ordering once, then numeric refactorisation with the old pivots. Rows and columns are scaled by
-/// powers of two. Pivots and scales are chosen anew where the condition has become worse by a lot,
-/// pivots also where the residual of a solution shows that they are poor: first anew, then without
-/// regard to fill. Many right-hand sides are solved for by rows (block_factors.hpp).
+/// ordering and pivots once, then numeric refactorisation with the old pivots (pivoted_factors.hpp).
+/// Rows and columns are scaled by powers of two. Pivots and scales are chosen anew where the
+/// condition has become worse by a lot, pivots also where the residual of a solution shows that
+/// they are poor: first anew, then without regard to fill.
 class LinearSolver {
  public:
   using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
