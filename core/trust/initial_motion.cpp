@@ -15,6 +15,8 @@ namespace pleuel {
 namespace {
 
 constexpr double small_correction = 0.01;
+/// Of velocities that change alike the first one is told, whatever their round-off.
+constexpr double just_larger = 1.0 + 1e-6;
 
 using Velocity = std::array<Number, 3>;
 
@@ -64,8 +66,8 @@ class InitialMotion {
       const auto see = [&](const char* what, const char* unit, int first, int size) {
         const auto of = [&](const Eigen::VectorXd& all) { return all.segment(first, size); };
         const double difference = of(other).cwiseQuotient(of(scale)).norm();
-        if (size == 0 || difference <= std::max(worst.difference, small_correction * largest))
-          return;
+        const double least = std::max(just_larger * worst.difference, small_correction * largest);
+        if (size == 0 || difference <= least) return;
         worst = {difference, body.name,           what,
                  unit,       of(start_.v).norm(), (of(start_.v) + of(other)).norm()};
       };
