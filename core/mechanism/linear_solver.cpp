@@ -262,6 +262,10 @@ double LinearSolver::condition() const {
   return klu.common.condest;
 }
 
+int LinearSolver::determinant_sign() const {
+  return implementation_->factors.determinant_sign();
+}
+
 int LinearSolver::factorizations() const {
   return implementation_->factorizations;
 }

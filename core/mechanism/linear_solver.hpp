@@ -51,6 +51,9 @@ class LinearSolver {
   /// at the cost of some ten solutions.
   double condition() const;
 
+  /// Of the determinant of the matrix that was factorized last: 1 or −1.
+  int determinant_sign() const;
+
   int factorizations() const;
 
   /// Entries of L and U in the last factorisation: what refactorisation and solution cost.

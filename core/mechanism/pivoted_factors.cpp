@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
-#include <queue>
+#include <bit>
+#include <cstdint>
+#include <numeric>
 #include <type_traits>
 
 #include "core/base/int_size.hpp"
@@ -15,42 +16,67 @@ namespace {
 /// Columns of a block.
 constexpr int width = 4;
 
-using RowLists = std::vector<std::vector<int>>;
-
 std::vector<int> inverse_of(const std::vector<int>& order) {
   std::vector<int> inverse(order.size());
   for (int k = 0; k < int_size(order); ++k) inverse[order[k]] = k;
   return inverse;
 }
 
+/// Numbers below a size, in words of 64 bits.
+class NumberSet {
+ public:
+  explicit NumberSet(std::size_t size) : words_(size / bits + 1) {}
+
+  void add(int number) { words_[number / bits] |= std::uint64_t{1} << (number % bits); }
+  void clear() { std::fill(words_.begin(), words_.end(), 0); }
+  /// The least one from `first` on, or one beyond all.
+  int next(int first) const {
+    std::size_t word = first / bits;
+    std::uint64_t rest = words_[word] & (~std::uint64_t{0} << (first % bits));
+    while (rest == 0) {
+      if (++word == words_.size()) return int_size(words_) * bits;
+      rest = words_[word];
+    }
+    return static_cast<int>(word) * bits + std::countr_zero(rest);
+  }
+
+ private:
+  static constexpr int bits = 64;
+  std::vector<std::uint64_t> words_;
+};
+
 /// Adds to each row what elimination fills in: the rows of U of all that stands left of its
 /// diagonal. Sorts the rows.
-void fill_in(RowLists& rows) {
-  std::vector<int> mark(rows.size(), -1);
+void fill_in(std::vector<std::vector<int>>& rows) {
+  NumberSet columns(rows.size());
   for (int i = 0; i < int_size(rows); ++i) {
-    std::vector<int>& row = rows[i];
-    std::priority_queue<int, std::vector<int>, std::greater<>> left;
-    const auto note = [&](int column) {
-      mark[column] = i;
-      if (column < i) left.push(column);
-    };
-    for (const int column : row) note(column);
-    while (!left.empty()) {
-      const int k = left.top();
-      left.pop();
-      const std::vector<int>& upper = rows[k];
-      for (auto it = std::upper_bound(upper.begin(), upper.end(), k); it != upper.end(); ++it) {
-        if (mark[*it] == i) continue;
-        row.push_back(*it);
-        note(*it);
-      }
+    columns.clear();
+    for (const int column : rows[i]) columns.add(column);
+    for (int k = columns.next(0); k < i; k = columns.next(k + 1)) {
+      for (auto it = rows[k].rbegin(); *it > k; ++it) columns.add(*it);
     }
-    std::sort(row.begin(), row.end());
+    rows[i].clear();
+    for (int k = columns.next(0); k < int_size(rows); k = columns.next(k + 1)) {
+      rows[i].push_back(k);
+    }
   }
 }
 
 int block_of(int column) {
   return column / width;
+}
+
+/// 1 if an even number of exchanges makes it, −1 otherwise.
+int parity(const std::vector<int>& permutation) {
+  std::vector<bool> is_seen(permutation.size(), false);
+  int sign = 1;
+  for (int first = 0; first < int_size(permutation); ++first) {
+    for (int i = first; !is_seen[i]; i = permutation[i]) {
+      is_seen[i] = true;
+      if (permutation[i] != first) sign = -sign;  // a cycle of k has k − 1 exchanges
+    }
+  }
+  return sign;
 }
 
 }  // namespace
@@ -70,12 +96,10 @@ struct PivotedFactors::Layout {
     }
   }
 
-  int find(int row, int wanted) const {
-    const auto first = block.begin() + start[row], last = block.begin() + start[row + 1];
-    return static_cast<int>(std::lower_bound(first, last, wanted) - block.begin());
-  }
   int place(int row, int column) const {
-    return width * find(row, block_of(column)) + column % width;
+    const auto first = block.begin() + start[row], last = block.begin() + start[row + 1];
+    const auto found = std::lower_bound(first, last, block_of(column)) - block.begin();
+    return width * static_cast<int>(found) + column % width;
   }
 };
 
@@ -84,7 +108,7 @@ PivotedFactors::PivotedFactors(const Matrix& pattern, std::vector<int> row_order
     : row_order_(std::move(row_order)), column_order_(std::move(column_order)) {
   const int size = int_size(row_order_);
   const std::vector<int> row_of = inverse_of(row_order_), column_of = inverse_of(column_order_);
-  RowLists rows(size), lower(size), upper(size);
+  RowLists rows(size);
   const auto for_each_entry = [&](const auto& visit) {
     for (int col = 0; col < size; ++col) {
       for (Matrix::InnerIterator it(pattern, col); it; ++it) {
@@ -96,42 +120,56 @@ PivotedFactors::PivotedFactors(const Matrix& pattern, std::vector<int> row_order
   fill_in(rows);
   const Layout layout(rows);
   for_each_entry([&](int row, int column) { places_.push_back(layout.place(row, column)); });
-  for (int i = 0; i < size; ++i) {
-    for (const int column : rows[i]) {
-      if (column < i) lower[column].push_back(i);
-      if (column > i) upper[column].push_back(i);
-    }
-  }
+  rows_.resize(width * int_size(layout.block));
+  place_factors(rows, layout);
+}
+
+void PivotedFactors::place_factors(const RowLists& rows, const Layout& layout) {
+  const int size = int_size(rows);
+  of_lower_ = Columns(rows, [](int row, int column) { return column < row; });
+  of_upper_ = Columns(rows, [](int row, int column) { return column > row; });
   upper_start_ = {0};
+  std::vector<int> first_block, next_target, block_in_row(block_of(size) + 1);
+  int targets = 0;
   for (int k = 0; k < size; ++k) {
     diagonal_.push_back(layout.place(k, k));
     const int first = diagonal_.back() / width, end = layout.start[k + 1];
+    first_block.push_back(first);
     upper_start_.push_back(upper_start_.back() + end - first);
     is_whole_.push_back(layout.block[end - 1] - layout.block[first] == end - 1 - first);
-    for (const int i : lower[k]) {
-      lower_place_.push_back(layout.place(i, k));
-      for (int b = first; b < (is_whole_.back() ? first + 1 : end); ++b) {
-        targets_.push_back(width * layout.find(i, layout.block[b]));
+    next_target.push_back(targets);
+    targets += (is_whole_.back() ? 1 : end - first) * (of_lower_.start[k + 1] - of_lower_.start[k]);
+  }
+  targets_.resize(targets);
+  std::vector<int> next_lower = of_lower_.start, next_upper = of_upper_.start;
+  for (int i = 0; i < size; ++i) {
+    for (int b = layout.start[i]; b < layout.start[i + 1]; ++b) block_in_row[layout.block[b]] = b;
+    for (const int k : rows[i]) {
+      const int place = width * block_in_row[block_of(k)] + k % width;
+      if (k > i) {
+        of_upper_.add(next_upper[k]++, i, place + width * (upper_start_[i] - first_block[i]));
+      } else if (k < i) {
+        of_lower_.add(next_lower[k]++, i, place);
+        const int end = is_whole_[k] ? first_block[k] + 1 : layout.start[k + 1];
+        for (int b = first_block[k]; b < end; ++b) {
+          targets_[next_target[k]++] = width * block_in_row[layout.block[b]];
+        }
       }
     }
-    for (const int i : upper[k]) {
-      upper_place_.push_back(layout.place(i, k) + width * (upper_start_[i] - diagonal_[i] / width));
-    }
   }
-  const auto by_columns = [](const RowLists& lists) {
-    Columns columns{{0}, {}};
-    for (const std::vector<int>& list : lists) {
-      columns.row.insert(columns.row.end(), list.begin(), list.end());
-      columns.start.push_back(int_size(columns.row));
-    }
-    return columns;
-  };
-  of_lower_ = by_columns(lower);
-  of_upper_ = by_columns(upper);
-  rows_.resize(width * int_size(layout.block));
-  lower_.resize(int_size(lower_place_));
+  lower_.resize(int_size(of_lower_.row));
   upper_.resize(width * upper_start_.back());
   inverse_.resize(size);
+}
+
+template <class Has>
+PivotedFactors::Columns::Columns(const RowLists& rows, const Has& has) : start(rows.size() + 1) {
+  for (int i = 0; i < int_size(rows); ++i) {
+    for (const int k : rows[i]) start[k + 1] += has(i, k) ? 1 : 0;
+  }
+  std::partial_sum(start.begin(), start.end(), start.begin());
+  row.resize(start.back());
+  place.resize(start.back());
 }
 
 /// Row k of U is subtracted from all rows below at once: these do not wait for each other.
@@ -153,7 +191,7 @@ void PivotedFactors::factorize(const Matrix& matrix) {
     const double inverse = inverse_(k) = 1.0 / rows[diagonal_[k]];
     for (int i = of_lower_.start[k]; i < of_lower_.start[k + 1]; ++i) {
       // Not back to its place: vectors are not read fast from where a number has just been written.
-      const double factor = lower_(i) = rows[lower_place_[i]] * inverse;
+      const double factor = lower_(i) = rows[of_lower_.place[i]] * inverse;
       if (is_whole_[k]) {
         double* const to = rows + *target++;
         for (int b = 0; b < width * blocks; b += width) Place(to + b) -= factor * Place(upper + b);
@@ -171,8 +209,13 @@ double PivotedFactors::pivot_ratio() const {
   return sizes.minCoeff<Eigen::PropagateNaN>() / sizes.maxCoeff<Eigen::PropagateNaN>();
 }
 
+int PivotedFactors::determinant_sign() const {
+  const bool is_odd = (inverse_.array() < 0.0).count() % 2 != 0;
+  return parity(row_order_) * parity(column_order_) * (is_odd ? -1 : 1);
+}
+
 int PivotedFactors::entries() const {
-  return int_size(lower_place_) + int_size(upper_place_) + int_size(diagonal_);
+  return int_size(of_lower_.row) + int_size(of_upper_.row) + int_size(diagonal_);
 }
 
 namespace {
@@ -220,7 +263,7 @@ void PivotedFactors::solve_group(Block x) {
   for (int k = size - 1; k >= 0; --k) {
     rows(k) = row = inverse_(k) * rows(k);
     for (int i = of_upper_.start[k]; i < of_upper_.start[k + 1]; ++i) {
-      rows(of_upper_.row[i]) -= upper_(upper_place_[i]) * row;
+      rows(of_upper_.row[i]) -= upper_(of_upper_.place[i]) * row;
     }
   }
   rows.give(column_order_, x);
@@ -234,7 +277,7 @@ void PivotedFactors::solve_group_transposed(Block x) {
   for (int k = 0; k < size; ++k) {
     row = rows(k);
     for (int i = of_upper_.start[k]; i < of_upper_.start[k + 1]; ++i) {
-      row -= upper_(upper_place_[i]) * rows(of_upper_.row[i]);
+      row -= upper_(of_upper_.place[i]) * rows(of_upper_.row[i]);
     }
     rows(k) = inverse_(k) * row;
   }

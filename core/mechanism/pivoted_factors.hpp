@@ -29,12 +29,16 @@ class PivotedFactors {
 
   /// min |u_kk| / max |u_kk|: 0 or not finite if a pivot is zero or not finite.
   double pivot_ratio() const;
+  /// Of det A: 1 or −1, if no pivot is zero.
+  int determinant_sign() const;
   /// Of L and U.
   int entries() const;
   const std::vector<int>& row_order() const { return row_order_; }
 
  private:
+  using RowLists = std::vector<std::vector<int>>;
   struct Layout;
+  void place_factors(const RowLists& rows, const Layout& layout);
   template <class Visit>
   void for_each_group(Block x, const Visit& visit);
   template <int Width>
@@ -42,21 +46,29 @@ class PivotedFactors {
   template <int Width>
   void solve_group_transposed(Block x);
 
-  /// Entries of one factor by columns.
+  /// Entries of one factor by columns, and where they stand.
   struct Columns {
-    std::vector<int> start, row;
+    Columns() = default;
+    /// @param has  whether an entry of the rows is one of the factor
+    template <class Has>
+    Columns(const RowLists& rows, const Has& has);
+    void add(int entry, int row_of_entry, int place_of_entry) {
+      row[entry] = row_of_entry;
+      place[entry] = place_of_entry;
+    }
+
+    std::vector<int> start, row, place;
   };
 
   std::vector<int> row_order_, column_order_;
-  std::vector<int> places_;    ///< of the entries of A in rows_
-  std::vector<int> diagonal_;  ///< places of the pivots
-  Eigen::VectorXd rows_;       ///< what is left of the rows of A, in blocks of columns
-  Columns of_lower_, of_upper_;
-  std::vector<int> lower_place_, upper_place_;  ///< of their entries, in rows_ and in upper_
-  Eigen::VectorXd lower_;                       ///< entries of L below its diagonal of ones
-  std::vector<int> upper_start_;                ///< the first block of each row of U, in upper_
-  Eigen::VectorXd upper_;                       ///< blocks of U, with zeros at and before the pivot
-  Eigen::VectorXd inverse_;                     ///< 1 / u_kk
+  std::vector<int> places_;       ///< of the entries of A in rows_
+  std::vector<int> diagonal_;     ///< places of the pivots
+  Eigen::VectorXd rows_;          ///< what is left of the rows of A, in blocks of columns
+  Columns of_lower_, of_upper_;   ///< places in rows_ and in upper_
+  Eigen::VectorXd lower_;         ///< entries of L below its diagonal of ones
+  std::vector<int> upper_start_;  ///< the first block of each row of U, in upper_
+  Eigen::VectorXd upper_;         ///< blocks of U, with zeros at and before the pivot
+  Eigen::VectorXd inverse_;       ///< 1 / u_kk
   std::vector<int> targets_;  ///< where rows of U are subtracted: of each block, or of a whole row
   std::vector<char> is_whole_;  ///< rows of U without gaps: one target for all of their blocks
   std::vector<double> rhs_;     ///< permuted

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/mechanism/balanced_lu.hpp"
+#include "core/mechanism/linear_solver.hpp"
 
 namespace pleuel {
 
@@ -146,7 +146,7 @@ class Follower {
   }
 
   /// The sign of det Φ_z, so completed; 0 where it is singular or cannot be completed.
-  int orientation(const Eigen::VectorXd& q, double time) const {
+  int orientation(const Eigen::VectorXd& q, double time) {
     const auto rows = static_cast<Eigen::Index>(independent_.size());
     const Eigen::Index n = constraints_.coordinates();
     if (rows + free_.cols() != n) return 0;
@@ -160,10 +160,10 @@ class Follower {
     for (Eigen::Index k = 0; k < free_.cols(); ++k) {
       for (Eigen::Index i = 0; i < n; ++i) entries.emplace_back(rows + k, i, free_(i, k));
     }
-    Eigen::SparseMatrix<double> square(n, n);
+    LinearSolver::Matrix square(n, n);
     square.setFromTriplets(entries.begin(), entries.end());
-    BalancedLu lu;
-    return lu.factorize(square) ? lu.determinant_sign() : 0;
+    if (!solver_) solver_.emplace(square);
+    return solver_->factorize(square) ? solver_->determinant_sign() : 0;
   }
 
   SparseRows jacobian_at(const Eigen::VectorXd& q, double time) const {
@@ -275,6 +275,7 @@ class Follower {
   const PathObserver& observer_;
   std::vector<int> independent_;
   Eigen::MatrixXd free_;
+  std::optional<LinearSolver> solver_;  ///< of Φ_z, completed
 };
 
 }  // namespace

@@ -12,8 +12,8 @@
 #include "core/base/rotation_vector.hpp"
 #include "core/linear/elastic_stability.hpp"
 #include "core/linear/free_deformations.hpp"
-#include "core/mechanism/balanced_lu.hpp"
 #include "core/mechanism/configuration.hpp"
+#include "core/mechanism/linear_solver.hpp"
 #include "core/system/linear_forces.hpp"
 
 namespace pleuel {
@@ -304,15 +304,16 @@ Eigen::SparseMatrix<double> Equilibrium::mixed_jacobian(const InitialState& at,
 }
 
 bool Equilibrium::solve_from(const Eigen::VectorXd& target, InitialState& at) {
-  BalancedLu factors;
   Eigen::VectorXd strains = strains_.at(at.state.q);
   double previous = std::numeric_limits<double>::infinity(), least = previous;
   int stuck_steps = 0;
   for (int iteration = 0; iteration < max_newton_steps; ++iteration) {
     const Eigen::SparseMatrix<double> matrix = mixed_jacobian(at, strains);
-    if (!factors.factorize(matrix)) return false;
+    LinearSolver solver(matrix);
+    if (!solver.factorize(matrix)) return false;
     const Eigen::VectorXd left = target - residual(at);
-    const Eigen::VectorXd step = factors.solve(left);
+    Eigen::VectorXd step = left;
+    solver.solve(step);
     if (!step.allFinite()) return false;
     const double size = step.head(n_).cwiseQuotient(mechanism_.scale).lpNorm<Eigen::Infinity>();
     const bool is_stuck = size > 0.3 * previous;
@@ -428,11 +429,13 @@ void Equilibrium::refuse_unstable(const InitialState& start, const InitialState&
 }
 
 Equilibrium::Derivatives Equilibrium::differentiate(const InitialState& solution) {
-  BalancedLu factors;
-  if (!factors.factorize(jacobian(solution))) {
+  const LinearSolver::Matrix matrix = jacobian(solution);
+  LinearSolver solver(matrix);
+  if (!solver.factorize(matrix)) {
     throw SimulationError("the derivatives of the elastic equilibrium are singular");
   }
-  const Eigen::MatrixXd z = -factors.solve(design_derivative(solution));
+  Eigen::MatrixXd z = -design_derivative(solution);
+  solver.solve(z);
   return {z.topRows(n_), z.middleRows(n_, n_), z.middleRows(2 * n_, n_), z.middleRows(3 * n_, m_)};
 }
 

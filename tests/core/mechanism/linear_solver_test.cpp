@@ -3,7 +3,7 @@
 #include <limits>
 #include <random>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
@@ -154,6 +154,39 @@ TEST(LinearSolver, RepeatsWhatAnotherDidWithItsPivots) {
   other.use_pivots({});  // as at the beginning
   ASSERT_TRUE(other.factorize(last.sparseView()));
   EXPECT_EQ(solve(other), solve(fresh));
+}
+
+/// Against the rule of Sarrus.
+TEST(LinearSolver, KnowsTheSignOfTheDeterminant) {
+  int positive = 0;
+  for (int seed = 1; seed <= 40; ++seed) {
+    Eigen::MatrixXd a(3, 3);
+    for (int i = 0; i < 9; ++i) a(i / 3, i % 3) = std::sin(seed * (1.0 + 2.7 * i));
+    if (seed % 3 == 0) a(1, 1) = 0.0;
+    const Eigen::Matrix3d rows = a;
+    const double determinant = rows.row(0).cross(rows.row(1)).dot(rows.row(2));
+    const Matrix matrix = a.sparseView(0.0, 0.0);
+    LinearSolver solver(matrix);
+    ASSERT_TRUE(solver.factorize(matrix));
+    EXPECT_EQ(solver.determinant_sign(), determinant > 0.0 ? 1 : -1) << seed;
+    positive += determinant > 0.0;
+  }
+  EXPECT_GT(positive, 5);
+  EXPECT_LT(positive, 35);
+}
+
+/// An equation in a unit that is 10²¹ times as small: its 10 is no pivot beside the 1 of the other one,
+/// which partial pivoting alone takes it for (and finds x₁ = 0).
+TEST(LinearSolver, TakesNoPivotForItsUnit) {
+  Eigen::MatrixXd dense(2, 2);
+  dense << 10.0, 1e21, 1.0, 1.0;
+  const Matrix matrix = dense.sparseView(0.0, 0.0);
+  const Eigen::Vector2d expected(2.0, 1.0);
+  LinearSolver solver(matrix);
+  ASSERT_TRUE(solver.factorize(matrix));
+  Eigen::MatrixXd x = dense * expected;
+  solver.solve(x);
+  EXPECT_LT((x - expected).norm(), 1e-14);
 }
 
 /// Blocks of many columns take another way than single ones, in groups of which the last is not
