@@ -19,6 +19,8 @@ TEST_F(ReadBack, OfPareto) {
   const auto column = [&](const char* title) { return report.column("pareto.csv", title); };
   for (std::size_t i = 0; i < 3; ++i) {
     const json& point = points.at(i);
+    EXPECT_EQ(point.at("status"), "verified");
+    EXPECT_EQ(point.at("variables").size(), 2u);
     const double limit = point.at("limit"), multiplier = point.at("multiplier");
     EXPECT_NEAR(limit, (0.1 + 0.15 * double(i)) * 1e-3, 1e-12);
     const double bow = point.at("objectives").at("rod_bow");
@@ -193,6 +195,8 @@ TEST_F(ReadBack, OfUncertainty) {
   }
   EXPECT_EQ(parameters.text(parameters.row_of("rod_diameter"), "sampled as"), "normal");
   EXPECT_EQ(parameters.text(parameters.row_of("crank_diameter"), "sampled as"), "uniform");
+  EXPECT_EQ(report.document.at("samples"), 8);
+  EXPECT_EQ(report.files.at("uncertainty.csv")[0].size(), 1u + 3 * 7);  // the mass has no history
   // Of the position, whose response is the end of its history.
   const json& end = report.document.at("responses").at("slider_end");
   const auto last = [&](const char* title) {

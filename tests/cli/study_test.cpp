@@ -9,39 +9,6 @@ namespace {
 
 using ParetoCommand = InProgramFolder;
 
-TEST_F(ParetoCommand, ReportsEveryPointAndWritesThem) {
-  const ProgramRun run =
-      run_program(folder_.path(), joined({"pareto", problem("slider_crank_round"), "--json", "-o",
-                                          "front", "--set", "/pareto/points=3"},
-                                         quick()));
-  const nlohmann::json points = run.document().at("points");
-  ASSERT_EQ(points.size(), 3u) << run.err;
-  for (const auto& point : points) {
-    EXPECT_EQ(point.at("status"), "verified") << point;
-    EXPECT_TRUE(point.at("objectives").contains("crank_and_rod"));
-    EXPECT_TRUE(point.at("objectives").contains("rod_bow"));
-    EXPECT_EQ(point.at("variables").size(), 2u);
-  }
-  EXPECT_EQ(run.exit_code, 0);
-  const auto rows = read_csv(folder_.path() / "front/pareto.csv");
-  ASSERT_EQ(rows.size(), 1u + 3u);
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const auto cell = [&](const std::string& title) {
-      const auto column = std::find(rows.front().begin(), rows.front().end(), title);
-      return rows.at(k + 1).at(std::size_t(column - rows.front().begin()));
-    };
-    const auto& point = points.at(k);
-    EXPECT_EQ(cell("status"), point.at("status"));
-    EXPECT_EQ(std::stod(cell("limit")), point.at("limit"));
-    EXPECT_EQ(std::stod(cell("objective")), point.at("objectives").at("crank_and_rod"));
-    EXPECT_EQ(std::stod(cell("limited")), point.at("objectives").at("rod_bow"));
-    EXPECT_EQ(std::stod(cell("multiplier")), point.at("multiplier"));
-    EXPECT_EQ(std::stod(cell("variable:crank_diameter")),
-              point.at("variables").at("crank_diameter"));
-    EXPECT_EQ(std::stod(cell("variable:rod_diameter")), point.at("variables").at("rod_diameter"));
-  }
-}
-
 TEST_F(ParetoCommand, PutsPointsIntoTheGaps) {
   const std::vector<std::string> words =
       joined({"pareto", problem("slider_crank_round"), "-o", "front", "--set", "/pareto/points=3"},
@@ -120,38 +87,6 @@ TEST(AccuracyCommand, MeasuresEveryCombination) {
 }
 
 using UncertaintyCommand = InProgramFolder;
-
-TEST_F(UncertaintyCommand, ReportsDeviationsAndWritesHistories) {
-  const ProgramRun run =
-      run_program(folder_.path(),
-                  joined({"uncertainty", problem("slider_crank_round"), "--json", "-o", "study",
-                          "--histories", "--jobs", "2", "--set",
-                          R"(/uncertainty={"parameters": {"rod_diameter": {"deviation": "0.1 mm"}},
-                               "samples": 8})"},
-                         quick()));
-  EXPECT_EQ(run.exit_code, 0) << run.err;
-  const nlohmann::json document = run.document();
-  EXPECT_EQ(document.at("samples"), 8);
-  EXPECT_EQ(document.at("parameters").at("rod_diameter").at("deviation"), 1e-4);
-  for (const auto& [name, response] : document.at("responses").items()) {
-    EXPECT_GE(response.at("deviation"), 0.0) << name;
-    ASSERT_EQ(response.at("bounds").size(), 2u);
-    // One normal parameter: three deviations to each side.
-    const double value = response.at("value"), deviation = response.at("deviation");
-    EXPECT_NEAR(response.at("bounds").at(0), value - 3.0 * deviation, 1e-9 * std::abs(value))
-        << name;
-    EXPECT_NEAR(response.at("bounds").at(1), value + 3.0 * deviation, 1e-9 * std::abs(value))
-        << name;
-    EXPECT_TRUE(response.contains("sampled"));
-  }
-  // ρ π/2 d l · 0.1 mm: 7850 kg/m³, 30 and 180 mm.
-  EXPECT_NEAR(document.at("responses").at("crank_and_rod").at("deviation"),
-              7850.0 * 1.5707963267948966 * 0.030 * 0.180 * 1e-4, 1e-9);
-  const auto rows = read_csv(folder_.path() / "study/uncertainty.csv");
-  EXPECT_EQ(rows.front().front(), "time");
-  EXPECT_EQ(rows.front().size(), 1u + 3 * 7);  // the mass has no history
-  EXPECT_GT(rows.size(), 10u);
-}
 
 /// d mass = ρ π/2 d l · 0.1 mm grows with the diameter.
 TEST_F(UncertaintyCommand, IsOfTheDesignThatIsGiven) {
