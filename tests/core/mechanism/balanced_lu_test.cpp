@@ -1,11 +1,9 @@
 #include "core/mechanism/balanced_lu.hpp"
 
-#include <cmath>
-
 #include <Eigen/Geometry>
-#include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::balanced_lu_test {
 namespace {

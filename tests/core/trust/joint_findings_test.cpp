@@ -1,21 +1,64 @@
-/// Joints whose axes do not fit together.
-
-#include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include "core/trust/joint_findings.hpp"
 
 #include "core/base/error.hpp"
-#include "core/trust/joint_findings.hpp"
+#include "core/trust/not_modelled.hpp"
 #include "tests/core/trust/crank_rocker.hpp"
 #include "tests/core/trust/findings_of.hpp"
 #include "tests/support/parameter_name.hpp"
+#include "tests/support/test.hpp"
 
-namespace pleuel::test::misaligned_joints_test {
+namespace pleuel::test::joint_findings_test {
 namespace {
 
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::SizeIs;
+// Springs in joints that turn.
+
+/// ½ J ω² = ½ k φ² at φ = ω √(J/k): with J = 0.1 kg m², k = 10 N m/rad a tenth of ω [s].
+ProblemFile spring_rotor(double speed, const std::string& effects) {
+  return read_scene(fmt::format(
+      R"({{"scene": {{"bodies": {{"rotor": {{"type": "rigid", "at": [0, 0, 0], "mass": 1,
+          "inertia": [0.1, 0.1, 0.1, 0, 0, 0], "angular_velocity": [0, 0, {}]}}}},
+          "joints": {{"bearing": {{"type": "revolute", "bodies": ["ground", "rotor"], "at": [0, 0, 0]}}}},
+          "loads": {{"coil": {{"type": "joint", "joint": "bearing", "stiffness": 10}}}}}},
+          "effects": {}, "simulation": {{"end_time": 0.4, "step": 0.002}}}})",
+      speed, effects));
+}
+
+TEST(JointTurns, AreADoubtBeyondHalfATurnInSpace) {
+  const std::string space = R"({"spatial_motion": "on"})";
+  EXPECT_THAT(findings_of(spring_rotor(30, space), check_joint_turns), IsEmpty());
+  const Finding finding = only(findings_of(spring_rotor(33, space), check_joint_turns));
+  EXPECT_TRUE(finding.is_serious);
+  EXPECT_THAT(finding.text, HasSubstr("the joint \"bearing\" turns by more than half a turn"));
+  EXPECT_THAT(findings_of(spring_rotor(60, "{}"), check_joint_turns), IsEmpty()) << "counted";
+}
+
+/// A damper does not ask how often it has turned.
+TEST(JointTurns, AreNoneOfADamper) {
+  ProblemFile problem = spring_rotor(60, R"({"spatial_motion": "on"})");
+  EXPECT_THAT(findings_of(problem, check_joint_turns), SizeIs(1));
+  auto& coil = std::get<JointForce>(problem.scene.loads[0].element);
+  coil.stiffness = 0.0;
+  coil.damping = 1e-3;
+  EXPECT_THAT(findings_of(problem, check_joint_turns), IsEmpty());
+}
+
+/// What repeats with each turn does not ask either; what has another value after a turn jumps.
+TEST(JointTurns, AreADoubtOfLawsThatDoNotRepeat) {
+  for (const auto& [law, is_counted] : {std::pair("= 0.1 N m/rad*angle", true),
+                                        {"= 0.1 N m*cos(2*angle) + 0.1 N m*t/(1 s)", false}}) {
+    const ProblemFile problem = read_scene(fmt::format(
+        R"({{"scene": {{"bodies": {{"rotor": {{"type": "rigid", "at": [0, 0, 0], "mass": 1,
+            "inertia": [0.1, 0.1, 0.1, 0, 0, 0], "angular_velocity": [0, 0, 60]}}}},
+            "joints": {{"bearing": {{"type": "revolute", "bodies": ["ground", "rotor"], "at": [0, 0, 0]}}}},
+            "loads": {{"cam": {{"type": "torque", "body": "rotor", "at": [0, 0, 0], "direction": [0, 0, 1],
+              "value": {{"type": "expression", "joint": "bearing", "value": "{}"}}}}}}}},
+            "effects": {{"spatial_motion": "on"}}, "simulation": {{"end_time": 0.1, "step": 0.002}}}})",
+        law));
+    EXPECT_THAT(findings_of(problem, check_joint_turns), SizeIs(is_counted ? 1 : 0)) << law;
+  }
+}
+
+// Joints whose axes do not fit together.
 
 /// A door of 10 kg, 1 m wide, on two hinges 2 m apart, whose axes are tilted against each other.
 std::string door(double tilt, const std::string& up = "z", double unit = 1.0) {
@@ -60,11 +103,10 @@ TEST_P(NearlyAlignedHinges, Swing) {
 }
 
 TEST_P(SlightlyTiltedHinges, AreNamed) {
-  const std::vector<Finding> findings = findings_of(read_scene(text_), check_misaligned_joints);
-  ASSERT_THAT(findings, SizeIs(1));
-  EXPECT_TRUE(findings[0].is_serious);
-  EXPECT_THAT(findings[0].text, HasSubstr("\"low\", \"high\""));
-  EXPECT_THAT(findings[0].text, HasSubstr("\"door\""));
+  const Finding finding = only(findings_of(read_scene(text_), check_misaligned_joints));
+  EXPECT_TRUE(finding.is_serious);
+  EXPECT_THAT(finding.text, HasSubstr("\"low\", \"high\""));
+  EXPECT_THAT(finding.text, HasSubstr("\"door\""));
 }
 
 const auto directions = testing::Values("x", "z");
@@ -152,5 +194,72 @@ TEST(MisalignedJoints, OfALoopInSpaceThatIsDrivenAreRedundant) {
   }
 }
 
+// What slides along beams.
+
+/// A mass that is moved along a horizontal arm of 1 m, or beyond its end.
+std::string scene_of_trolley(double from, double way, const std::string& arm) {
+  return fmt::format(
+      R"({{"gravity": [0, -9.81, 0], "bodies": {{
+            "arm": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
+                     "section": {{"type": "circle", "diameter": 0.03}}, "elements": 5{}}},
+            "trolley": {{"type": "point-mass", "at": [{}, 0, 0], "mass": 1}}}},
+          "joints": {{"clamp": {{"type": "fixed", "bodies": ["ground", "arm"], "at": [0, 0, 0]}},
+                      "rail": {{"type": "point-on-line", "bodies": ["arm", "trolley"], "at": [{}, 0, 0],
+                                "axis": [1, 0, 0], "drive": {{"type": "table", "times": [0, 0.2],
+                                                              "values": [0, {}]}}}}}}}})",
+      arm, from, from, way);
+}
+
+ProblemFile trolley(double from, double way, const std::string& arm) {
+  return read_scene(
+      fmt::format(R"({{"scene": {}, "simulation": {{"end_time": 0.2, "step": 0.01}}}})",
+                  scene_of_trolley(from, way, arm)));
+}
+
+/// A carriage whose line goes past the tip of the arm: its force stays at the tip.
+TEST(SlidingContact, IsNoneWhereTheLineBelongsToTheOtherBody) {
+  const ProblemFile problem = read_scene(
+      R"({"scene": {"gravity": [0, -9.81, 0], "bodies": {
+            "arm": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
+                    "section": {"type": "circle", "diameter": 0.03}, "elements": 5},
+            "carriage": {"type": "rigid", "at": [1, 0, 0], "mass": 1,
+                         "inertia": [0.1, 0.1, 0.1, 0, 0, 0]}},
+          "joints": {"clamp": {"type": "fixed", "bodies": ["ground", "arm"], "at": [0, 0, 0]},
+                     "rail": {"type": "prismatic", "bodies": ["ground", "carriage"],
+                              "at": [1, 0, 0], "axis": [1, 0, 0],
+                              "drive": {"type": "table", "times": [0, 0.2], "values": [0, -0.6]}},
+                     "slot": {"type": "point-on-line", "bodies": ["carriage", "arm"],
+                              "at": [1, 0, 0], "axis": [1, 0, 0]}}},
+          "simulation": {"end_time": 0.2, "step": 0.01}})");
+  EXPECT_THAT(findings_of(problem, check_sliding_contacts), IsEmpty());
+}
+
+/// What moves has no bar then; the mass has.
+TEST(SlidingContact, LeavesNumbersWithoutABar) {
+  for (const bool is_elastic : {true, false}) {
+    const ProblemFile problem =
+        read_scene(fmt::format(R"({{"scene": {}, "simulation": {{"end_time": 0.2, "step": 0.01}},
+                        "responses": {{"mass": {{"type": "mass"}},
+                                       "force": {{"type": "drive-force", "joint": "rail", "over_time": "max"}}}}}})",
+                               scene_of_trolley(0.2, 0.6, is_elastic ? "" : R"(, "rigid": true)")));
+    const Trust trust = judge_run(StartRun(problem).run());
+    EXPECT_TRUE(trust.errors[0]->is_modelled);
+    EXPECT_EQ(trust.errors[1]->is_modelled, !is_elastic);
+    EXPECT_FALSE(is_elastic && trust.errors[1]->is_resolved());
+  }
+}
+
+TEST(SlidingContact, IsADoubtWhereItTravelsOverAnElasticBeam) {
+  const Finding finding = only(findings_of(trolley(0.2, 0.6, ""), check_sliding_contacts));
+  EXPECT_TRUE(finding.is_serious);
+  EXPECT_THAT(finding.text, HasSubstr("\"trolley\" slides 0.6 m along the elastic beam \"arm\""));
+  EXPECT_THAT(findings_of(trolley(0.2, 0.6, R"(, "frames": 2)"), check_sliding_contacts),
+              SizeIs(1));
+  EXPECT_THAT(findings_of(trolley(0.2, 0.01, ""), check_sliding_contacts), IsEmpty());
+  EXPECT_THAT(findings_of(trolley(1.0, 0.6, ""), check_sliding_contacts), IsEmpty());
+  EXPECT_THAT(findings_of(trolley(0.2, 0.6, R"(, "rigid": true)"), check_sliding_contacts),
+              IsEmpty());
+}
+
 }  // namespace
-}  // namespace pleuel::test::misaligned_joints_test
+}  // namespace pleuel::test::joint_findings_test
