@@ -1,14 +1,16 @@
-#include <gmock/gmock.h>
+#include <fstream>
+#include <sstream>
 
 #include "tests/cli/program.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::check_test {
 namespace {
 
-TEST(Check, FindsTheDerivativesOfEveryResponseRight) {
-  const TemporaryFolder folder;
-  const ProgramRun run = run_program(
-      folder.path(), joined({"check", problem("slider_crank_round"), "--json"}, quick()));
+using Check = InProgramFolder;
+
+TEST_F(Check, FindsTheDerivativesOfEveryResponseRight) {
+  const ProgramRun run = folder_.run_quick({"check", problem("slider_crank_round"), "--json"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   const nlohmann::json document = run.document();
   ASSERT_EQ(document.at("responses").size(), 8u);  // those of the file
@@ -22,37 +24,31 @@ TEST(Check, FindsTheDerivativesOfEveryResponseRight) {
   }
   EXPECT_EQ(document.at("directions").at(0).size(), 2u);           // both variables together
   for (const nlohmann::json& warning : document.at("warnings")) {  // of the model alone
-    EXPECT_THAT(warning.get<std::string>(), ::testing::HasSubstr("stubby: shear"));
+    EXPECT_THAT(warning.get<std::string>(), HasSubstr("stubby: shear"));
   }
 }
 
-TEST(Check, WarnsOfNoiseAboveTheTolerance) {
-  const TemporaryFolder folder;
+TEST_F(Check, WarnsOfNoiseAboveTheTolerance) {
   const std::vector<std::string> strict =
       joined(joined({"check", problem("slider_crank_round")}, quick()),
              {"--set", "/optimizer/tolerance=1e-13"});
-  EXPECT_THAT(run_program(folder.path(), strict).out,
-              ::testing::HasSubstr("Set /optimizer/tolerance to"));
-  const ProgramRun run = run_program(folder.path(), joined(strict, {"--json", "--jobs", "2"}));
-  EXPECT_THAT(run.document().at("warnings").dump(),
-              ::testing::HasSubstr("Set /optimizer/tolerance to"));
+  EXPECT_THAT(folder_.run(strict).out, HasSubstr("Set /optimizer/tolerance to"));
+  const ProgramRun run = folder_.run(joined(strict, {"--json", "--jobs", "2"}));
+  EXPECT_THAT(run.document().at("warnings").dump(), HasSubstr("Set /optimizer/tolerance to"));
 }
 
-TEST(Check, NamesTheToleranceWhereDerivativesOnlySeemWrong) {
-  const TemporaryFolder folder;
-  const ProgramRun run = run_program(
-      folder.path(), {"check", problem("four_bar"), "--set", "/simulation/step=1 ms", "--set",
-                      "/simulation/end_time=30 ms", "--set", "/simulation/newton_tolerance=1e-3"});
+TEST_F(Check, NamesTheToleranceWhereDerivativesOnlySeemWrong) {
+  const ProgramRun run =
+      folder_.run({"check", problem("four_bar"), "--set", "/simulation/step=1 ms", "--set",
+                   "/simulation/end_time=30 ms", "--set", "/simulation/newton_tolerance=1e-3"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, ::testing::Not(::testing::HasSubstr("DIFFERS")));
-  EXPECT_THAT(run.out, ::testing::HasSubstr("/simulation/newton_tolerance is 0.001"));
+  EXPECT_THAT(run.out, Not(HasSubstr("DIFFERS")));
+  EXPECT_THAT(run.out, HasSubstr("/simulation/newton_tolerance is 0.001"));
 }
 
-TEST(Check, CountsTheFreedomsThatAreLeft) {
-  const TemporaryFolder folder;
+TEST_F(Check, CountsTheFreedomsThatAreLeft) {
   const auto rigid_motion = [&](const std::string& name) {
-    return run_program(folder.path(),
-                       {"check", problem(name), "--json", "--set", "/simulation/end_time=4 ms"})
+    return folder_.run({"check", problem(name), "--json", "--set", "/simulation/end_time=4 ms"})
         .document()
         .at("rigid_motion");
   };
@@ -62,10 +58,8 @@ TEST(Check, CountsTheFreedomsThatAreLeft) {
   EXPECT_EQ(driven.at("drives"), 1);
 }
 
-TEST(Check, GivesAReasonForEveryEffect) {
-  const TemporaryFolder folder;
-  const ProgramRun run = run_program(
-      folder.path(), joined({"check", problem("slider_crank_round"), "--json"}, quick()));
+TEST_F(Check, GivesAReasonForEveryEffect) {
+  const ProgramRun run = folder_.run_quick({"check", problem("slider_crank_round"), "--json"});
   const nlohmann::json document = run.document();
   const auto effect_of = [&](const std::string& name, const std::string& body) {
     for (const auto& effect : document.at("effects")) {
@@ -91,28 +85,167 @@ TEST(Check, GivesAReasonForEveryEffect) {
     const nlohmann::json effect = effect_of(expected.name, expected.body);
     EXPECT_EQ(effect.at("built"), expected.is_built) << effect;
     EXPECT_EQ(effect.at("decision"), expected.decision) << effect;
-    EXPECT_THAT(effect.at("reason").get<std::string>(), ::testing::HasSubstr(expected.reason));
+    EXPECT_THAT(effect.at("reason").get<std::string>(), HasSubstr(expected.reason));
   }
 }
 
-TEST(Check, WarnsOfAnUnstableScheme) {
-  const TemporaryFolder folder;
+TEST_F(Check, WarnsOfAnUnstableScheme) {
   const std::vector<std::string> check = {"check", problem("slider_crank_exudyn"),
                                           "--set", "/simulation/end_time=10 ms",
                                           "--set", "/simulation/spectral_radius=1"};
-  EXPECT_THAT(run_program(folder.path(), check).err, ::testing::HasSubstr("unstable"));
-  const ProgramRun stabilized = run_program(
-      folder.path(), joined(check, {"--set", "/simulation/formulation=stabilized-index-2"}));
+  EXPECT_THAT(folder_.run(check).err, HasSubstr("unstable"));
+  const ProgramRun stabilized =
+      folder_.run(joined(check, {"--set", "/simulation/formulation=stabilized-index-2"}));
   EXPECT_EQ(stabilized.exit_code, 0) << stabilized.err;
-  EXPECT_THAT(stabilized.err, ::testing::Not(::testing::HasSubstr("unstable")));
+  EXPECT_THAT(stabilized.err, Not(HasSubstr("unstable")));
 }
 
-TEST(Check, NeedsNoVariables) {
-  const TemporaryFolder folder;
-  const ProgramRun run = run_program(folder.path(), {"check", problem("slider_crank_exudyn"),
-                                                     "--set", "/simulation/end_time=10 ms"});
+TEST_F(Check, NeedsNoVariables) {
+  const ProgramRun run =
+      folder_.run({"check", problem("slider_crank_exudyn"), "--set", "/simulation/end_time=10 ms"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, ::testing::HasSubstr("a valid problem"));
+  EXPECT_THAT(run.out, HasSubstr("a valid problem"));
+}
+
+// Every command that shows numbers shows what speaks against them.
+
+/// Rubber at 30 rad/s: bends by far more than linear elasticity describes.
+const std::vector<std::string> too_soft = {problem("hard/soft_rod"), "--set",
+                                           "/scene/joints/bearing/drive/speed=30 rad/s", "--set",
+                                           "/simulation/end_time=0.6 s"};
+
+std::vector<std::string> words(const std::string& command, const std::vector<std::string>& more) {
+  return joined(joined({command}, too_soft), more);
+}
+
+void expect_warned(const std::string& command, const std::vector<std::string>& more) {
+  const ProgramFolder folder;
+  const std::vector<std::string> line = joined(words(command, more), {"-o", "run"});
+  const bool has_folder = command != "check" && command != "gradient";
+  const ProgramRun run = folder.run(has_folder ? line : words(command, more));
+  EXPECT_THAT(unwrapped(run.out),
+              AllOf(HasSubstr("Warning: "), HasSubstr("too far for linear elasticity")))
+      << command << run.err;
+}
+
+using Warnings = InProgramFolder;
+
+TEST_F(Warnings, OfADesignThatBendsTooFarAreShownByEveryCommandWithNumbers) {
+  expect_warned("simulate", {});
+  expect_warned("check", {});
+  expect_warned("gradient", {});
+  expect_warned("stability", {});
+  expect_warned("uncertainty", {"--set", R"(/uncertainty={"parameters": {"rod_diameter":
+                                             {"deviation": "0.1 mm"}}})"});
+  expect_warned("accuracy", {"--set", R"(/accuracy={"steps": ["1 ms"], "elements": [2]})"});
+}
+
+/// A limit of 150 where 150 MPa are meant: told with the first design, before the search.
+TEST_F(Warnings, OfALimitWithoutItsUnitComeBeforeTheSearch) {
+  const ProgramRun run = folder_.run(
+      {"optimize", problem("slider_crank_round"), "-o", "run", "--no-report", "--set",
+       "/constraints/crank_strength/upper=150 Pa", "--set", "/optimizer/max_iterations=1", "--set",
+       "/simulation/step=0.5 ms", "--set", "/simulation/end_time=20 ms", "--set",
+       "/scene/joints/bearing/drive/ramp=20 ms"});
+  const std::string text = unwrapped(run.err);
+  EXPECT_THAT(text, HasSubstr("Warning: at the start the limit of \"crank_strength\" is 150 Pa"));
+  EXPECT_THAT(text, HasSubstr("Is a unit missing"));
+}
+
+/// A sentence that is true of many runs is said once, with all of them behind it.
+TEST_F(Warnings, ThatManyRunsShareNameAllOfThem) {
+  const ProgramRun run =
+      folder_.run({"stability", problem("hard/dead_centres"), "-o", "run", "--set",
+                   "/scene/gravity=[0, -981, 0]", "--set", "/simulation/end_time=4 ms"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto document = folder_.result("run");
+  std::string all;
+  for (const auto& formulation : document.at("formulations")) {
+    all += (all.empty() ? "(" : ", ") + ("dead_centres, " + formulation.get<std::string>());
+  }
+  const std::string text = unwrapped(run.out), warning = "Warning: /scene/gravity is 981 m/s²";
+  EXPECT_EQ(document.at("formulations").size(), 7u);
+  EXPECT_THAT(text, HasSubstr(warning));
+  EXPECT_EQ(text.find(warning), text.rfind(warning)) << "said more than once";
+  EXPECT_THAT(text.substr(text.find(warning)), HasSubstr(all + ")"));
+}
+
+/// The sentence is in the documents, too.
+TEST_F(Warnings, AreAListOfEveryDocument) {
+  for (const std::string command : {"simulate", "gradient", "check"}) {
+    const ProgramRun run = folder_.run(words(command, {"--json"}));
+    EXPECT_FALSE(run.document().at("warnings").empty()) << command;
+    // With shear, which would change the deflections of such members by more than 1 %; those of a
+    // crank of 12 mm are too large. Steps that resolve the peak of the rod's bow.
+    const ProgramRun sound = folder_.run(joined(
+        joined({command, problem("slider_crank_round"), "--json"}, quick()),
+        {"--set", "/variables/rod_diameter/start=11 mm", "--set",
+         "/variables/crank_diameter/start=15 mm", "--set", "/simulation/step=0.05 ms", "--set",
+         "/scene/bodies/crank/shear=true", "--set", "/scene/bodies/rod/shear=true"}));
+    EXPECT_EQ(sound.document().at("warnings").dump(), "[]") << command;
+  }
+}
+
+/// The numbers are the same however closely they are looked at; without checks there are no bars, and a
+/// warning says so.
+TEST_F(Warnings, AreLookedForAsCloselyAsIsAskedFor) {
+  const auto simulated = [&](const std::vector<std::string>& more) {
+    return folder_
+        .run(joined(joined({"simulate", problem("slider_crank_round"), "--json"}, quick()),
+                    joined({"--set", "/simulation/step=0.1 ms"}, more)))
+        .document();
+  };
+  const auto none = simulated({"--no-checks"}), usual = simulated({}),
+             all = simulated({"--all-checks"});
+  ASSERT_EQ(none.at("warnings").size(), 1u);
+  EXPECT_THAT(none.at("warnings").at(0).get<std::string>(), HasSubstr("not looked for"));
+  for (const auto& [name, response] : usual.at("responses").items()) {
+    EXPECT_EQ(response.at("value"), none.at("responses").at(name).at("value")) << name;
+    EXPECT_EQ(response.at("value"), all.at("responses").at(name).at("value")) << name;
+    EXPECT_FALSE(none.at("responses").at(name).contains("error")) << name;
+  }
+  const ProgramRun both =
+      folder_.run({"simulate", problem("slider_crank_round"), "--no-checks", "--all-checks"});
+  EXPECT_EQ(both.exit_code, 2);
+}
+
+/// The words of a report stay within a hundred columns; only what a shell is to read is not broken.
+TEST_F(Warnings, FitIntoAHundredColumns) {
+  const std::string text = folder_.run(words("simulate", {})).out;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 110u) << line;
+}
+
+// The table of limits.
+
+/// A beam that is to be three times as high as it is wide: 3 w − h ≤ 0.
+ProgramRun simulate_with_width(const std::string& width) {
+  const ProgramFolder folder;
+  std::ofstream(folder.path() / "bar.json") << R"({"scene": {
+      "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
+                         "elements": 1,
+                         "section": {"type": "rectangle", "width": "= w", "height": "= h"}}},
+      "joints": {"root": {"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}}},
+    "simulation": {"end_time": 0.001, "step": 0.001},
+    "variables": {"w": {"start": "100 mm", "lower": "50 mm", "upper": "500 mm"},
+                  "h": {"start": "300 mm", "lower": "50 mm", "upper": "500 mm"}},
+    "responses": {"m": {"type": "mass"}},
+    "constraints": {"slim": {"linear": {"w": 3, "h": -1}, "upper": 0}}})";
+  return folder.run({"simulate", "bar.json", "--json", "--set", "w=" + width});
+}
+
+/// In floating point three times 0.1 is more than 0.3, by 5.6e-17.
+TEST(LimitOfZeroOnVariables, IsKeptWhereItsTermsCancel) {
+  for (const auto& [width, is_kept] :
+       {std::pair("100 mm", true), std::pair("99.99 mm", true), std::pair("100.0001 mm", false)}) {
+    const ProgramRun run = simulate_with_width(width);
+    EXPECT_EQ(run.exit_code, is_kept ? 0 : 4) << run.err;
+    const nlohmann::json limit = run.document().at("constraints").at("slim");
+    EXPECT_EQ(limit.at("kept"), is_kept) << width;
+    if (std::string(width) == "100 mm") {
+      EXPECT_EQ(limit.at("value"), 0.0);
+    }
+  }
 }
 
 }  // namespace

@@ -52,6 +52,10 @@ std::string quick_line() {
   return line;
 }
 
+std::string quick_run(const std::string& command) {
+  return command + " " + problem("slider_crank_round") + quick_line();
+}
+
 void ComparedRuns::kill_and_end(const std::string& words, const std::string& name, int kills,
                                 std::mt19937& random, int exit_code) const {
   std::uniform_real_distribution<double> seconds(0.02, 0.6);
@@ -68,7 +72,7 @@ void ComparedRuns::kill_and_end(const std::string& words, const std::string& nam
 }
 
 nlohmann::json ComparedRuns::result(const std::string& name) const {
-  return timeless(nlohmann::json::parse(read_file(folder_.path() / name / "result.json")));
+  return timeless(read_json(folder_.path() / name / "result.json"));
 }
 
 CsvRows ComparedRuns::table(const std::string& name, const std::string& file) const {

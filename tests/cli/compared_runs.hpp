@@ -2,17 +2,19 @@
 
 #include <filesystem>
 #include <random>
-#include <string>
 
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/program.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test {
 
 /// The overrides of quick(), for a line of the shell.
 std::string quick_line();
+
+/// A command for the usual mechanism, with these.
+std::string quick_run(const std::string& command);
 
 /// Evaluations in the record of a run.
 int count_evaluations(const std::filesystem::path& folder);
@@ -32,7 +34,7 @@ class ComparedRuns : public testing::Test {
   void kill_and_end(const std::string& words, const std::string& name, int kills,
                     std::mt19937& random, int exit_code = 0) const;
 
-  const TemporaryFolder folder_;
+  const ProgramFolder folder_;
 };
 
 }  // namespace pleuel::test

@@ -1,24 +1,17 @@
-#include <cmath>
 #include <fstream>
 
-#include <gmock/gmock.h>
-
 #include "tests/cli/program.hpp"
+#include "tests/support/test.hpp"
 
 /// Designs that an optimization leaves, run again with --design.
 namespace pleuel::test::design_test {
 namespace {
 
 namespace fs = std::filesystem;
-using ::testing::HasSubstr;
-
-nlohmann::json read_json(const fs::path& path) {
-  return nlohmann::json::parse(read_file(path));
-}
 
 /// The words of a command behind the name of the program.
 std::string without_program(const std::string& command) {
-  EXPECT_THAT(command, ::testing::StartsWith(PLEUEL_PROGRAM));  // as it was called
+  EXPECT_THAT(command, StartsWith(PLEUEL_PROGRAM));  // as it was called
   return command.substr(command.find(' ') + 1);
 }
 
@@ -29,11 +22,11 @@ class FailedDesign : public testing::Test {
                                       "-o",       "run",
                                       "--set",    "/variables/crank_length/start=" + start};
     words.insert(words.end(), more.begin(), more.end());
-    return run_program(folder_.path(), words);
+    return folder_.run(words);
   }
   nlohmann::json dossier() const { return read_json(folder_.path() / "run/failed_design.json"); }
 
-  const TemporaryFolder folder_;
+  const ProgramFolder folder_;
 };
 
 TEST_F(FailedDesign, OfAStartIsKeptWithTheCommandThatMeetsTheSameFailure) {
@@ -45,7 +38,7 @@ TEST_F(FailedDesign, OfAStartIsKeptWithTheCommandThatMeetsTheSameFailure) {
   const std::string command = dossier().at("command");
   EXPECT_THAT(run.out, HasSubstr("run/failed_design.json"));
   EXPECT_THAT(run.out, HasSubstr(command));
-  const ProgramRun again = run_line(folder_.path(), without_program(command));
+  const ProgramRun again = folder_.run_line(without_program(command));
   EXPECT_EQ(again.exit_code, 3);
   EXPECT_EQ(again.err, "pleuel: " + dossier().at("failure").get<std::string>() + "\n");
 }
@@ -53,7 +46,7 @@ TEST_F(FailedDesign, OfAStartIsKeptWithTheCommandThatMeetsTheSameFailure) {
 TEST_F(FailedDesign, OfAStartIsLeftForADesignThatCanBeSimulated) {
   const ProgramRun run = optimize("120 mm");
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  const nlohmann::json result = read_json(folder_.path() / "run/result.json");
+  const nlohmann::json result = folder_.result("run");
   EXPECT_THAT(result.at("message").get<std::string>(), HasSubstr("the start cannot be evaluated"));
   EXPECT_LT(result.at("variables").at("crank_length").at("start"), 0.12);
 }
@@ -72,10 +65,10 @@ TEST_F(FailedDesign, OfASearchIsTheLastOneOfItsHistory) {
   }
   ASSERT_GT(failures, 0);
   EXPECT_EQ(dossier().at("evaluation"), std::stoi(last.front()));
-  const nlohmann::json result = read_json(folder_.path() / "run/result.json");
+  const nlohmann::json result = folder_.result("run");
   EXPECT_EQ(result.at("failed_evaluations"), failures);
   const ProgramRun again =
-      run_line(folder_.path(), without_program(dossier().at("command").get<std::string>()));
+      folder_.run_line(without_program(dossier().at("command").get<std::string>()));
   EXPECT_EQ(again.err, "pleuel: " + dossier().at("failure").get<std::string>() + "\n");
 }
 
@@ -87,12 +80,11 @@ TEST_F(FailedDesign, IsNotThereWhereNoneFailed) {
 /// Responses and gradients at the optimum, from its result.
 TEST_F(FailedDesign, OrAnyOtherOfAResultIsSimulatedExactly) {
   ASSERT_EQ(optimize("90 mm").exit_code, 0);
-  const nlohmann::json optimum = read_json(folder_.path() / "run/result.json");
+  const nlohmann::json optimum = folder_.result("run");
   for (const char* command : {"simulate", "gradient", "check"}) {
-    const ProgramRun run =
-        run_program(folder_.path(), {command, problem("hard/impossible_designs"), "--set",
-                                     "/variables/crank_length/start=90 mm", "--design",
-                                     "run/result.json", "--json"});
+    const ProgramRun run = folder_.run({command, problem("hard/impossible_designs"), "--set",
+                                        "/variables/crank_length/start=90 mm", "--design",
+                                        "run/result.json", "--json"});
     EXPECT_EQ(run.exit_code, 0) << run.err;
     for (const auto& [name, response] : optimum.at("responses").items()) {
       EXPECT_EQ(run.document().at("responses").at(name).at("value"), response.at("value"))
@@ -101,13 +93,14 @@ TEST_F(FailedDesign, OrAnyOtherOfAResultIsSimulatedExactly) {
   }
 }
 
+using DesignOfARun = InProgramFolder;
+
 /// An optimum with steps and elements that were chosen for an accuracy: the commands that look at
 /// it see its numbers, whatever the file has.
-TEST(DesignOfARun, IsSimulatedWithTheSettingOfTheRun) {
-  const TemporaryFolder folder;
+TEST_F(DesignOfARun, IsSimulatedWithTheSettingOfTheRun) {
   const std::string file = problem("hard/impossible_designs");
   const auto run = [&](const std::vector<std::string>& words) {
-    const ProgramRun ended = run_program(folder.path(), joined(words, {"--json"}));
+    const ProgramRun ended = folder_.run(joined(words, {"--json"}));
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     return ended;
   };
@@ -126,8 +119,8 @@ TEST(DesignOfARun, IsSimulatedWithTheSettingOfTheRun) {
     }
   }
   const ProgramRun others =  // where the limits need not be kept
-      run_program(folder.path(), {"simulate", file, "--design", "run", "--json", "--set",
-                                  "/simulation/step=1 ms"});
+      folder_.run(
+          {"simulate", file, "--design", "run", "--json", "--set", "/simulation/step=1 ms"});
   EXPECT_EQ(others.document().at("steps"), 400);
   // Of a file without the key "effects", whose tolerance is part of the setting.
   run({"new", "four-bar", "starter.json"});
@@ -135,22 +128,21 @@ TEST(DesignOfARun, IsSimulatedWithTheSettingOfTheRun) {
   EXPECT_THAT(run({"simulate", "starter.json", "--design", "starter"}).err,
               HasSubstr("/effects/tolerance="));
   const ProgramRun anew =  // which may find that it breaks a limit by a little
-      run_program(folder.path(), {"simulate", file, "--design", "run", "--accuracy", "2%"});
-  EXPECT_THAT(anew.err, testing::Not(HasSubstr(note)));
+      folder_.run({"simulate", file, "--design", "run", "--accuracy", "2%"});
+  EXPECT_THAT(anew.err, Not(HasSubstr(note)));
 }
 
 /// Each load case with its own setting, which stands above what the case says of the step; and the
 /// command line above that.
-TEST(DesignOfARun, IsSimulatedWithTheSettingOfEachLoadCase) {
-  const TemporaryFolder folder;
+TEST_F(DesignOfARun, IsSimulatedWithTheSettingOfEachLoadCase) {
   const auto run = [&](const std::vector<std::string>& words) {
-    const ProgramRun ended = run_program(folder.path(), joined(words, {"--json"}));
+    const ProgramRun ended = folder_.run(joined(words, {"--json"}));
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
     return ended;
   };
-  nlohmann::json problem_of_cases = nlohmann::json::parse(read_file(problem("two_loads")));
+  nlohmann::json problem_of_cases = read_json(problem("two_loads"));
   problem_of_cases["cases"]["heavy"]["/simulation/step"] = "2 ms";
-  std::ofstream(folder.path() / "two.json") << problem_of_cases;
+  std::ofstream(folder_.path() / "two.json") << problem_of_cases;
   const nlohmann::json optimum =
       run({"optimize", "two.json", "-o", "run", "--accuracy", "1%"}).document();
   const nlohmann::json looked =
@@ -163,10 +155,10 @@ TEST(DesignOfARun, IsSimulatedWithTheSettingOfEachLoadCase) {
   const ProgramRun alone = run({"simulate", "two.json", "--design", "run", "--case", "heavy"});
   EXPECT_EQ(alone.document().at("steps"), looked.at("heavy").at("steps"));
   const ProgramRun others =  // coarser steps may break a limit by a little
-      run_program(folder.path(), {"simulate", "two.json", "--design", "run", "--case", "heavy",
-                                  "--set", "/cases/heavy/~1simulation~1step=1 ms", "--json"});
+      folder_.run({"simulate", "two.json", "--design", "run", "--case", "heavy", "--set",
+                   "/cases/heavy/~1simulation~1step=1 ms", "--json"});
   EXPECT_EQ(others.document().at("steps"), 200);
-  EXPECT_THAT(others.err, testing::Not(HasSubstr("/simulation/step")));
+  EXPECT_THAT(others.err, Not(HasSubstr("/simulation/step")));
   // Of one case alone.
   const nlohmann::json heavy =
       run({"optimize", "two.json", "--case", "heavy", "-o", "heavy", "--accuracy", "1%"})
@@ -177,20 +169,18 @@ TEST(DesignOfARun, IsSimulatedWithTheSettingOfEachLoadCase) {
 }
 
 /// A body that has segments now has no number of elements of its own.
-TEST(DesignOfARun, ThatDoesNotFitTheFileLeavesItsSettingWithANote) {
-  const TemporaryFolder folder;
+TEST_F(DesignOfARun, ThatDoesNotFitTheFileLeavesItsSettingWithANote) {
   const std::string file = problem("hard/impossible_designs");
-  run_program(folder.path(), {"optimize", file, "-o", "run", "--accuracy", "5%"});
-  nlohmann::json other = nlohmann::json::parse(read_file(file));
+  folder_.run({"optimize", file, "-o", "run", "--accuracy", "5%"});
+  nlohmann::json other = read_json(file);
   for (auto& [name, body] : other["scene"]["bodies"].items()) {
     if (!body.contains("elements")) continue;
     body["segments"] = {{{"section", body["section"]}, {"elements", body["elements"]}}};
     body.erase("section");
     body.erase("elements");
   }
-  std::ofstream(folder.path() / "other.json") << other;
-  const ProgramRun run =
-      run_program(folder.path(), {"simulate", "other.json", "--design", "run", "--json"});
+  std::ofstream(folder_.path() / "other.json") << other;
+  const ProgramRun run = folder_.run({"simulate", "other.json", "--design", "run", "--json"});
   EXPECT_THAT(run.err, HasSubstr("those of this optimum do not fit"));
   EXPECT_EQ(run.document().at("steps"), 400);  // where the limits need not be kept
 }
@@ -199,14 +189,13 @@ class WrongDesign : public testing::Test {
  protected:
   void expect_complaint(const std::string& design, const std::string& part) const {
     std::ofstream(folder_.path() / "design.json") << design;
-    const ProgramRun run =
-        run_program(folder_.path(), {"simulate", problem("hard/impossible_designs"), "--design",
-                                     (folder_.path() / "design.json").string()});
+    const ProgramRun run = folder_.run({"simulate", problem("hard/impossible_designs"), "--design",
+                                        (folder_.path() / "design.json").string()});
     EXPECT_EQ(run.exit_code, 2);
     EXPECT_EQ(run.err, "pleuel: " + (folder_.path() / "design.json").string() + ": " + part + "\n");
   }
 
-  const TemporaryFolder folder_;
+  const ProgramFolder folder_;
 };
 
 TEST_F(WrongDesign, IsRefusedWithFileAndPlace) {
@@ -237,8 +226,8 @@ TEST_F(WrongDesign, IsRefusedWithFileAndPlace) {
 TEST_F(FailedDesign, MayBeWrittenByHandInAnyUnit) {
   const auto responses = [&](const std::string& design) {
     std::ofstream(folder_.path() / "design.json") << design;
-    return run_program(folder_.path(), {"simulate", problem("hard/impossible_designs"), "--design",
-                                        "design.json", "--json"})
+    return folder_
+        .run({"simulate", problem("hard/impossible_designs"), "--design", "design.json", "--json"})
         .document()
         .at("responses");
   };
@@ -253,12 +242,10 @@ TEST_F(FailedDesign, MayBeWrittenByHandInAnyUnit) {
 class RoundedDesign : public testing::Test {
  protected:
   ProgramRun simulate(const std::vector<std::string>& more) const {
-    return run_program(
-        folder_.path(),
-        joined({"simulate", problem("hard/impossible_designs"), "--json", "-o", "run",
-                "--overwrite", "--set",
-                R"(/constraints={"length": {"linear": {"crank_length": 1}, "upper": "60 mm"}})"},
-               more));
+    return folder_.run(joined(
+        {"simulate", problem("hard/impossible_designs"), "--json", "-o", "run", "--overwrite",
+         "--set", R"(/constraints={"length": {"linear": {"crank_length": 1}, "upper": "60 mm"}})"},
+        more));
   }
   nlohmann::json values(const ProgramRun& run) const {
     const nlohmann::json variables = run.document().at("variables");
@@ -269,7 +256,7 @@ class RoundedDesign : public testing::Test {
     return "rounded.json";
   }
 
-  const TemporaryFolder folder_;
+  const ProgramFolder folder_;
 };
 
 TEST_F(RoundedDesign, IsAFileOfNamesAndValues) {
@@ -324,14 +311,14 @@ TEST_F(RoundedDesign, ThatBreaksALimitIsNoSuccess) {
 TEST_F(RoundedDesign, IsDrawnInAReportThatIsMadeLater) {
   const std::string file = design(R"({"crank_length": "55 mm", "rod_height": "20 mm"})");
   simulate({"--no-report", "--design", file, "--set", "rod_height=21 mm"});
-  const ProgramRun report = run_program(folder_.path(), {"report", "run"});
+  const ProgramRun report = folder_.run({"report", "run"});
   EXPECT_EQ(report.exit_code, 0) << report.err;
-  EXPECT_THAT(report.out, ::testing::Not(HasSubstr("Without the mechanism")));
+  EXPECT_THAT(report.out, Not(HasSubstr("Without the mechanism")));
 }
 
 TEST_F(WrongDesign, ThatIsNotThereIsNamed) {
-  const ProgramRun run = run_program(
-      folder_.path(), {"simulate", problem("hard/impossible_designs"), "--design", "nothing.json"});
+  const ProgramRun run =
+      folder_.run({"simulate", problem("hard/impossible_designs"), "--design", "nothing.json"});
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.err, HasSubstr("nothing.json: there is no such file"));
 }

@@ -1,13 +1,11 @@
-#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 
-#include <gmock/gmock.h>
-
 #include "tests/cli/compared_runs.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/support/source_folder.hpp"
+#include "tests/support/test.hpp"
 
 /// Bodies that a program makes for each design, as users meet them: the rod of docs/invariants/planar_rod.py.
 namespace pleuel::test::generated_body_test {
@@ -15,8 +13,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-using ::testing::AllOf;
-using ::testing::HasSubstr;
 
 const std::string planar_rod = "python3 '" + source_folder() + "/docs/invariants/planar_rod.py'";
 
@@ -198,16 +194,15 @@ TEST_F(GeneratedOptimum, WhereNoBodyCanBeMadeIsNotVerified) {
 /// are differences.
 TEST(SolidRod, IsVerifiedAfterFewCallsOfTheFiniteElementProgram) {
   if (std::system("command -v ccx >/dev/null") != 0) GTEST_SKIP() << "ccx is not installed";
-  const TemporaryFolder folder;
+  const ProgramFolder folder;
   ::setenv("PLEUEL", PLEUEL_PROGRAM, 1);  // that the generator reduces with
   const std::string file = source_folder() + "/problems/conrod/block.json";
-  const ProgramRun run = run_line(
-      folder.path(),
+  const ProgramRun run = folder.run_line(
       "optimize '" + file +
-          "' --allow-programs --no-report --json"
-          R"( --set '/variables={"height": {"start": "30 mm", "lower": "6 mm", "upper": "60 mm"}}')"
-          R"( --set '/scene/bodies/rod/generator/variables={"height": "m"}')"
-          R"( --set '/constraints={"stiffness": {"response": "rod_bow", "upper": "0.2 mm"}}')");
+      "' --allow-programs --no-report --json"
+      R"( --set '/variables={"height": {"start": "30 mm", "lower": "6 mm", "upper": "60 mm"}}')"
+      R"( --set '/scene/bodies/rod/generator/variables={"height": "m"}')"
+      R"( --set '/constraints={"stiffness": {"response": "rod_bow", "upper": "0.2 mm"}}')");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(run.document().at("status"), "verified");
   const fs::directory_iterator bodies(folder.path() / "runs" / "bodies");

@@ -1,26 +1,24 @@
 #include <fstream>
 #include <map>
 
-#include <gmock/gmock.h>
-
 #include "tests/cli/program.hpp"
 #include "tests/support/source_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::invariants_test {
 namespace {
 
-using testing::HasSubstr;
+using Invariants = InProgramFolder;
 
-TEST(Invariants, OfOneBodyAreOneFile) {
-  const TemporaryFolder folder;
-  const ProgramRun run = run_program(folder.path(), {"invariants", problem("slider_crank"),
-                                                     "--body", "rod", "-o", "rod.json", "--json"});
+TEST_F(Invariants, OfOneBodyAreOneFile) {
+  const ProgramRun run = folder_.run(
+      {"invariants", problem("slider_crank"), "--body", "rod", "-o", "rod.json", "--json"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const nlohmann::json written = run.document().at("bodies");
   ASSERT_EQ(written.size(), 1U);
   EXPECT_EQ(written[0].at("file"), "rod.json");
   EXPECT_EQ(written[0].at("variables"), nlohmann::json({"rod_width", "rod_height"}));
-  const auto file = nlohmann::json::parse(read_file(folder.path() / "rod.json"));
+  const auto file = read_json(folder_.path() / "rod.json");
   EXPECT_EQ(file.at("format"), "pleuel-invariants");
   EXPECT_EQ(file.at("coordinates").size(), written[0].at("coordinates").get<std::size_t>());
   // ρ L w h with 7850 kg/m³, 180 mm, 20 mm, 30 mm.
@@ -29,33 +27,31 @@ TEST(Invariants, OfOneBodyAreOneFile) {
               7850 * 0.18 * 0.03, 1e-12);
 }
 
-TEST(Invariants, OfAllElasticBodiesAreARunFolder) {
-  const TemporaryFolder folder;
-  const ProgramRun run = run_program(folder.path(), {"invariants", problem("slider_crank")});
+TEST_F(Invariants, OfAllElasticBodiesAreARunFolder) {
+  const ProgramRun run = folder_.run({"invariants", problem("slider_crank")});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   for (const char* name :
        {"bodies/crank.json", "bodies/rod.json", "run_card.json", "result.json"}) {
-    EXPECT_TRUE(std::filesystem::exists(folder.path() / "runs" / "slider_crank-invariants" / name))
+    EXPECT_TRUE(std::filesystem::exists(folder_.path() / "runs" / "slider_crank-invariants" / name))
         << name;
   }
 }
 
 /// The whole way: written, read in place of the beam, and differentiated.
-TEST(Invariants, TakeThePlaceOfTheBeam) {
-  const TemporaryFolder folder;
+TEST_F(Invariants, TakeThePlaceOfTheBeam) {
   const auto run = [&](std::vector<std::string> words) {
-    ProgramRun result = run_program(folder.path(), joined(std::move(words), quick()));
+    ProgramRun result = folder_.run_quick(std::move(words));
     EXPECT_EQ(result.exit_code, 0) << result.err;
     return result;
   };
   run({"invariants", problem("slider_crank"), "--body", "rod", "-o", "rod.json"});
-  auto document = nlohmann::json::parse(read_file(problem("slider_crank")));
+  auto document = read_json(problem("slider_crank"));
   document["scene"]["bodies"]["rod"] = {{"type", "invariants"},
                                         {"file", "rod.json"},
                                         {"from", {"120 mm", 0, 0}},
                                         {"to", {"300 mm", 0, 0}}};
   document["responses"]["rod_bow"]["at"] = "rod_bow";
-  std::ofstream(folder.path() / "imported.json") << document;
+  std::ofstream(folder_.path() / "imported.json") << document;
   const auto beam = run({"gradient", problem("slider_crank"), "--json"}).document();
   const auto body = run({"gradient", "imported.json", "--json"}).document();
   const auto value = [](const nlohmann::json& of, const char* name) -> double {
@@ -66,23 +62,20 @@ TEST(Invariants, TakeThePlaceOfTheBeam) {
   }
   // Effects of bodies of files are told, but cannot be left out.
   document["scene"]["bodies"]["rod"]["other_designs"] = "linear";
-  std::ofstream(folder.path() / "linear.json") << document;
+  std::ofstream(folder_.path() / "linear.json") << document;
   EXPECT_THAT(run({"check", "linear.json"}).out, HasSubstr("rod_bow"));
   const ProgramRun moved =
-      run_program(folder.path(),
-                  joined({"gradient", "imported.json", "--method", "central-difference"}, quick()));
+      folder_.run_quick({"gradient", "imported.json", "--method", "central-difference"});
   EXPECT_EQ(moved.exit_code, 2);
   EXPECT_THAT(moved.err, HasSubstr("imported.json: /scene/bodies/rod/file is known at the design"));
 }
 
 /// A rod of a file has its pin where the file says, at every design.
-TEST(Invariants, HoldPointsAtTheirPlaces) {
-  const TemporaryFolder folder;
-  ASSERT_EQ(run_program(folder.path(),
-                        {"invariants", problem("slider_crank"), "--body", "rod", "-o", "rod.json"})
+TEST_F(Invariants, HoldPointsAtTheirPlaces) {
+  ASSERT_EQ(folder_.run({"invariants", problem("slider_crank"), "--body", "rod", "-o", "rod.json"})
                 .exit_code,
             0);
-  auto document = nlohmann::json::parse(read_file(problem("slider_crank")));
+  auto document = read_json(problem("slider_crank"));
   nlohmann::json& scene = document["scene"];
   const nlohmann::json reach = {{{"variable", "reach"}}, 0, 0};
   document["variables"]["reach"] = {{"start", "300 mm"}, {"lower", "290 mm"}, {"upper", "310 mm"}};
@@ -91,8 +84,8 @@ TEST(Invariants, HoldPointsAtTheirPlaces) {
       {"type", "invariants"}, {"file", "rod.json"}, {"from", {"120 mm", 0, 0}}, {"to", reach}};
   scene["bodies"]["slider"]["at"] = scene["joints"]["slider_pin"]["at"] = reach;
   scene["joints"]["guide"]["at"] = reach;
-  std::ofstream(folder.path() / "moved.json") << document;
-  const ProgramRun run = run_program(folder.path(), {"check", "moved.json"});
+  std::ofstream(folder_.path() / "moved.json") << document;
+  const ProgramRun run = folder_.run({"check", "moved.json"});
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(run.err,
               HasSubstr("/scene/joints/slider_pin/at must be at a place of the body \"rod\""));
@@ -101,13 +94,12 @@ TEST(Invariants, HoldPointsAtTheirPlaces) {
 
 /// A body that gets thicker and thinner, as solids do by Poisson's effect: the rod of another program with inertia
 /// of displacements across the plane. In space its motion is the same, to round-off of many more equations.
-TEST(Invariants, ThatGetThickerMoveInAPlane) {
-  const TemporaryFolder folder;
+TEST_F(Invariants, ThatGetThickerMoveInAPlane) {
   const std::string docs = source_folder() + "/docs/invariants";
-  const std::string made = (folder.path() / "rod.json").string();
+  const std::string made = (folder_.path() / "rod.json").string();
   ASSERT_EQ(
       std::system(("python3 '" + docs + "/planar_rod.py' '" + made + "' --elements 2").c_str()), 0);
-  auto body = nlohmann::json::parse(read_file(made));
+  auto body = read_json(made);
   body.erase("derivatives");
   body.erase("design");
   auto& of = body.at("invariants");
@@ -121,15 +113,14 @@ TEST(Invariants, ThatGetThickerMoveInAPlane) {
     of["mass_matrix"].push_back({place.first, place.second, value});
   }
   std::ofstream(made) << body;
-  auto document = nlohmann::json::parse(read_file(docs + "/slider_crank.json"));
+  auto document = read_json(docs + "/slider_crank.json");
   document["responses"]["rod_bow"]["at"] = "node 1";
   document["variables"].erase("rod_height");
-  std::ofstream(folder.path() / "crank.json") << document;
+  std::ofstream(folder_.path() / "crank.json") << document;
   const auto values = [&](const std::string& motion) {
-    const ProgramRun run = run_program(
-        folder.path(), joined({"simulate", "crank.json", "--json", "--no-report", "--no-checks",
-                               "--overwrite", "--set", "/effects/spatial_motion=" + motion},
-                              quick()));
+    const ProgramRun run =
+        folder_.run_quick({"simulate", "crank.json", "--json", "--no-report", "--no-checks",
+                           "--overwrite", "--set", "/effects/spatial_motion=" + motion});
     EXPECT_EQ(run.exit_code, 0) << run.err;
     return run.document();
   };
@@ -145,29 +136,27 @@ TEST(Invariants, ThatGetThickerMoveInAPlane) {
 
 /// A factor on all inertia, a density, changes bow and stress of a rod that bends by its own inertia as much as the inverse
 /// of one on its stiffness does.
-TEST(Invariants, HaveGradientsOfTheirOwn) {
-  const TemporaryFolder folder;
+TEST_F(Invariants, HaveGradientsOfTheirOwn) {
   const std::string docs = source_folder() + "/docs/invariants";
-  const std::string made = (folder.path() / "rod.json").string();
+  const std::string made = (folder_.path() / "rod.json").string();
   ASSERT_EQ(
       std::system(("python3 '" + docs + "/planar_rod.py' '" + made + "' --elements 2").c_str()), 0);
-  auto document = nlohmann::json::parse(read_file(docs + "/slider_crank.json"));
+  auto document = read_json(docs + "/slider_crank.json");
   document["responses"]["rod_bow"]["at"] = "node 1";
   for (const char* side : {"width", "height"}) {
     document["scene"]["bodies"]["crank"]["section"][side] = "25 mm";
   }
   document.erase("variables");
-  std::ofstream(folder.path() / "crank.json") << document;
+  std::ofstream(folder_.path() / "crank.json") << document;
   const auto run = [&](const std::string& body) {
-    return run_program(folder.path(), joined({"gradient", "crank.json", "--json", "--no-checks",
-                                              "--by-invariants", body},
-                                             quick()));
+    return folder_.run_quick(
+        {"gradient", "crank.json", "--json", "--no-checks", "--by-invariants", body});
   };
   const ProgramRun found = run("rod");
   ASSERT_EQ(found.exit_code, 0) << found.err;
   const nlohmann::json bow = found.document().at("by_invariants").at("responses").at("rod_bow");
   EXPECT_EQ(bow.at("unit"), "m");
-  const auto body = nlohmann::json::parse(read_file(made));
+  const auto body = read_json(made);
   double of_stiffness = 0.0;
   const auto gradient = bow.at("invariants").at("stiffness");
   for (const nlohmann::json& entry : body.at("invariants").at("stiffness")) {
@@ -183,11 +172,9 @@ TEST(Invariants, HaveGradientsOfTheirOwn) {
   EXPECT_THAT(run("rood").err, HasSubstr("has no body \"rood\""));
 }
 
-TEST(Invariants, RefuseWhatHasNone) {
-  const TemporaryFolder folder;
+TEST_F(Invariants, RefuseWhatHasNone) {
   const auto complaint = [&](const std::vector<std::string>& words) {
-    const ProgramRun run =
-        run_program(folder.path(), joined({"invariants", problem("slider_crank")}, words));
+    const ProgramRun run = folder_.run(joined({"invariants", problem("slider_crank")}, words));
     EXPECT_EQ(run.exit_code, 2);
     return run.err;
   };

@@ -1,21 +1,18 @@
 #include <filesystem>
 #include <fstream>
-#include <string>
 
-#include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/program.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::load_case_test {
 namespace {
 
-using ::testing::HasSubstr;
-using ::testing::Not;
+using LoadCases = InProgramFolder;
 
-TEST(LoadCases, GoThroughSimulateOneAfterTheOther) {
-  const TemporaryFolder folder;
-  const ProgramRun run = run_program(folder.path(), {"simulate", problem("two_loads"), "--json"});
+TEST_F(LoadCases, GoThroughSimulateOneAfterTheOther) {
+  const ProgramRun run = folder_.run({"simulate", problem("two_loads"), "--json"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   const nlohmann::json cases = run.document().at("cases");
   ASSERT_EQ(cases.size(), 2u);
@@ -28,34 +25,31 @@ TEST(LoadCases, GoThroughSimulateOneAfterTheOther) {
   EXPECT_TRUE(cases.at("heavy").at("constraints").contains("rod_strength"));
 }
 
-TEST(LoadCases, AreTakenAloneByTheirNames) {
-  const TemporaryFolder folder;
-  const ProgramRun run = run_program(
-      folder.path(), {"simulate", problem("two_loads"), "--case", "heavy", "-o", "one"});
+TEST_F(LoadCases, AreTakenAloneByTheirNames) {
+  const ProgramRun run =
+      folder_.run({"simulate", problem("two_loads"), "--case", "heavy", "-o", "one"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("two loads [heavy]"));
-  EXPECT_TRUE(std::filesystem::exists(folder.path() / "one" / "trajectory.csv"));
-  const ProgramRun unknown =
-      run_program(folder.path(), {"simulate", problem("two_loads"), "--case", "hevy"});
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "one" / "trajectory.csv"));
+  const ProgramRun unknown = folder_.run({"simulate", problem("two_loads"), "--case", "hevy"});
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_THAT(unknown.err, HasSubstr("did you mean \"heavy\"?"));
 }
 
-TEST(LoadCases, HaveToBeNamedWhereACommandTakesOne) {
-  const TemporaryFolder folder;
+TEST_F(LoadCases, HaveToBeNamedWhereACommandTakesOne) {
   for (const std::string command : {"prices", "stability"}) {
-    const ProgramRun run = run_program(folder.path(), {command, problem("two_loads")});
+    const ProgramRun run = folder_.run({command, problem("two_loads")});
     EXPECT_EQ(run.exit_code, 2) << command;
     EXPECT_THAT(unwrapped(run.err), HasSubstr("--case")) << command;
   }
   const ProgramRun run =
-      run_program(folder.path(), {"stability", problem("two_loads"), "--case", "fast", "--json"});
+      folder_.run({"stability", problem("two_loads"), "--case", "fast", "--json"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_FALSE(run.document().at("formulations").empty());
 }
 
 /// The shipped problem with a number of both cases, and a limit on it.
-std::string with_spread(const TemporaryFolder& folder) {
+std::string with_spread(const ProgramFolder& folder) {
   nlohmann::ordered_json document = nlohmann::ordered_json::parse(read_file(problem("two_loads")));
   document["responses"]["spread"] = {{"type", "expression"},
                                      {"value", "rod_bow[fast] - 2*rod_bow[heavy]"}};
@@ -65,11 +59,10 @@ std::string with_spread(const TemporaryFolder& folder) {
   return file.string();
 }
 
-TEST(LoadCases, MakeNumbersTogether) {
-  const TemporaryFolder folder;
-  const std::string file = with_spread(folder);
+TEST_F(LoadCases, MakeNumbersTogether) {
+  const std::string file = with_spread(folder_);
   for (const std::string command : {"simulate", "gradient"}) {
-    const ProgramRun run = run_program(folder.path(), {command, file, "--json"});
+    const ProgramRun run = folder_.run({command, file, "--json"});
     EXPECT_EQ(run.exit_code, 0) << run.err;
     const nlohmann::json document = run.document();
     const auto entry = [&](const char* name) {
@@ -94,11 +87,10 @@ TEST(LoadCases, MakeNumbersTogether) {
 }
 
 /// What both cases share cancels in a difference: its deviation is that of the difference of slopes.
-TEST(LoadCases, ShareTheirUncertainParameters) {
-  const TemporaryFolder folder;
-  const ProgramRun run = run_program(
-      folder.path(), {"uncertainty", with_spread(folder), "--json", "--set",
-                      R"(/uncertainty={"parameters": {"rod_diameter": {"deviation": "0.1 mm"}}})"});
+TEST_F(LoadCases, ShareTheirUncertainParameters) {
+  const ProgramRun run =
+      folder_.run({"uncertainty", with_spread(folder_), "--json", "--set",
+                   R"(/uncertainty={"parameters": {"rod_diameter": {"deviation": "0.1 mm"}}})"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   const nlohmann::json document = run.document();
   const auto deviation = [](const nlohmann::json& of) {
@@ -111,12 +103,10 @@ TEST(LoadCases, ShareTheirUncertainParameters) {
   EXPECT_NEAR(spread.at("shares").at("rod_diameter").get<double>(), 1.0, 1e-12);
 }
 
-TEST(LoadCases, TellADesignThatBreaksALimitOnSeveral) {
-  const TemporaryFolder folder;
-  const std::string file = with_spread(folder);
+TEST_F(LoadCases, TellADesignThatBreaksALimitOnSeveral) {
+  const std::string file = with_spread(folder_);
   const auto run_with = [&](const std::string& limit) {
-    return run_program(folder.path(),
-                       {"simulate", file, "--no-report", "--set", "rod_diameter=20 mm", "--set",
+    return folder_.run({"simulate", file, "--no-report", "--set", "rod_diameter=20 mm", "--set",
                         "/constraints/evenness/upper=" + limit});
   };
   EXPECT_THAT(run_with("-1 m").out, HasSubstr("BROKEN"));
@@ -124,27 +114,24 @@ TEST(LoadCases, TellADesignThatBreaksALimitOnSeveral) {
   EXPECT_THAT(run_with("1 m").out, Not(HasSubstr("made from several cases is broken")));
 }
 
-TEST(LoadCases, TakenAloneSayWhichLimitsTheyLeaveOut) {
-  const TemporaryFolder folder;
-  const std::string file = with_spread(folder);
-  const ProgramRun alone =
-      run_program(folder.path(), {"simulate", file, "--no-report", "--case", "heavy"});
+TEST_F(LoadCases, TakenAloneSayWhichLimitsTheyLeaveOut) {
+  const std::string file = with_spread(folder_);
+  const ProgramRun alone = folder_.run({"simulate", file, "--no-report", "--case", "heavy"});
   EXPECT_THAT(alone.out,
               HasSubstr("Not looked at, as it takes several cases: the limit evenness."));
-  const ProgramRun all = run_program(folder.path(), {"simulate", file, "--no-report"});
+  const ProgramRun all = folder_.run({"simulate", file, "--no-report"});
   EXPECT_THAT(all.out, Not(HasSubstr("Not looked at")));
 }
 
 /// What is found in the mechanism, after the file has been read: file, place and case.
-TEST(LoadCases, AreNamedWhereOneOfThemCannotBe) {
-  const TemporaryFolder folder;
+TEST_F(LoadCases, AreNamedWhereOneOfThemCannotBe) {
   const auto complaint_with = [&](const std::string& place, const std::string& value) {
     nlohmann::ordered_json document =
         nlohmann::ordered_json::parse(read_file(problem("two_loads")));
     document[nlohmann::ordered_json::json_pointer(place)] = nlohmann::ordered_json::parse(value);
-    const std::filesystem::path file = folder.path() / "two.json";
+    const std::filesystem::path file = folder_.path() / "two.json";
     std::ofstream(file) << document.dump(2);
-    return run_program(folder.path(), {"simulate", file.string(), "--no-report"}).err;
+    return folder_.run({"simulate", file.string(), "--no-report"}).err;
   };
   // The frame of the rod holds its ends.
   EXPECT_THAT(complaint_with("/scene/bodies/rod/initial_deflections",
@@ -157,13 +144,11 @@ TEST(LoadCases, AreNamedWhereOneOfThemCannotBe) {
               HasSubstr("two.json: in the case \"heavy\": /simulation/initial_state: "));
 }
 
-TEST(LoadCases, AreLimitedTogether) {
-  const TemporaryFolder folder;
-  const ProgramRun run = run_program(folder.path(), {"optimize", with_spread(folder), "-o", "run"});
+TEST_F(LoadCases, AreLimitedTogether) {
+  const ProgramRun run = folder_.run({"optimize", with_spread(folder_), "-o", "run"});
   EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
   EXPECT_THAT(run.out, HasSubstr("several"));
-  const nlohmann::json result =
-      nlohmann::json::parse(read_file(folder.path() / "run" / "result.json"));
+  const nlohmann::json result = folder_.result("run");
   const nlohmann::json limit = result.at("constraints").at("evenness");
   EXPECT_LE(limit.at("value"), 0.05e-3 * (1.0 + 1e-6));
   const nlohmann::json& responses = result.at("responses");
@@ -177,48 +162,40 @@ TEST(LoadCases, AreLimitedTogether) {
   // Errors of two cases add up; that of the sum is found from the same runs, to the safety in it.
   EXPECT_NEAR(bound("spread") / (bound("rod_bow [fast]") + 2.0 * bound("rod_bow [heavy]")), 1.0,
               0.5);
-  EXPECT_THAT(read_file(folder.path() / "run" / "history.csv"), HasSubstr("constraint:evenness"));
-  const ProgramRun again =
-      run_program(folder.path(), {"optimize", with_spread(folder), "-o", "run", "--resume"});
+  EXPECT_THAT(read_file(folder_.path() / "run" / "history.csv"), HasSubstr("constraint:evenness"));
+  const ProgramRun again = folder_.run({"optimize", with_spread(folder_), "-o", "run", "--resume"});
   EXPECT_THAT(again.out, HasSubstr("evaluations were known"));
 }
 
 /// The masses are the same in both and nothing has a price: what the verdict speaks of is shown.
-TEST(LoadCases, ShowTheOneWhoseLimitCannotBeKept) {
-  const TemporaryFolder folder;
-  const ProgramRun run = run_program(
-      folder.path(), {"optimize", problem("two_loads"), "-o", "run", "--no-report", "--set",
-                      "/constraints/rod_strength/upper=1 kPa", "--set", "/simulation/step=0.4 ms",
-                      "--set", "/optimizer={\"max_iterations\": 3}"});
+TEST_F(LoadCases, ShowTheOneWhoseLimitCannotBeKept) {
+  const ProgramRun run =
+      folder_.run({"optimize", problem("two_loads"), "-o", "run", "--no-report", "--set",
+                   "/constraints/rod_strength/upper=1 kPa", "--set", "/simulation/step=0.4 ms",
+                   "--set", "/optimizer={\"max_iterations\": 3}"});
   EXPECT_EQ(run.exit_code, 4) << run.err;
-  const nlohmann::json result =
-      nlohmann::json::parse(read_file(folder.path() / "run" / "result.json"));
+  const nlohmann::json result = folder_.result("run");
   EXPECT_THAT(result.at("message").get<std::string>(), HasSubstr("rod_strength [heavy]"));
   EXPECT_EQ(result.at("cases").at("shown"), "heavy");
 }
 
-TEST(LoadCases, SayWhichOfThemDecidesALimit) {
-  const TemporaryFolder folder;
-  const ProgramRun run =
-      run_program(folder.path(), {"optimize", problem("two_loads"), "-o", "run"});
+TEST_F(LoadCases, SayWhichOfThemDecidesALimit) {
+  const ProgramRun run = folder_.run({"optimize", problem("two_loads"), "-o", "run"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  const nlohmann::json result =
-      nlohmann::json::parse(read_file(folder.path() / "run" / "result.json"));
+  const nlohmann::json result = folder_.result("run");
   EXPECT_EQ(result.at("constraints").at("crank_strength [heavy]").at("decides"), true);
   EXPECT_EQ(result.at("constraints").at("crank_strength [fast]").at("decides"), false);
   EXPECT_EQ(result.at("constraints").at("rod_stiffness [fast]").at("case"), "fast");
   EXPECT_EQ(result.at("cases").at("shown"), "heavy");  // its limit costs most
-  EXPECT_TRUE(std::filesystem::exists(folder.path() / "run" / "trajectory-optimum-fast.csv"));
-  const ProgramRun again =
-      run_program(folder.path(), {"optimize", problem("two_loads"), "-o", "run", "--resume"});
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "run" / "trajectory-optimum-fast.csv"));
+  const ProgramRun again = folder_.run({"optimize", problem("two_loads"), "-o", "run", "--resume"});
   EXPECT_THAT(again.out, HasSubstr("evaluations were known"));
-  EXPECT_EQ(nlohmann::json::parse(read_file(folder.path() / "run" / "result.json")).at("variables"),
-            result.at("variables"));
-  const ProgramRun motion = run_program(folder.path(), {"export", "run", "--vtk"});
+  EXPECT_EQ(folder_.result("run").at("variables"), result.at("variables"));
+  const ProgramRun motion = folder_.run({"export", "run", "--vtk"});
   EXPECT_EQ(motion.exit_code, 0) << motion.err;
   EXPECT_THAT(unwrapped(motion.out), HasSubstr("instants of the case \"heavy\" written to"));
-  EXPECT_TRUE(std::filesystem::exists(folder.path() / "run" / "vtk" / "optimum-heavy.pvd"));
-  const ProgramRun drawn = run_program(folder.path(), {"plot", "run", "torque"});
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "run" / "vtk" / "optimum-heavy.pvd"));
+  const ProgramRun drawn = folder_.run({"plot", "run", "torque"});
   EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
 }
 
@@ -251,7 +228,7 @@ class BentCantilever : public testing::Test {
 
   ProgramRun run(const std::vector<std::string>& words) const {
     std::ofstream(folder_.path() / "bar.json") << document_.dump(2);
-    return run_program(folder_.path(), words);
+    return folder_.run(words);
   }
 
   void write_table(const std::string& force) const {
@@ -260,7 +237,7 @@ class BentCantilever : public testing::Test {
   }
 
   nlohmann::ordered_json document_;
-  const TemporaryFolder folder_;
+  const ProgramFolder folder_;
 };
 
 TEST_F(BentCantilever, SaysWhatHasNoNumberOverItsCases) {
@@ -305,7 +282,7 @@ TEST_F(BentCantilever, IsADesignWithAVariableWithoutUnit) {
   ASSERT_EQ(run({"optimize", "bar.json", "-o", "run"}).exit_code, 0);
   const ProgramRun again = run({"simulate", "bar.json", "--design", "run", "--json"});
   EXPECT_EQ(again.exit_code, 0) << again.err;
-  const nlohmann::json best = nlohmann::json::parse(read_file(folder_.path() / "run/result.json"));
+  const nlohmann::json best = folder_.result("run");
   EXPECT_EQ(again.document().at("cases").at("down").at("variables").at("share").at("value"),
             best.at("variables").at("share").at("value"));
 }

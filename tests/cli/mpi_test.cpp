@@ -1,14 +1,9 @@
-#include <fmt/format.h>
-#include <gmock/gmock.h>
-
 #include "tests/cli/compared_runs.hpp"
+#include "tests/support/test.hpp"
 
 /// Runs under mpirun come to the same digits as others.
 namespace pleuel::test::mpi_test {
 namespace {
-
-using ::testing::AllOf;
-using ::testing::HasSubstr;
 
 /// What the file of a problem asks for where samples are drawn.
 constexpr const char* samples =
@@ -43,27 +38,27 @@ class Mpi : public ComparedRuns {
   }
 
   ProgramRun run_ranks(int ranks, const std::string& words) const {
-    return run_line(folder_.path(), "--version >/dev/null; " + mpirun(ranks) + " " + words);
+    return folder_.run_line("--version >/dev/null; " + mpirun(ranks) + " " + words);
   }
 
   /// While two ranks are at work.
   /// @param what  of the shell: $p is mpirun, $e the program of rank 1, $w its worker
   ProgramRun run_meanwhile(const std::string& words, std::string_view what) const {
-    return run_line(folder_.path(), fmt::format("--version >/dev/null; {} {} >out 2>err & p=$!; "
-                                                "{} {}",
-                                                mpirun(2), words, workers_of_rank_1, what));
+    return folder_.run_line(
+        fmt::format("--version >/dev/null; {} {} >out 2>err & p=$!; "
+                    "{} {}",
+                    mpirun(2), words, workers_of_rank_1, what));
   }
 
   /// As one process and its worker does it.
   void run_alone(const std::string& words) const {
-    const ProgramRun run = run_line(folder_.path(), words + " --jobs 1 -o alone");
+    const ProgramRun run = folder_.run_line(words + " --jobs 1 -o alone");
     ASSERT_EQ(run.exit_code, 0) << run.err;
   }
 };
 
 TEST_F(Mpi, DoesNotChangeTheAnswerOfSeveralStarts) {
-  const std::string words =
-      "optimize " + problem("slider_crank_round") + quick_line() + " --no-report --starts 4";
+  const std::string words = quick_run("optimize") + " --no-report --starts 4";
   run_alone(words);
   for (const int ranks : {2, 3, 4}) {
     const ProgramRun run = run_ranks(ranks, fmt::format("{} -o with{}", words, ranks));
@@ -74,8 +69,7 @@ TEST_F(Mpi, DoesNotChangeTheAnswerOfSeveralStarts) {
 }
 
 TEST_F(Mpi, DoesNotChangeTheFront) {
-  const std::string words = "pareto " + problem("slider_crank_round") + quick_line() +
-                            " --no-report --set /pareto/points=4";
+  const std::string words = quick_run("pareto") + " --no-report --set /pareto/points=4";
   run_alone(words);
   for (const int ranks : {2, 3}) {
     const ProgramRun run = run_ranks(ranks, fmt::format("{} -o with{}", words, ranks));
@@ -85,8 +79,7 @@ TEST_F(Mpi, DoesNotChangeTheFront) {
 }
 
 TEST_F(Mpi, DoesNotChangeWhatComesIntoTheGapsOfAFront) {
-  const std::string words = "pareto " + problem("slider_crank_round") + quick_line() +
-                            " --no-report --set /pareto/points=3 --gap 25%";
+  const std::string words = quick_run("pareto") + " --no-report --set /pareto/points=3 --gap 25%";
   run_alone(words);
   const ProgramRun run = run_ranks(2, words + " -o with2");
   EXPECT_EQ(run.exit_code, 0) << run.err;
@@ -94,8 +87,7 @@ TEST_F(Mpi, DoesNotChangeWhatComesIntoTheGapsOfAFront) {
 }
 
 TEST_F(Mpi, DoesNotChangeSamples) {
-  const std::string words =
-      "uncertainty " + problem("slider_crank_round") + quick_line() + samples + " --no-report";
+  const std::string words = quick_run("uncertainty") + samples + " --no-report";
   run_alone(words);
   for (const int ranks : {2, 3}) {
     const ProgramRun run = run_ranks(ranks, fmt::format("{} -o with{}", words, ranks));
@@ -105,8 +97,7 @@ TEST_F(Mpi, DoesNotChangeSamples) {
 }
 
 TEST_F(Mpi, MayLoseAWorkerOrTheProgramOfARank) {
-  const std::string words =
-      "optimize " + problem("slider_crank_round") + quick_line() + " --no-report --starts 4";
+  const std::string words = quick_run("optimize") + " --no-report --starts 4";
   run_alone(words);
   for (const char* lost : {"$w", "$e"}) {
     SCOPED_TRACE(lost);
@@ -120,8 +111,7 @@ TEST_F(Mpi, MayLoseAWorkerOrTheProgramOfARank) {
 
 /// What was interrupted goes on to the same end, with or without ranks.
 TEST_F(Mpi, EndsInGoodOrderAndGoesOn) {
-  const std::string words =
-      "optimize " + problem("slider_crank_round") + quick_line() + " --no-report --starts 8";
+  const std::string words = quick_run("optimize") + " --no-report --starts 8";
   const ProgramRun run = run_meanwhile(
       words + " -o run",
       "i=0; while [ $(cat run/history.csv 2>/dev/null | wc -l) -lt 4 ] && [ $i -lt 3000 ]; do "
@@ -144,16 +134,16 @@ TEST_F(Mpi, BadInputEndsAllRanks) {
 
 /// Nothing of MPI is needed to say so.
 TEST(WithoutMpi, MpirunIsAnsweredByAMessage) {
-  const TemporaryFolder folder;
-  const ProgramRun run = run_line(
-      folder.path(), "--version >/dev/null; cp " PLEUEL_PROGRAM
-                     " .; OMPI_COMM_WORLD_SIZE=2 OMPI_COMM_WORLD_RANK=0 ./pleuel backends");
+  const ProgramFolder folder;
+  const ProgramRun run =
+      folder.run_line("--version >/dev/null; cp " PLEUEL_PROGRAM
+                      " .; OMPI_COMM_WORLD_SIZE=2 OMPI_COMM_WORLD_RANK=0 ./pleuel backends");
   EXPECT_EQ(run.exit_code, 2);
   EXPECT_THAT(unwrapped(run.err), AllOf(HasSubstr("mpirun started 2 of these"),
                                         HasSubstr("libopenmpi-dev"), HasSubstr("--jobs")));
-  const ProgramRun alone = run_line(folder.path(),
-                                    "--version >/dev/null; OMPI_COMM_WORLD_SIZE=1 "
-                                    "OMPI_COMM_WORLD_RANK=0 ./pleuel backends");
+  const ProgramRun alone = folder.run_line(
+      "--version >/dev/null; OMPI_COMM_WORLD_SIZE=1 "
+      "OMPI_COMM_WORLD_RANK=0 ./pleuel backends");
   EXPECT_EQ(alone.exit_code, 0) << alone.err;
 }
 

@@ -1,21 +1,18 @@
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <memory>
 
-#include <gmock/gmock.h>
-
 #include "tests/cli/program.hpp"
 #include "tests/cli/report_data.hpp"
+#include "tests/support/test.hpp"
 
-/// report.html of an optimization: the data that the program puts into the page.
 namespace pleuel::test::optimization_report_test {
 namespace {
 
+// report.html of an optimization: the data that the program puts into the page.
+
 namespace fs = std::filesystem;
 using nlohmann::json;
-using ::testing::HasSubstr;
 
 class OptimizationReport : public ::testing::Test {
  protected:
@@ -40,15 +37,14 @@ ProgramRun OptimizationReport::run_;
 TEST_F(OptimizationReport, IsWrittenBesideTheResultAndSaidSo) {
   EXPECT_THAT(run_.out, HasSubstr("Report: one/report.html"));
   const json data = data_of(folder() / "one/report.html");
-  EXPECT_EQ(data.at("result"), json::parse(read_file(folder() / "one/result.json")));
+  EXPECT_EQ(data.at("result"), read_json(folder() / "one/result.json"));
   EXPECT_EQ(data.at("card").at("command"), "optimize");
   EXPECT_EQ(data.at("files").at("history.csv"), read_file(folder() / "one/history.csv"));
   EXPECT_THAT(read_file(folder() / "one/report.html"), HasSubstr("after the data"));
 }
 
 TEST_F(OptimizationReport, ResultBeginsWithItsVersion) {
-  EXPECT_THAT(read_file(folder() / "one/result.json"),
-              ::testing::StartsWith("{\n  \"version\": 1,\n"));
+  EXPECT_THAT(read_file(folder() / "one/result.json"), StartsWith("{\n  \"version\": 1,\n"));
 }
 
 /// To the seven digits of what is drawn.
@@ -93,8 +89,7 @@ TEST_F(OptimizationReport, ShowsThePlacesOfTheTrajectory) {
 
 /// The drive's torque is a response, too: its peak between steps, on a parabola.
 TEST_F(OptimizationReport, SummarySaysWhatTheDriveNeeds) {
-  const json torque =
-      json::parse(read_file(folder() / "one/result.json")).at("responses").at("torque_peak");
+  const json torque = read_json(folder() / "one/result.json").at("responses").at("torque_peak");
   const std::string begin = "Drive bearing: torque ", arrow = " → ";
   const std::size_t at = run_.out.find(begin);
   ASSERT_NE(at, std::string::npos) << run_.out;
@@ -105,13 +100,13 @@ TEST_F(OptimizationReport, SummarySaysWhatTheDriveNeeds) {
   EXPECT_NEAR(after, torque.at("value").get<double>(), 2e-3 * after);
 }
 
+using Report = InProgramFolder;
+
 /// Peaks of each case's own history, as in the result.
-TEST(Report, OfLoadCasesHasThePicturesOfAll) {
-  const TemporaryFolder folder;
-  const ProgramRun run =
-      run_program(folder.path(), {"optimize", problem("two_loads"), "-o", "run"});
+TEST_F(Report, OfLoadCasesHasThePicturesOfAll) {
+  const ProgramRun run = folder_.run({"optimize", problem("two_loads"), "-o", "run"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  const fs::path page = folder.path() / "run/report.html";
+  const fs::path page = folder_.path() / "run/report.html";
   const json data = data_of(page);
   const json& picture = data.at("picture");
   EXPECT_EQ(picture.at("case"), data.at("result").at("cases").at("shown"));
@@ -131,7 +126,7 @@ TEST(Report, OfLoadCasesHasThePicturesOfAll) {
   EXPECT_EQ(picture.at("units").at("responses").at("rod_bow [fast]").at("name"), "mm");
   EXPECT_EQ(picture.at("units").at("limits").at("rod_strength [heavy]").at("name"), "MPa");
   fs::remove(page);
-  const ProgramRun again = run_program(folder.path(), {"report", "run"});
+  const ProgramRun again = folder_.run({"report", "run"});
   EXPECT_EQ(again.exit_code, 0) << again.err;
   EXPECT_EQ(data_of(page).at("picture"), picture);
 }
@@ -147,18 +142,15 @@ TEST_F(OptimizationReport, CanBeMadeLater) {
 }
 
 /// An optimization may end with effects that it left out where it began.
-TEST(Report, IsOfTheEffectsThatTheResultNames) {
-  const TemporaryFolder folder;
-  const fs::path page = folder.path() / "one/report.html",
-                 result = folder.path() / "one/result.json";
-  run_program(folder.path(),
-              joined({"optimize", problem("slider_crank_round"), "-o", "one", "--set",
-                      "/effects/tolerance=0.03", "--set", "/effects/geometric_stiffening=auto"},
-                     quick()));
+TEST_F(Report, IsOfTheEffectsThatTheResultNames) {
+  const fs::path page = folder_.path() / "one/report.html",
+                 result = folder_.path() / "one/result.json";
+  folder_.run_quick({"optimize", problem("slider_crank_round"), "-o", "one", "--set",
+                     "/effects/tolerance=0.03", "--set", "/effects/geometric_stiffening=auto"});
   const json drawn = data_of(page).at("picture");
-  run_program(folder.path(), {"report", "one"});
+  folder_.run({"report", "one"});
   EXPECT_TRUE(data_of(page).at("picture") == drawn);
-  json document = json::parse(read_file(result));
+  json document = read_json(result);
   int turned = 0;
   for (json& effect : document.at("effects")) {
     if (effect.at("name") != "geometric_stiffening") continue;
@@ -167,7 +159,7 @@ TEST(Report, IsOfTheEffectsThatTheResultNames) {
   }
   EXPECT_EQ(turned, 2);
   std::ofstream(result) << document.dump();
-  const ProgramRun run = run_program(folder.path(), {"report", "one"});
+  const ProgramRun run = folder_.run({"report", "one"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_FALSE(data_of(page).at("picture") == drawn);
 }
@@ -208,7 +200,7 @@ TEST_F(OptimizationReport, OfADamagedResultIsRefused) {
     EXPECT_THAT(run.err, HasSubstr("copy/result.json: is")) << text;
     EXPECT_FALSE(fs::exists(folder() / "copy/report.html")) << text;
   }
-  json result = json::parse(read_file(folder() / "one/result.json"));
+  json result = read_json(folder() / "one/result.json");
   result["variables"]["rod_diameter"]["value"] = "wide";
   EXPECT_THAT(report_with(folder(), "result.json", result.dump()).err,
               HasSubstr("is damaged: the variable \"rod_diameter\" has no value"));
@@ -243,8 +235,86 @@ TEST_F(OptimizationReport, IsNotPromisedWhereItCannotBeWritten) {
   fs::create_directory(folder() / "blocked/report.html");
   const ProgramRun run = run_program(folder(), {"report", "blocked"});
   EXPECT_EQ(run.exit_code, 1);
-  EXPECT_THAT(run.out, ::testing::Not(HasSubstr("Report:")));
+  EXPECT_THAT(run.out, Not(HasSubstr("Report:")));
   EXPECT_THAT(run.err, HasSubstr("blocked/report.html cannot be written"));
+}
+
+// report.html: pages of any run, and where there is none.
+
+/// Damage is a sum over cycles, an integral has the unit of its history times seconds.
+TEST_F(Report, DrawsLimitsOnlyIntoHistoriesThatTheyAreOf) {
+  json file = read_json(problem("slider_crank_round"));
+  file["responses"]["swept"] = {
+      {"type", "deflection"}, {"body", "rod"}, {"at", 0.5}, {"over_time", "integral"}};
+  file["constraints"]["swept_limit"] = {{"response", "swept"}, {"upper", 1}};
+  json& steel = file["scene"]["materials"]["steel"];
+  steel["ultimate_strength"] = "600 MPa";
+  steel["fatigue_strength"] = "900 MPa";
+  steel["fatigue_exponent"] = 8;
+  file["responses"]["damage"] = {
+      {"type", "fatigue-damage"}, {"body", "rod"}, {"criterion", "goodman"}};
+  file["constraints"]["life"] = {{"response", "damage"}, {"upper", 1e-6}};
+  std::ofstream(folder_.path() / "swept.json") << file;
+  const ProgramRun run = folder_.run_quick({"simulate", "swept.json", "-o", "one"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const json responses = data_of(folder_.path() / "one/report.html").at("picture").at("responses");
+  EXPECT_EQ(responses.at("swept").at("limits_history"), false);
+  EXPECT_EQ(responses.at("swept").at("unit").at("name"), "mm s");
+  EXPECT_EQ(responses.at("swept").at("history_unit").at("name"), "mm");
+  EXPECT_EQ(responses.at("damage").at("limits_history"), false);
+  EXPECT_EQ(responses.at("rod_stress").at("limits_history"), true);
+  const ProgramRun drawn = folder_.run({"plot", "one", "swept"});
+  EXPECT_THAT(read_file(folder_.path() / "one/plot-swept.svg"), Not(HasSubstr("class=\"limit\"")))
+      << drawn.out << drawn.err;
+}
+
+std::vector<std::string> simulate(const std::string& name) {
+  return joined({"simulate", problem("slider_crank_round"), "-o", name}, quick());
+}
+
+TEST_F(Report, IsLeftOutIfTheUserSaysSo) {
+  const ProgramRun run = folder_.run(joined(simulate("one"), {"--no-report"}));
+  EXPECT_FALSE(fs::exists(folder_.path() / "one/report.html"));
+  EXPECT_THAT(run.out, Not(HasSubstr("eport")));
+}
+
+TEST_F(Report, WithoutTemplateIsOneSentence) {
+  std::string words;
+  for (const std::string& word : simulate("one")) words += "'" + word + "' ";
+  const ProgramRun run =
+      folder_.run_line(words + "; export PLEUEL_REPORT_TEMPLATE=/nowhere; '" PLEUEL_PROGRAM "' " +
+                       words + " --overwrite");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_FALSE(fs::exists(folder_.path() / "one/report.html"));
+  EXPECT_THAT(unwrapped(run.out), HasSubstr("No report.html: its template is not built"));
+  EXPECT_THAT(unwrapped(run.out), HasSubstr("report one"));
+}
+
+/// A name must not end the script element that holds the data.
+TEST_F(Report, HoldsNamesThatLookLikeTags) {
+  const std::string name = "</script><script>alert(1)</script><!--";
+  json file = read_json(problem("slider_crank_round"));
+  file["name"] = name;
+  std::ofstream(folder_.path() / "tags.json") << file;
+  const ProgramRun run = folder_.run_quick({"simulate", "tags.json", "-o", "one"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const std::string page = read_file(folder_.path() / "one/report.html");
+  EXPECT_EQ(data_of(folder_.path() / "one/report.html").at("picture").at("name"), name);
+  EXPECT_EQ(page.find("<script>alert"), std::string::npos);
+}
+
+TEST_F(Report, OfAnUnknownFolderIsRefused) {
+  const ProgramRun run = folder_.run({"report", "nothing"});
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("nothing/run_card.json: there is no such file"));
+}
+
+TEST_F(Report, OfTooLongANameIsASentence) {
+  const ProgramRun run = folder_.run(joined(simulate(std::string(300, 'a')), {}));
+  EXPECT_EQ(run.exit_code, 2);
+  EXPECT_THAT(run.err, HasSubstr("File name too long"));
+  EXPECT_THAT(run.err, Not(HasSubstr("fault of the program")));
+  EXPECT_LT(run.err.size(), 250u);
 }
 
 }  // namespace

@@ -1,28 +1,21 @@
-#include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
 
-#include <fmt/format.h>
-#include <gmock/gmock.h>
-
 #include "tests/cli/program.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::optimize_test {
 namespace {
-
-using ::testing::AllOf;
-using ::testing::HasSubstr;
-using ::testing::Not;
 
 std::vector<std::string> quick_optimization(const std::vector<std::string>& more) {
   return joined(joined({"optimize", problem("slider_crank_round")}, quick()), more);
 }
 
-TEST(Optimize, GivesADocumentWithTheDocumentedKeys) {
-  const TemporaryFolder folder;
-  const ProgramRun run = run_program(folder.path(), quick_optimization({"--json"}));
+using Optimize = InProgramFolder;
+
+TEST_F(Optimize, GivesADocumentWithTheDocumentedKeys) {
+  const ProgramRun run = folder_.run(quick_optimization({"--json"}));
   EXPECT_EQ(run.exit_code, 0) << run.err;
   const nlohmann::json document = run.document();
   for (const char* key :
@@ -46,12 +39,11 @@ TEST(Optimize, GivesADocumentWithTheDocumentedKeys) {
 }
 
 /// A screen of 80 columns and 40 lines has the whole answer; --verbose has the audit, too.
-TEST(Optimize, FitsAScreen) {
-  const TemporaryFolder folder;
+TEST_F(Optimize, FitsAScreen) {
   const std::vector<std::string> words = {"optimize", problem("slider_crank"), "--set",
                                           "/simulation/step=0.2 ms"};
   ::setenv("COLUMNS", "80", 1);
-  const ProgramRun run = run_program(folder.path(), joined(words, {"-o", "one"}));
+  const ProgramRun run = folder_.run(joined(words, {"-o", "one"}));
   ::unsetenv("COLUMNS");
   EXPECT_EQ(run.exit_code, 0) << run.err;
   std::istringstream lines(run.out);
@@ -63,16 +55,15 @@ TEST(Optimize, FitsAScreen) {
   EXPECT_LE(count, 40);
   EXPECT_THAT(run.out,
               AllOf(HasSubstr("\nVERIFIED: every limit holds; "), Not(HasSubstr("Audit: "))));
-  const ProgramRun verbose = run_program(folder.path(), joined(words, {"--verbose", "-o", "two"}));
+  const ProgramRun verbose = folder_.run(joined(words, {"--verbose", "-o", "two"}));
   EXPECT_THAT(verbose.out, AllOf(HasSubstr("\nAudit: a local optimum: "),
                                  HasSubstr("at +1 % limit"), HasSubstr("\nDrive bearing: ")));
 }
 
 /// Whatever makes the gradients, the optimum is the same: within the tolerance of the optimizer.
-TEST(Optimize, MayUseAnyGradients) {
-  const TemporaryFolder folder;
+TEST_F(Optimize, MayUseAnyGradients) {
   const auto optimum = [&](const std::vector<std::string>& more) {
-    const ProgramRun run = run_program(folder.path(), quick_optimization(joined({"--json"}, more)));
+    const ProgramRun run = folder_.run(quick_optimization(joined({"--json"}, more)));
     EXPECT_EQ(run.exit_code, 0) << run.err;
     return run.document();
   };
@@ -109,11 +100,10 @@ void expect_number_shown(const std::string& word, double value, double digits = 
 }
 
 /// The document in SI, the tables in mm and MPa.
-TEST(Optimize, ShowsTheNumbersOfItsDocumentInUnitsOfTheUser) {
-  const TemporaryFolder folder;
-  const ProgramRun run = run_program(folder.path(), quick_optimization({"-o", "run", "--verbose"}));
+TEST_F(Optimize, ShowsTheNumbersOfItsDocumentInUnitsOfTheUser) {
+  const ProgramRun run = folder_.run(quick_optimization({"-o", "run", "--verbose"}));
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  const auto document = nlohmann::json::parse(read_file(folder.path() / "run/result.json"));
+  const auto document = folder_.result("run");
   EXPECT_THAT(run.out, HasSubstr("VERIFIED"));
   for (const auto& [name, variable] : document.at("variables").items()) {
     const auto row = table_row(run.out, name);  // name, start, optimum, lower, upper, unit
@@ -145,7 +135,7 @@ TEST(Optimize, ShowsTheNumbersOfItsDocumentInUnitsOfTheUser) {
     ++priced;
     expect_number_shown(row.at(7), price * unit, 5e-3);
     // More room for stress or deflection saves mass: the sign is minus.
-    EXPECT_THAT(row.at(8), ::testing::StartsWith("−"));
+    EXPECT_THAT(row.at(8), StartsWith("−"));
     EXPECT_NEAR(std::stod(row.at(8).substr(std::string("−").size())), price * limit / objective,
                 0.0051)
         << "percent of the objective at one more percent of the limit";
@@ -154,10 +144,9 @@ TEST(Optimize, ShowsTheNumbersOfItsDocumentInUnitsOfTheUser) {
 }
 
 /// Iterations are those of the backend, designs of the audit are none.
-TEST(Optimize, TellsStepsFromTheAuditInItsHistory) {
-  const TemporaryFolder folder;
-  const ProgramRun run = run_program(folder.path(), quick_optimization({"-o", "run"}));
-  const auto rows = read_csv(folder.path() / "run/history.csv");
+TEST_F(Optimize, TellsStepsFromTheAuditInItsHistory) {
+  const ProgramRun run = folder_.run(quick_optimization({"-o", "run"}));
+  const auto rows = read_csv(folder_.path() / "run/history.csv");
   const auto& titles = rows.front();
   const auto column = [&](const std::string& title) {
     return static_cast<std::size_t>(std::find(titles.begin(), titles.end(), title) -
@@ -175,28 +164,24 @@ TEST(Optimize, TellsStepsFromTheAuditInItsHistory) {
   }
   EXPECT_GE(audits, 6);
   EXPECT_THAT(run.out, HasSubstr("audit"));
-  EXPECT_THAT(run.out, ::testing::Not(HasSubstr(fmt::format("\n  {:>9}  ", last + 1))));
+  EXPECT_THAT(run.out, Not(HasSubstr(fmt::format("\n  {:>9}  ", last + 1))));
 }
 
-TEST(Optimize, StartsInItsTablesWhereTheRunBegan) {
-  const TemporaryFolder folder;
-  std::ofstream(folder.path() / "design.json")
+TEST_F(Optimize, StartsInItsTablesWhereTheRunBegan) {
+  std::ofstream(folder_.path() / "design.json")
       << R"({"variables": {"crank_diameter": {"value": 0.025}, "rod_diameter": {"value": 0.020}}})";
-  const ProgramRun run =
-      run_program(folder.path(), quick_optimization({"-o", "run", "--design", "design.json",
-                                                     "--set", "/optimizer/max_iterations=1"}));
-  const auto document = nlohmann::json::parse(read_file(folder.path() / "run/result.json"));
+  const ProgramRun run = folder_.run(quick_optimization(
+      {"-o", "run", "--design", "design.json", "--set", "/optimizer/max_iterations=1"}));
+  const auto document = folder_.result("run");
   EXPECT_EQ(document.at("variables").at("crank_diameter").at("start"), 0.025) << run.err;
   EXPECT_EQ(document.at("variables").at("rod_diameter").at("start"), 0.020);
   expect_number_shown(table_row(run.out, "crank_diameter").at(1), 25.0);
   expect_number_shown(table_row(run.out, "rod_diameter").at(1), 20.0);
 }
 
-TEST(Optimize, CannotVerifyWhatNoDesignCanKeep) {
-  const TemporaryFolder folder;
+TEST_F(Optimize, CannotVerifyWhatNoDesignCanKeep) {
   const ProgramRun run =
-      run_program(folder.path(),
-                  quick_optimization({"--json", "--set", "/constraints/rod_stiffness/upper=1e-9 mm",
+      folder_.run(quick_optimization({"--json", "--set", "/constraints/rod_stiffness/upper=1e-9 mm",
                                       "--set", "/optimizer/max_iterations=10"}));
   EXPECT_EQ(run.exit_code, 4) << run.err;
   const nlohmann::json document = run.document();
@@ -205,11 +190,11 @@ TEST(Optimize, CannotVerifyWhatNoDesignCanKeep) {
   EXPECT_THAT(message, HasSubstr("rod_stiffness ≤ 1e-09 mm cannot be kept"));
   EXPECT_THAT(message, HasSubstr("One change would do: rod_stiffness ≤ 0.00"));
   EXPECT_TRUE(document.at("least_violation").at("proven"));
-  EXPECT_THAT(message, ::testing::Not(HasSubstr("between")));
+  EXPECT_THAT(message, Not(HasSubstr("between")));
   for (const auto& [name, constraint] : document.at("constraints").items()) {
     EXPECT_FALSE(constraint.contains("multiplier")) << name << ": a price where none can be";
   }
-  const auto rows = read_csv(folder.path() / "runs/slider_crank_round-optimize/history.csv");
+  const auto rows = read_csv(folder_.path() / "runs/slider_crank_round-optimize/history.csv");
   const auto column = std::find(rows.front().begin(), rows.front().end(), "max_violation");
   double least = document.at("max_violation");
   for (std::size_t k = 1; k < rows.size(); ++k) {
@@ -219,55 +204,44 @@ TEST(Optimize, CannotVerifyWhatNoDesignCanKeep) {
   EXPECT_NEAR(document.at("max_violation"), least, 1e-12 * least);
 }
 
-TEST(Optimize, WithoutTimeToFinishItIsNotVerified) {
-  const TemporaryFolder folder;
-  const ProgramRun run =
-      run_program(folder.path(), quick_optimization({"--set", "/optimizer/max_iterations=2"}));
+TEST_F(Optimize, WithoutTimeToFinishItIsNotVerified) {
+  const ProgramRun run = folder_.run(quick_optimization({"--set", "/optimizer/max_iterations=2"}));
   EXPECT_EQ(run.exit_code, 4) << run.err;
   EXPECT_THAT(run.out, HasSubstr("NOT VERIFIED"));
 }
 
 /// Coarser steps have room, half of them do not.
-TEST(Optimize, NamesTheRunThatWouldTellItsErrors) {
-  const TemporaryFolder folder;
-  const ProgramRun run = run_program(
-      folder.path(), {"optimize", problem("slider_crank_round"), "--set", "/simulation/step=0.4 ms",
-                      "--set", R"(/sensitivity={"memory": "60 kB"})", "--no-report"});
+TEST_F(Optimize, NamesTheRunThatWouldTellItsErrors) {
+  const ProgramRun run =
+      folder_.run({"optimize", problem("slider_crank_round"), "--set", "/simulation/step=0.4 ms",
+                   "--set", R"(/sensitivity={"memory": "60 kB"})", "--no-report"});
   EXPECT_EQ(run.exit_code, 4) << run.err;
   EXPECT_THAT(unwrapped(run.out),
               AllOf(HasSubstr("A run that would tell failed: /sensitivity/memory is too little"),
                     Not(HasSubstr("nan"))));
 }
 
-TEST(Optimize, AStartThatCannotBeSimulatedIsASimulationFailure) {
-  const TemporaryFolder folder;
+TEST_F(Optimize, AStartThatCannotBeSimulatedIsASimulationFailure) {
   const ProgramRun run =
-      run_program(folder.path(),
-                  quick_optimization({"--json", "--set", "/simulation/max_newton_iterations=1"}));
+      folder_.run(quick_optimization({"--json", "--set", "/simulation/max_newton_iterations=1"}));
   EXPECT_EQ(run.exit_code, 3) << run.err;
   EXPECT_EQ(run.document().at("status"), "failed");
 }
 
 /// Rubber at 30 rad/s bends too far for linear elasticity, wherever one iteration leads.
-TEST(Optimize, SaysWhereLinearElasticityIsLeft) {
-  const TemporaryFolder folder;
-  const ProgramRun run =
-      run_program(folder.path(), {"optimize", problem("hard/soft_rod"), "--set",
-                                  "/scene/joints/bearing/drive/speed=30 rad/s", "--set",
-                                  R"(/objective={"minimize": "rod_bow"})", "--set",
-                                  R"(/optimizer={"max_iterations": 1})"});
+TEST_F(Optimize, SaysWhereLinearElasticityIsLeft) {
+  const ProgramRun run = folder_.run({"optimize", problem("hard/soft_rod"), "--set",
+                                      "/scene/joints/bearing/drive/speed=30 rad/s", "--set",
+                                      R"(/objective={"minimize": "rod_bow"})", "--set",
+                                      R"(/optimizer={"max_iterations": 1})"});
   EXPECT_THAT(unwrapped(run.out), HasSubstr("too far for linear elasticity"));
-  const auto result =
-      nlohmann::json::parse(read_file(folder.path() / "runs/soft_rod-optimize/result.json"));
+  const auto result = read_json(folder_.path() / "runs/soft_rod-optimize/result.json");
   EXPECT_GT(result.at("monitors").at("elastic_rotation"), 0.2);
-  EXPECT_THAT(run_program(folder.path(), quick_optimization({})).out,
-              ::testing::Not(HasSubstr("linear elasticity")));
+  EXPECT_THAT(folder_.run(quick_optimization({})).out, Not(HasSubstr("linear elasticity")));
 }
 
-TEST(Optimize, BackendOfTheCommandLineWinsOverThatOfTheFile) {
-  const TemporaryFolder folder;
-  const ProgramRun run =
-      run_program(folder.path(), quick_optimization({"--json", "--backend", "ipopt"}));
+TEST_F(Optimize, BackendOfTheCommandLineWinsOverThatOfTheFile) {
+  const ProgramRun run = folder_.run(quick_optimization({"--json", "--backend", "ipopt"}));
   EXPECT_EQ(run.document().at("backend"), "ipopt");
   EXPECT_EQ(run.document().at("status"), "verified");
 }

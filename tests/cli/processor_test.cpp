@@ -1,19 +1,16 @@
 #include <cstdlib>
 
-#include <fmt/format.h>
-#include <gmock/gmock.h>
 #include <sys/wait.h>
 
 #include "tests/cli/program.hpp"
+#include "tests/support/test.hpp"
 
 /// The check for instructions that the program was built for, before anything else runs.
 namespace pleuel::test::processor_test {
 namespace {
 
-using testing::HasSubstr;
-
 ProgramRun run_without(const std::string& instructions) {
-  const TemporaryFolder folder;
+  const ProgramFolder folder;
   const std::string out = (folder.path() / "out").string(), err = (folder.path() / "err").string();
   const int status = std::system(
       fmt::format("LACKING='{}' '{}' >'{}' 2>'{}'", instructions, PLEUEL_OLD_PROCESSOR, out, err)

@@ -5,11 +5,10 @@
 #include <iterator>
 #include <sstream>
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 
 #include "tests/support/source_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test {
 
@@ -79,6 +78,14 @@ std::string unwrapped(const std::string& text) {
 std::string read_file(const fs::path& path) {
   std::ifstream stream(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+nlohmann::json read_json(const fs::path& path) {
+  return nlohmann::json::parse(read_file(path));
+}
+
+ProgramRun ProgramFolder::run_quick(const std::vector<std::string>& words) const {
+  return run(joined(words, quick()));
 }
 
 CsvRows read_csv(const fs::path& path) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "tests/support/csv_text.hpp"
@@ -26,6 +27,27 @@ ProgramRun run_program(const std::filesystem::path& folder, const std::vector<st
 
 /// The same with the words as a line for the shell, and whatever it shall do afterwards.
 ProgramRun run_line(const std::filesystem::path& folder, const std::string& line);
+
+nlohmann::json read_json(const std::filesystem::path& path);
+
+/// A folder of its own, for runs of the program.
+class ProgramFolder : public TemporaryFolder {
+ public:
+  ProgramRun run(const std::vector<std::string>& words) const { return run_program(path(), words); }
+  /// With the overrides of quick() behind the words.
+  ProgramRun run_quick(const std::vector<std::string>& words) const;
+  ProgramRun run_line(const std::string& line) const { return test::run_line(path(), line); }
+  /// The document that a run left in a folder of this one.
+  nlohmann::json result(const std::string& name) const {
+    return read_json(path() / name / "result.json");
+  }
+};
+
+/// Tests of runs in a folder of their own.
+class InProgramFolder : public testing::Test {
+ protected:
+  const ProgramFolder folder_;
+};
 
 /// A problem file of the repository.
 std::string problem(const std::string& name);

@@ -1,16 +1,11 @@
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <map>
-#include <string>
-#include <vector>
-
-#include <gmock/gmock.h>
 
 #include "tests/cli/program.hpp"
 #include "tests/cli/text_table.hpp"
+#include "tests/support/test.hpp"
 
 /// What people read: every number of tables and CSV files is read back and compared with the
 /// document, in millimetres and megapascals. Units are converted by factors of the test.
@@ -40,10 +35,10 @@ struct Report {
 
 /// @param words  command, file, and options, which come after those of quick()
 inline Report run(const std::vector<std::string>& words, int exit_code = 0) {
-  const TemporaryFolder folder;
-  const ProgramRun run = run_program(
-      folder.path(), joined(joined(joined({words[0], words[1]}, {"-o", "run"}), quick()),
-                            {words.begin() + 2, words.end()}));
+  const ProgramFolder folder;
+  const ProgramRun run =
+      folder.run(joined(joined(joined({words[0], words[1]}, {"-o", "run"}), quick()),
+                        {words.begin() + 2, words.end()}));
   EXPECT_EQ(run.exit_code, exit_code) << run.err;
   Report report;
   report.text = run.out;

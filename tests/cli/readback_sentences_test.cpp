@@ -1,6 +1,5 @@
-#include <fmt/format.h>
-
 #include "tests/cli/readback.hpp"
+#include "tests/support/test.hpp"
 
 /// Numbers in sentences and in tables of the model, read back.
 namespace pleuel::test::readback_sentences_test {
@@ -16,7 +15,9 @@ std::string behind(const std::string& text, const std::string& words) {
   return at == std::string::npos ? "nan" : line.substr(at + words.size(), 24);
 }
 
-TEST(ReadBackSentences, OfSimulate) {
+using ReadBackSentences = InProgramFolder;
+
+TEST_F(ReadBackSentences, OfSimulate) {
   const Report report = run({"simulate", file, "--set", "/simulation/formulation=index-1"});
   const json& monitors = report.document.at("monitors");
   expect_shown(behind(report.text, "are kept to "), "1", monitors.at("position_drift"));
@@ -25,32 +26,31 @@ TEST(ReadBackSentences, OfSimulate) {
   EXPECT_GT(monitors.at("position_drift"), 0.0);
   EXPECT_NE(monitors.at("position_drift"), monitors.at("velocity_drift"));
   // 20 ms by 0.2 ms.
-  EXPECT_THAT(report.text, testing::HasSubstr(": 100 steps of 0.0002 s, "));
+  EXPECT_THAT(report.text, HasSubstr(": 100 steps of 0.0002 s, "));
 }
 
 /// One step that is too long: Newton's method needs it in two halves.
-TEST(ReadBackSentences, OfStepsThatWereSplit) {
-  const TemporaryFolder folder;
+TEST_F(ReadBackSentences, OfStepsThatWereSplit) {
   const auto report = [&](const std::string& step) {
-    const ProgramRun run = run_program(
-        folder.path(), joined(joined({"simulate", file, "-o", "run", "--overwrite"}, quick()),
-                              {"--set", "/simulation/resolution_check=false", "--set",
-                               "/simulation/max_newton_iterations=3", "--set",
-                               "/simulation/step=" + step, "--set", "/simulation/end_time=2 ms"}));
+    const ProgramRun run =
+        folder_.run(joined(joined({"simulate", file, "-o", "run", "--overwrite"}, quick()),
+                           {"--set", "/simulation/resolution_check=false", "--set",
+                            "/simulation/max_newton_iterations=3", "--set",
+                            "/simulation/step=" + step, "--set", "/simulation/end_time=2 ms"}));
     EXPECT_EQ(run.exit_code, 0) << run.err;
-    return std::pair(unwrapped(run.out), json::parse(read_file(folder.path() / "run/result.json")));
+    return std::pair(unwrapped(run.out), folder_.result("run"));
   };
   const auto [split, of_split] = report("2 ms");
   EXPECT_EQ(of_split.at("split_steps"), 1);
   EXPECT_EQ(of_split.at("steps"), 2);
-  EXPECT_THAT(split, testing::HasSubstr("Newton's method failed in 1 steps, which were split"));
+  EXPECT_THAT(split, HasSubstr("Newton's method failed in 1 steps, which were split"));
   const auto [whole, of_whole] = report("0.1 ms");
   EXPECT_EQ(of_whole.at("split_steps"), 0);
-  EXPECT_THAT(whole, testing::Not(testing::HasSubstr("Newton's method failed")));
+  EXPECT_THAT(whole, Not(HasSubstr("Newton's method failed")));
 }
 
 /// With too few iterations: what is left open, and what it took.
-TEST(ReadBackSentences, OfAnOptimumThatIsNotVerified) {
+TEST_F(ReadBackSentences, OfAnOptimumThatIsNotVerified) {
   const Report report = run({"optimize", file, "--set", "/optimizer/max_iterations=2"}, 4);
   const json& document = report.document;
   expect_shown(behind(report.text, "KKT residual "), "1", document.at("kkt_residual"));
@@ -60,7 +60,7 @@ TEST(ReadBackSentences, OfAnOptimumThatIsNotVerified) {
 }
 
 /// What was chosen is said, and can be passed on as it is said.
-TEST(ReadBackSentences, OfAChosenSetting) {
+TEST_F(ReadBackSentences, OfAChosenSetting) {
   const Report report = run({"simulate", file, "--accuracy", "0.5%"});
   const json& setting = report.document.at("setting");
   EXPECT_EQ(setting.at("target"), 0.005);
@@ -80,7 +80,7 @@ TEST(ReadBackSentences, OfAChosenSetting) {
   }
 }
 
-TEST(ReadBackSentences, OfWhatEffectsBring) {
+TEST_F(ReadBackSentences, OfWhatEffectsBring) {
   const Report report = run({"simulate", file, "--effects"});
   const TextTable table(report.text, "without");
   const json& responses = report.document.at("responses");
@@ -120,10 +120,10 @@ TEST(ReadBackSentences, OfWhatEffectsBring) {
 }
 
 /// Grams: what changes of all responses make of the optimum by the prices of the limits.
-TEST(ReadBackSentences, OfWhatEffectsBringInGrams) {
+TEST_F(ReadBackSentences, OfWhatEffectsBringInGrams) {
   const Report report = run({"optimize", file, "--effects"});
   const json& document = report.document;
-  const json limits = json::parse(read_file(file)).at("constraints");
+  const json limits = read_json(file).at("constraints");
   const TextTable table(report.text, "without");
   std::size_t row = 0, priced = 0;
   for (const json& effect : document.at("effects")) {
@@ -147,10 +147,10 @@ TEST(ReadBackSentences, OfWhatEffectsBringInGrams) {
 
 /// Without --effects the table has the effects that matter by the numbers of the document: more than
 /// 0.1 % of a response or of the optimum. A sentence counts the rest.
-TEST(ReadBackSentences, OfWhichEffectsMatter) {
+TEST_F(ReadBackSentences, OfWhichEffectsMatter) {
   const Report report = run({"optimize", file, "--verbose"});
   const json& document = report.document;
-  const json limits = json::parse(read_file(file)).at("constraints");
+  const json limits = read_json(file).at("constraints");
   const std::string text = unwrapped(report.text);
   std::size_t listed = 0, measured = 0;
   for (const json& effect : document.at("effects")) {
@@ -170,27 +170,27 @@ TEST(ReadBackSentences, OfWhichEffectsMatter) {
     ++measured;
   }
   ASSERT_EQ(measured, 4u);  // two of the crank, two of the rod; elasticity cannot be left out
-  EXPECT_THAT(text, testing::HasSubstr("elasticity (crank, rod) cannot be left out"));
-  EXPECT_THAT(text, testing::HasSubstr("--effects shows all."));
+  EXPECT_THAT(text, HasSubstr("elasticity (crank, rod) cannot be left out"));
+  EXPECT_THAT(text, HasSubstr("--effects shows all."));
   const bool has_table = text.find(" without of unknowns iterations optimum ") != std::string::npos;
   EXPECT_EQ(has_table, listed > 0);
   if (has_table) {
     EXPECT_EQ(TextTable(report.text, "without").rows(), listed);
   }
   if (listed < measured) {
-    EXPECT_THAT(text, testing::ContainsRegex(fmt::format(
+    EXPECT_THAT(text, ContainsRegex(fmt::format(
                           "({} further effects? changes? nothing|All effects change nothing)",
                           measured - listed)));
   }
 }
 
 /// The verdict in plain words has the error that the document has.
-TEST(ReadBackSentences, OfAVerdictInPlainWords) {
+TEST_F(ReadBackSentences, OfAVerdictInPlainWords) {
   const Report report = run({"optimize", file, "--verbose"});
   const std::string checked = report.document.at("checked");
-  EXPECT_THAT(unwrapped(report.text), testing::HasSubstr("In plain words: " + checked + "."));
-  EXPECT_THAT(checked, testing::HasSubstr("every limit holds; no design nearby that keeps them is "
-                                          "lighter; "));
+  EXPECT_THAT(unwrapped(report.text), HasSubstr("In plain words: " + checked + "."));
+  EXPECT_THAT(checked, HasSubstr("every limit holds; no design nearby that keeps them is "
+                                 "lighter; "));
   const json& objective = report.document.at("objective");
   const double error = objective.at("error").at("total").get<double>();
   expect_shown(behind(checked, "change crank_and_rod by "), "1",
@@ -201,14 +201,14 @@ TEST(ReadBackSentences, OfAVerdictInPlainWords) {
 
 /// An optimum whose numbers are not known as well as the file asks for is not verified, whatever
 /// its gradients say.
-TEST(ReadBackSentences, OfAnOptimumThatIsNotResolved) {
+TEST_F(ReadBackSentences, OfAnOptimumThatIsNotResolved) {
   const Report report = run({"optimize", file, "--set", "/scene/bodies/rod/elements=1", "--set",
                              "/scene/bodies/crank/elements=1"},
                             4);
   EXPECT_EQ(report.document.at("status"), "unresolved");
   const std::string text = unwrapped(report.text);
-  EXPECT_THAT(text, testing::HasSubstr(" NOT VERIFIED (unresolved): optimal by its numbers, but "));
-  EXPECT_THAT(text, testing::Not(testing::HasSubstr("VERIFIED:")));
+  EXPECT_THAT(text, HasSubstr(" NOT VERIFIED (unresolved): optimal by its numbers, but "));
+  EXPECT_THAT(text, Not(HasSubstr("VERIFIED:")));
   // Nor is its design called an optimum in the table.
   const TextTable table(report.text, "variable");
   EXPECT_TRUE(table.has("end"));
@@ -216,17 +216,17 @@ TEST(ReadBackSentences, OfAnOptimumThatIsNotResolved) {
 }
 
 /// Points of which nothing is proven are no front, in the exit code either.
-TEST(ReadBackSentences, OfAFrontThatIsNotVerified) {
+TEST_F(ReadBackSentences, OfAFrontThatIsNotVerified) {
   const Report report =
       run({"pareto", file, "--set", "/pareto/points=2", "--set", "/optimizer/max_iterations=2"}, 4);
   EXPECT_EQ(report.document.at("status"), "done");  // all points were looked for
   for (const json& point : report.document.at("points")) EXPECT_NE(point.at("status"), "verified");
   const std::string text = unwrapped(report.text);
-  EXPECT_THAT(text, testing::HasSubstr("; 0 of 2 points verified"));
-  EXPECT_THAT(text, testing::HasSubstr("NOT VERIFIED: limit 0.1"));
+  EXPECT_THAT(text, HasSubstr("; 0 of 2 points verified"));
+  EXPECT_THAT(text, HasSubstr("NOT VERIFIED: limit 0.1"));
 }
 
-TEST(ReadBackSentences, OfAccuracy) {
+TEST_F(ReadBackSentences, OfAccuracy) {
   const Report report = run({"accuracy", file, "--verbose", "--set",
                              R"(/accuracy={"steps": ["0.4 ms", "0.2 ms"], "elements": [2, 4],
                                            "target": 0.5})"});
@@ -253,33 +253,32 @@ TEST(ReadBackSentences, OfAccuracy) {
     const std::string sentence =
         fmt::format("For {:g} % {}", 100.0 * one.at("error").get<double>(),
                     one.at("values").is_null() ? "none of these settings" : "take a step of ");
-    EXPECT_THAT(text, testing::HasSubstr(sentence));
+    EXPECT_THAT(text, HasSubstr(sentence));
     if (one.at("values").is_null()) break;  // what is more exact is not said
   }
   // One row is marked, and it is that one.
-  EXPECT_THAT(report.text, testing::ContainsRegex(fmt::format("\n *{:g} +{} .*← recommended\n",
-                                                              1e3 * best.at("step").get<double>(),
-                                                              best.at("elements").get<int>())));
+  EXPECT_THAT(report.text, ContainsRegex(fmt::format("\n *{:g} +{} .*← recommended\n",
+                                                     1e3 * best.at("step").get<double>(),
+                                                     best.at("elements").get<int>())));
   EXPECT_EQ(report.text.find("← recommended"), report.text.rfind("← recommended"));
 }
 
 /// What nothing drives is left to the forces, be it one freedom only; and a beam is as heavy as all
 /// of its frames.
-TEST(ReadBackSentences, OfMechanismsThatForcesMove) {
-  const TemporaryFolder folder;
+TEST_F(ReadBackSentences, OfMechanismsThatForcesMove) {
   const auto checked = [&](const std::string& name, const std::vector<std::string>& more) {
-    return unwrapped(
-        run_program(folder.path(), joined({"check", problem(name), "--jobs", "1", "--set",
-                                           "/simulation/resolution_check=false"},
-                                          more))
-            .out);
+    return unwrapped(folder_
+                         .run(joined({"check", problem(name), "--jobs", "1", "--set",
+                                      "/simulation/resolution_check=false"},
+                                     more))
+                         .out);
   };
   EXPECT_THAT(checked("hard/dead_centres", {"--set", "/simulation/end_time=4 ms"}),
-              testing::HasSubstr("(none of drives): 1 freedom is left to the forces"));
-  const std::string divided =
-      run_program(folder.path(), joined(joined({"check", file, "--jobs", "1"}, quick()),
-                                        {"--set", "/scene/bodies/rod/frames=3"}))
-          .out;
+              HasSubstr("(none of drives): 1 freedom is left to the forces"));
+  const std::string divided = folder_
+                                  .run(joined(joined({"check", file, "--jobs", "1"}, quick()),
+                                              {"--set", "/scene/bodies/rod/frames=3"}))
+                                  .out;
   const TextTable bodies(divided, "body");
   const std::size_t rod = bodies.row_of("rod");
   EXPECT_EQ(bodies.number(rod, "frames"), 3);
@@ -288,7 +287,7 @@ TEST(ReadBackSentences, OfMechanismsThatForcesMove) {
 }
 
 /// A sum of variables with its coefficients: 2 · 30 − 30 mm of the 10 mm that are allowed.
-TEST(ReadBackSentences, OfALimitOfVariables) {
+TEST_F(ReadBackSentences, OfALimitOfVariables) {
   const Report report =
       run({"simulate", file, "--set",
            R"(/constraints/sizes={"linear": {"crank_diameter": 2, "rod_diameter": -1},
@@ -304,12 +303,11 @@ TEST(ReadBackSentences, OfALimitOfVariables) {
 }
 
 /// Crank and rod of eight elements: rigid coordinates x, y, φ of bodies and x, y of the point mass.
-TEST(ReadBackSentences, OfCheck) {
-  const TemporaryFolder folder;
+TEST_F(ReadBackSentences, OfCheck) {
   const std::vector<std::string> words =
       joined({"check", file, "--jobs", "1", "--effects"}, quick());
-  const std::string text = run_program(folder.path(), words).out;
-  const json document = run_program(folder.path(), joined(words, {"--json"})).document();
+  const std::string text = folder_.run(words).out;
+  const json document = folder_.run(joined(words, {"--json"})).document();
   const TextTable bodies(text, "body"), effects(text, "effect");
   for (const auto& body : document.at("bodies")) {
     const std::size_t row = bodies.row_of(body.at("name"));
@@ -324,7 +322,7 @@ TEST(ReadBackSentences, OfCheck) {
   }
   const json& motion = document.at("rigid_motion");
   EXPECT_THAT(unwrapped(text),
-              testing::HasSubstr(fmt::format(
+              HasSubstr(fmt::format(
                   "Rigid motion: {} coordinates, {} independent constraints ({} of drives): the "
                   "drives prescribe it",
                   motion.at("coordinates").get<int>(), motion.at("constraints").get<int>(),

@@ -1,8 +1,7 @@
 #include <fstream>
 
-#include <fmt/format.h>
-
 #include "tests/cli/readback.hpp"
+#include "tests/support/test.hpp"
 
 /// Studies, read back.
 namespace pleuel::test::readback_study_test {
@@ -10,7 +9,9 @@ namespace {
 
 using nlohmann::json;
 
-TEST(ReadBack, OfPareto) {
+using ReadBack = InProgramFolder;
+
+TEST_F(ReadBack, OfPareto) {
   const Report report = run({"pareto", file, "--set", "/pareto/points=3"});
   const TextTable table(report.text, "limit [mm]");
   const json& points = report.document.at("points");
@@ -18,6 +19,8 @@ TEST(ReadBack, OfPareto) {
   const auto column = [&](const char* title) { return report.column("pareto.csv", title); };
   for (std::size_t i = 0; i < 3; ++i) {
     const json& point = points.at(i);
+    EXPECT_EQ(point.at("status"), "verified");
+    EXPECT_EQ(point.at("variables").size(), 2u);
     const double limit = point.at("limit"), multiplier = point.at("multiplier");
     EXPECT_NEAR(limit, (0.1 + 0.15 * double(i)) * 1e-3, 1e-12);
     const double bow = point.at("objectives").at("rod_bow");
@@ -45,7 +48,7 @@ TEST(ReadBack, OfPareto) {
   }
 }
 
-TEST(ReadBack, OfAccuracy) {
+TEST_F(ReadBack, OfAccuracy) {
   const Report report = run({"accuracy", file, "--verbose", "--set",
                              R"(/accuracy={"steps": ["0.4 ms", "0.2 ms"], "elements": [2, 4]})"});
   const TextTable table(report.text, "step [ms]");
@@ -64,7 +67,7 @@ TEST(ReadBack, OfAccuracy) {
       most = std::max(most, error);
     }
     expect_shown(shown, "1", 100.0 * most);
-    EXPECT_THAT(shown, testing::EndsWith(" % " + name));
+    EXPECT_THAT(shown, EndsWith(" % " + name));
     // No run is known better than the reference is: then its error stands there, as a bound.
     const bool is_bound = most > 0.0 && most <= least.at(name).get<double>();
     EXPECT_EQ(shown.starts_with("≤ "), is_bound) << shown;
@@ -102,7 +105,7 @@ TEST(ReadBack, OfAccuracy) {
 }
 
 /// Of all runs that are exact enough in what counts, for values and for gradients, the cheapest.
-TEST(ReadBack, OfRecommendationsForValuesAndForGradients) {
+TEST_F(ReadBack, OfRecommendationsForValuesAndForGradients) {
   const Report report = run({"accuracy", file, "--verbose", "--set",
                              R"(/accuracy={"steps": ["0.8 ms", "0.4 ms", "0.2 ms"],
                                            "elements": [2, 4], "target": 0.02})"});
@@ -143,7 +146,7 @@ TEST(ReadBack, OfRecommendationsForValuesAndForGradients) {
 }
 
 /// Deviations and bounds are made again from gradients of another command.
-TEST(ReadBack, OfUncertainty) {
+TEST_F(ReadBack, OfUncertainty) {
   const Report report = run({"uncertainty", file, "--histories", "--set",
                              R"(/uncertainty={"parameters": {"rod_diameter":
                                   {"deviation": "0.1 mm"}, "crank_diameter":
@@ -174,8 +177,7 @@ TEST(ReadBack, OfUncertainty) {
     expect_shown(table.text(row, "lowest"), unit, sampled.at("lowest"));
     expect_shown(table.text(row, "highest"), unit, sampled.at("highest"));
     const bool is_rod = parts[0] * parts[0] > parts[1] * parts[1];
-    EXPECT_THAT(table.text(row, "from"),
-                testing::StartsWith(is_rod ? "rod_diameter " : "crank_diameter "));
+    EXPECT_THAT(table.text(row, "from"), StartsWith(is_rod ? "rod_diameter " : "crank_diameter "));
     const double share = response.at("shares").at(is_rod ? "rod_diameter" : "crank_diameter");
     EXPECT_NEAR(number_in(table.text(row, "from").substr(is_rod ? 13 : 15)), 100 * share, 0.5);
     // The other one, too, if it is half a percent or more.
@@ -193,6 +195,8 @@ TEST(ReadBack, OfUncertainty) {
   }
   EXPECT_EQ(parameters.text(parameters.row_of("rod_diameter"), "sampled as"), "normal");
   EXPECT_EQ(parameters.text(parameters.row_of("crank_diameter"), "sampled as"), "uniform");
+  EXPECT_EQ(report.document.at("samples"), 8);
+  EXPECT_EQ(report.files.at("uncertainty.csv")[0].size(), 1u + 3 * 7);  // the mass has no history
   // Of the position, whose response is the end of its history.
   const json& end = report.document.at("responses").at("slider_end");
   const auto last = [&](const char* title) {
@@ -205,7 +209,7 @@ TEST(ReadBack, OfUncertainty) {
   EXPECT_NEAR(last("time"), 0.02, 1e-15);
 }
 
-TEST(ReadBack, OfStability) {
+TEST_F(ReadBack, OfStability) {
   const Report report = run({"stability", file});
   const TextTable table(report.text, "case");
   const json& runs = report.document.at("runs");
@@ -237,7 +241,7 @@ TEST(ReadBack, OfStability) {
 }
 
 /// The monitors are those of a simulation with that formulation.
-TEST(ReadBack, OfStabilityIsThatOfSimulations) {
+TEST_F(ReadBack, OfStabilityIsThatOfSimulations) {
   const json runs = run({"stability", file}).document.at("runs");
   for (const std::string formulation : {"index-3", "stabilized-index-2", "index-1"}) {
     const json monitors = run({"simulate", file, "--set", "/simulation/formulation=" + formulation})
@@ -256,9 +260,8 @@ TEST(ReadBack, OfStabilityIsThatOfSimulations) {
 /// An arm that is held at an angle: the place of its tip, cos φ, against its height, sin φ ≥ limit.
 /// From φ = −0.3 the optimum of a low limit is the bound at −1, that of 0.2 is on the far side,
 /// where both are better: the points before are dominated.
-TEST(ReadBack, OfDominatedPoints) {
-  const TemporaryFolder folder;
-  std::ofstream(folder.path() / "arm.json") << R"({"name": "arm", "scene": {
+TEST_F(ReadBack, OfDominatedPoints) {
+  std::ofstream(folder_.path() / "arm.json") << R"({"name": "arm", "scene": {
       "bodies": {"arm": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "rigid": true,
         "material": "steel", "elements": 2, "section": {"type": "circle", "diameter": "50 mm"}}},
       "joints": {"bearing": {"type": "revolute", "bodies": ["ground", "arm"], "at": [0, 0, 0],
@@ -271,8 +274,8 @@ TEST(ReadBack, OfDominatedPoints) {
     "objective": {"minimize": "x"},
     "constraints": {"high": {"response": "y", "lower": 0}},
     "pareto": {"constraint": "high", "from": -0.9, "to": 0.2, "points": 3}})";
-  const ProgramRun text = run_program(folder.path(), {"pareto", "arm.json", "-o", "text"});
-  const json points = json::parse(read_file(folder.path() / "text/result.json")).at("points");
+  const ProgramRun text = folder_.run({"pareto", "arm.json", "-o", "text"});
+  const json points = folder_.result("text").at("points");
   const TextTable table(text.out, "limit [mm]");
   ASSERT_EQ(points.size(), 3u);
   ASSERT_NEAR(points.at(2).at("objectives").at("x"), -std::sqrt(1 - 0.04), 1e-3);

@@ -1,87 +1,42 @@
-#include <algorithm>
-#include <cmath>
 #include <fstream>
 #include <limits>
 
-#include <fmt/format.h>
-#include <gmock/gmock.h>
-
 #include "tests/cli/program.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::study_test {
 namespace {
 
-using testing::HasSubstr;
+using ParetoCommand = InProgramFolder;
 
-TEST(ParetoCommand, ReportsEveryPointAndWritesThem) {
-  const TemporaryFolder folder;
-  const ProgramRun run =
-      run_program(folder.path(), joined({"pareto", problem("slider_crank_round"), "--json", "-o",
-                                         "front", "--set", "/pareto/points=3"},
-                                        quick()));
-  const nlohmann::json points = run.document().at("points");
-  ASSERT_EQ(points.size(), 3u) << run.err;
-  for (const auto& point : points) {
-    EXPECT_EQ(point.at("status"), "verified") << point;
-    EXPECT_TRUE(point.at("objectives").contains("crank_and_rod"));
-    EXPECT_TRUE(point.at("objectives").contains("rod_bow"));
-    EXPECT_EQ(point.at("variables").size(), 2u);
-  }
-  EXPECT_EQ(run.exit_code, 0);
-  const auto rows = read_csv(folder.path() / "front/pareto.csv");
-  ASSERT_EQ(rows.size(), 1u + 3u);
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const auto cell = [&](const std::string& title) {
-      const auto column = std::find(rows.front().begin(), rows.front().end(), title);
-      return rows.at(k + 1).at(std::size_t(column - rows.front().begin()));
-    };
-    const auto& point = points.at(k);
-    EXPECT_EQ(cell("status"), point.at("status"));
-    EXPECT_EQ(std::stod(cell("limit")), point.at("limit"));
-    EXPECT_EQ(std::stod(cell("objective")), point.at("objectives").at("crank_and_rod"));
-    EXPECT_EQ(std::stod(cell("limited")), point.at("objectives").at("rod_bow"));
-    EXPECT_EQ(std::stod(cell("multiplier")), point.at("multiplier"));
-    EXPECT_EQ(std::stod(cell("variable:crank_diameter")),
-              point.at("variables").at("crank_diameter"));
-    EXPECT_EQ(std::stod(cell("variable:rod_diameter")), point.at("variables").at("rod_diameter"));
-  }
-}
-
-TEST(ParetoCommand, PutsPointsIntoTheGaps) {
-  const TemporaryFolder folder;
+TEST_F(ParetoCommand, PutsPointsIntoTheGaps) {
   const std::vector<std::string> words =
       joined({"pareto", problem("slider_crank_round"), "-o", "front", "--set", "/pareto/points=3"},
              quick());
-  const ProgramRun run = run_program(folder.path(), joined(words, {"--gap", "20%"}));
+  const ProgramRun run = folder_.run(joined(words, {"--gap", "20%"}));
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, HasSubstr("Gaps: neighbours are at most "));
-  const nlohmann::json document =
-      nlohmann::json::parse(read_file(folder.path() / "front/result.json"));
+  const nlohmann::json document = folder_.result("front");
   EXPECT_EQ(document.at("gaps").at("asked"), 0.2);
   EXPECT_LE(document.at("gaps").at("largest"), 0.2);
   EXPECT_TRUE(document.at("gaps").at("left").empty());
   EXPECT_GT(document.at("points").size(), 5u);  // a front of 1.2 or more has six gaps
-  const ProgramRun few = run_program(
-      folder.path(),
+  const ProgramRun few = folder_.run(
       joined(words, {"--overwrite", "--gap", "0.05", "--set", "/pareto/most_points=5"}));
   EXPECT_THAT(few.out, HasSubstr("than 5 points were allowed"));
   EXPECT_THAT(few.out, HasSubstr("(\"most_points\")"));
-  EXPECT_THAT(run_program(folder.path(), joined(words, {"--overwrite", "--gap", "5"})).err,
+  EXPECT_THAT(folder_.run(joined(words, {"--overwrite", "--gap", "5"})).err,
               HasSubstr("/pareto/gap must be at least 0.001 and less than 1, got 5"));
 }
 
-TEST(ParetoCommand, ShowsAllChoicesOfSizesThatNoOtherDominates) {
-  const TemporaryFolder folder;
-  const ProgramRun run = run_program(
-      folder.path(),
-      joined({"pareto", problem("slider_crank_round"), "-o", "front", "--set",
-              R"(/pareto={"responses": ["crank_and_rod", "rod_bow"]})", "--set",
-              R"(/variables/crank_diameter={"choices": ["24 mm", "26 mm", "28 mm"]})", "--set",
-              R"(/variables/rod_diameter={"choices": ["12 mm", "15 mm", "18 mm"]})"},
-             quick()));
+TEST_F(ParetoCommand, ShowsAllChoicesOfSizesThatNoOtherDominates) {
+  const ProgramRun run = folder_.run_quick(
+      {"pareto", problem("slider_crank_round"), "-o", "front", "--set",
+       R"(/pareto={"responses": ["crank_and_rod", "rod_bow"]})", "--set",
+       R"(/variables/crank_diameter={"choices": ["24 mm", "26 mm", "28 mm"]})", "--set",
+       R"(/variables/rod_diameter={"choices": ["12 mm", "15 mm", "18 mm"]})"});
   EXPECT_THAT(run.out, HasSubstr("Sizes: all 9 choices of sizes were tried; "));
-  const nlohmann::json document =
-      nlohmann::json::parse(read_file(folder.path() / "front/result.json"));
+  const nlohmann::json document = folder_.result("front");
   EXPECT_EQ(document.at("choices").at("combinations"), 9);
   const auto& points = document.at("points");
   ASSERT_GE(points.size(), 2u) << run.out;
@@ -96,12 +51,10 @@ TEST(ParetoCommand, ShowsAllChoicesOfSizesThatNoOtherDominates) {
 }
 
 TEST(AccuracyCommand, MeasuresEveryCombination) {
-  const TemporaryFolder folder;
-  const ProgramRun run = run_program(
-      folder.path(),
-      joined({"accuracy", problem("slider_crank_round"), "--json", "-o", "study", "--set",
-              "/accuracy/steps=[4e-4, 2e-4, 1e-4]", "--set", "/accuracy/elements=[2, 4]"},
-             quick()));
+  const ProgramFolder folder;
+  const ProgramRun run = folder.run_quick(
+      {"accuracy", problem("slider_crank_round"), "--json", "-o", "study", "--set",
+       "/accuracy/steps=[4e-4, 2e-4, 1e-4]", "--set", "/accuracy/elements=[2, 4]"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   const nlohmann::json document = run.document();
   ASSERT_EQ(document.at("runs").size(), 6u);
@@ -123,7 +76,7 @@ TEST(AccuracyCommand, MeasuresEveryCombination) {
   // The last setting of a value counts.
   std::vector<std::string> all = joined({words.begin(), words.begin() + 5}, quick());
   all.insert(all.end(), words.begin() + 5, words.end());
-  const nlohmann::json simulated = run_program(folder.path(), all).document();
+  const nlohmann::json simulated = folder.run(all).document();
   for (const auto& [name, error] : recommended.at("errors").items()) {
     const double reference = document.at("reference").at("values").at(name);
     const double value = simulated.at("responses").at(name).at("value");
@@ -133,71 +86,39 @@ TEST(AccuracyCommand, MeasuresEveryCombination) {
   EXPECT_EQ(read_csv(folder.path() / "study/accuracy.csv").size(), 1u + 7u);  // and the reference
 }
 
-TEST(UncertaintyCommand, ReportsDeviationsAndWritesHistories) {
-  const TemporaryFolder folder;
-  const ProgramRun run =
-      run_program(folder.path(),
-                  joined({"uncertainty", problem("slider_crank_round"), "--json", "-o", "study",
-                          "--histories", "--jobs", "2", "--set",
-                          R"(/uncertainty={"parameters": {"rod_diameter": {"deviation": "0.1 mm"}},
-                               "samples": 8})"},
-                         quick()));
-  EXPECT_EQ(run.exit_code, 0) << run.err;
-  const nlohmann::json document = run.document();
-  EXPECT_EQ(document.at("samples"), 8);
-  EXPECT_EQ(document.at("parameters").at("rod_diameter").at("deviation"), 1e-4);
-  for (const auto& [name, response] : document.at("responses").items()) {
-    EXPECT_GE(response.at("deviation"), 0.0) << name;
-    ASSERT_EQ(response.at("bounds").size(), 2u);
-    // One normal parameter: three deviations to each side.
-    const double value = response.at("value"), deviation = response.at("deviation");
-    EXPECT_NEAR(response.at("bounds").at(0), value - 3.0 * deviation, 1e-9 * std::abs(value))
-        << name;
-    EXPECT_NEAR(response.at("bounds").at(1), value + 3.0 * deviation, 1e-9 * std::abs(value))
-        << name;
-    EXPECT_TRUE(response.contains("sampled"));
-  }
-  // ρ π/2 d l · 0.1 mm: 7850 kg/m³, 30 and 180 mm.
-  EXPECT_NEAR(document.at("responses").at("crank_and_rod").at("deviation"),
-              7850.0 * 1.5707963267948966 * 0.030 * 0.180 * 1e-4, 1e-9);
-  const auto rows = read_csv(folder.path() / "study/uncertainty.csv");
-  EXPECT_EQ(rows.front().front(), "time");
-  EXPECT_EQ(rows.front().size(), 1u + 3 * 7);  // the mass has no history
-  EXPECT_GT(rows.size(), 10u);
-}
+using UncertaintyCommand = InProgramFolder;
 
 /// d mass = ρ π/2 d l · 0.1 mm grows with the diameter.
-TEST(UncertaintyCommand, IsOfTheDesignThatIsGiven) {
-  const TemporaryFolder folder;
-  std::ofstream(folder.path() / "thick.json")
+TEST_F(UncertaintyCommand, IsOfTheDesignThatIsGiven) {
+  std::ofstream(folder_.path() / "thick.json")
       << R"({"crank_diameter": "30 mm", "rod_diameter": "40 mm"})";
   const std::string block =
       R"(/uncertainty={"parameters": {"rod_diameter": {"deviation": "0.1 mm"}}, "samples": 2})";
   const auto deviation = [&](const std::vector<std::string>& more) {
-    const ProgramRun run = run_program(
-        folder.path(), joined(joined({"uncertainty", problem("slider_crank_round"), "--json", "-o",
-                                      "study", "--overwrite", "--set", block},
-                                     quick()),
-                              more));
+    const ProgramRun run =
+        folder_.run(joined(joined({"uncertainty", problem("slider_crank_round"), "--json", "-o",
+                                   "study", "--overwrite", "--set", block},
+                                  quick()),
+                           more));
     EXPECT_EQ(run.exit_code, 0) << run.err;
     return run.document().at("responses").at("crank_and_rod").at("deviation").get<double>();
   };
   const double at_start = deviation({});  // 30 mm
+  EXPECT_NEAR(at_start, 7850.0 * 0.5 * M_PI * 0.030 * 0.180 * 1e-4, 1e-9);
   EXPECT_NEAR(deviation({"--design", "thick.json"}), at_start * 40.0 / 30.0, 1e-9 * at_start);
 }
 
-TEST(UncertaintyCommand, AsksForItsSettings) {
-  const TemporaryFolder folder;
-  const ProgramRun run = run_program(folder.path(), {"uncertainty", problem("slider_crank_round")});
+TEST_F(UncertaintyCommand, AsksForItsSettings) {
+  const ProgramRun run = folder_.run({"uncertainty", problem("slider_crank_round")});
   EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err, testing::HasSubstr("/uncertainty is missing"));
+  EXPECT_THAT(run.err, HasSubstr("/uncertainty is missing"));
 }
 
-TEST(StabilityCommand, TabulatesFilesTimesFormulations) {
-  const TemporaryFolder folder;
-  const ProgramRun run =
-      run_program(folder.path(), {"stability", problem("hard/dead_centres"),
-                                  problem("hard/change_point"), "--json", "-o", "study"});
+using StabilityCommand = InProgramFolder;
+
+TEST_F(StabilityCommand, TabulatesFilesTimesFormulations) {
+  const ProgramRun run = folder_.run({"stability", problem("hard/dead_centres"),
+                                      problem("hard/change_point"), "--json", "-o", "study"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   const nlohmann::json document = run.document();
   const std::size_t runs = 2 * document.at("formulations").size();
@@ -207,35 +128,33 @@ TEST(StabilityCommand, TabulatesFilesTimesFormulations) {
     EXPECT_LE(study_run.at("position_drift"), 1e-3);
     EXPECT_GE(study_run.at("work").at("newton_iterations"), study_run.at("work").at("steps"));
   }
-  EXPECT_EQ(read_csv(folder.path() / "study/stability.csv").size(), 1u + runs);
-  const nlohmann::json card =
-      nlohmann::json::parse(read_file(folder.path() / "study/run_card.json"));
+  EXPECT_EQ(read_csv(folder_.path() / "study/stability.csv").size(), 1u + runs);
+  const nlohmann::json card = read_json(folder_.path() / "study/run_card.json");
   EXPECT_EQ(card.at("inputs").size(), 2u);
   EXPECT_EQ(card.at("problems").size(), 2u);
 }
 
 /// A mechanism that one formulation cannot simulate is a result of the study, not its failure.
-TEST(StabilityCommand, ReportsWhatFails) {
-  const TemporaryFolder folder;
-  const ProgramRun run =
-      run_program(folder.path(), {"stability", problem("hard/dead_centres"), "--json", "--set",
-                                  "/simulation/max_newton_iterations=1"});
+TEST_F(StabilityCommand, ReportsWhatFails) {
+  const ProgramRun run = folder_.run({"stability", problem("hard/dead_centres"), "--json", "--set",
+                                      "/simulation/max_newton_iterations=1"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   for (const auto& study_run : run.document().at("runs")) {
-    EXPECT_THAT(study_run.at("failure").get<std::string>(), testing::HasSubstr("t = "));
+    EXPECT_THAT(study_run.at("failure").get<std::string>(), HasSubstr("t = "));
   }
-  EXPECT_TRUE(std::filesystem::exists(folder.path() / "runs/dead_centres-stability/stability.csv"));
+  EXPECT_TRUE(
+      std::filesystem::exists(folder_.path() / "runs/dead_centres-stability/stability.csv"));
 }
 
-TEST(PricesCommand, WritesWhatItSays) {
-  const TemporaryFolder folder;
-  const ProgramRun run = run_program(
-      folder.path(), joined({"prices", problem("slider_crank_round"), "-o", "p"}, quick()));
+using PricesCommand = InProgramFolder;
+
+TEST_F(PricesCommand, WritesWhatItSays) {
+  const ProgramRun run = folder_.run_quick({"prices", problem("slider_crank_round"), "-o", "p"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
-  const nlohmann::json result = nlohmann::json::parse(read_file(folder.path() / "p/result.json"));
+  const nlohmann::json result = folder_.result("p");
   const nlohmann::json& prices = result.at("prices");
   const double mass = result.at("objective").at("value");
-  const auto rows = read_csv(folder.path() / "p/prices.csv");
+  const auto rows = read_csv(folder_.path() / "p/prices.csv");
   ASSERT_EQ(rows.size(), 1 + prices.size());
   EXPECT_EQ(rows.front(), (std::vector<std::string>{"name", "kind", "value", "unit", "per_unit",
                                                     "per_percent", "next_limit"}));
@@ -257,24 +176,21 @@ TEST(PricesCommand, WritesWhatItSays) {
   const nlohmann::json& density = prices.at("/scene/materials/steel/density");
   const double share = 100.0 * density.at("per_percent").get<double>() / mass;
   EXPECT_THAT(unwrapped(run.out),
-              testing::HasSubstr(fmt::format("materials/steel/density 7850.0 kg/m^3 +{:.4g} +",
-                                             density.at("per_unit").get<double>())));
-  EXPECT_THAT(unwrapped(run.out), testing::HasSubstr(fmt::format("+{:.3f} %", share)));
+              HasSubstr(fmt::format("materials/steel/density 7850.0 kg/m^3 +{:.4g} +",
+                                    density.at("per_unit").get<double>())));
+  EXPECT_THAT(unwrapped(run.out), HasSubstr(fmt::format("+{:.3f} %", share)));
 }
 
-TEST(PricesCommand, AreThoseOfTheDesignThatIsGivenIfItIsAnOptimum) {
-  const TemporaryFolder folder;
+TEST_F(PricesCommand, AreThoseOfTheDesignThatIsGivenIfItIsAnOptimum) {
   const std::string file = problem("slider_crank_round");
-  ASSERT_EQ(run_program(folder.path(), joined({"optimize", file, "-o", "o"}, quick())).exit_code,
-            0);
-  const ProgramRun of_optimum = run_program(
-      folder.path(),
-      joined({"prices", file, "--design", "o/result.json", "--json", "-o", "p"}, quick()));
+  ASSERT_EQ(folder_.run_quick({"optimize", file, "-o", "o"}).exit_code, 0);
+  const ProgramRun of_optimum =
+      folder_.run_quick({"prices", file, "--design", "o/result.json", "--json", "-o", "p"});
   EXPECT_EQ(of_optimum.exit_code, 0) << of_optimum.err;
   const nlohmann::json priced = of_optimum.document();
   EXPECT_EQ(priced.at("status"), "done");
   // Those of limits are the multipliers of the optimization.
-  const nlohmann::json optimum = nlohmann::json::parse(read_file(folder.path() / "o/result.json"));
+  const nlohmann::json optimum = folder_.result("o");
   bool has_limit = false;
   for (const auto& [name, constraint] : optimum.at("constraints").items()) {
     const double multiplier = constraint.at("multiplier");
@@ -287,11 +203,85 @@ TEST(PricesCommand, AreThoseOfTheDesignThatIsGivenIfItIsAnOptimum) {
 
   nlohmann::json start = optimum;
   start["variables"]["rod_diameter"]["value"] = 0.03;
-  std::ofstream(folder.path() / "elsewhere.json") << start;
-  const ProgramRun elsewhere = run_program(
-      folder.path(), joined({"prices", file, "--design", "elsewhere.json", "-o", "e"}, quick()));
+  std::ofstream(folder_.path() / "elsewhere.json") << start;
+  const ProgramRun elsewhere =
+      folder_.run_quick({"prices", file, "--design", "elsewhere.json", "-o", "e"});
   EXPECT_EQ(elsewhere.exit_code, 4);
-  EXPECT_THAT(unwrapped(elsewhere.out), testing::HasSubstr("the design is no optimum"));
+  EXPECT_THAT(unwrapped(elsewhere.out), HasSubstr("the design is no optimum"));
+}
+
+using Gradient = InProgramFolder;
+
+TEST_F(Gradient, MethodsStandSideBySideAndAgree) {
+  const ProgramRun run =
+      folder_.run_quick({"gradient", problem("slider_crank_round"), "--method", "direct",
+                         "--method", "central-difference", "--step", "1e-5", "--json"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const nlohmann::json document = run.document();
+  const auto& mass = document.at("responses").at("crank_and_rod");
+  EXPECT_EQ(mass.at("unit"), "kg");
+  const auto& gradients = mass.at("gradients");
+  for (const char* variable : {"crank_diameter", "rod_diameter"}) {
+    const double direct = gradients.at("direct").at(variable);
+    const double difference = gradients.at("central-difference").at(variable);
+    EXPECT_NEAR(difference / direct, 1.0, 1e-9) << variable;  // a square: only round-off is left
+  }
+  EXPECT_TRUE(document.at("seconds").contains("simulate"));
+  EXPECT_TRUE(document.at("seconds").contains("direct"));
+}
+
+TEST_F(Gradient, OfTheMassIsThatOfTwoCylinders) {
+  const ProgramRun run = folder_.run_quick({"gradient", problem("slider_crank_round"), "--json"});
+  const auto gradients =
+      run.document().at("responses").at("crank_and_rod").at("gradients").at("direct");
+  // m = ρ L π d² / 4, so dm/dd = ρ L π d / 2 with ρ = 7850, d = 0.03, L = 0.12 and 0.18.
+  EXPECT_NEAR(gradients.at("crank_diameter"), 7850 * 0.12 * M_PI * 0.03 / 2, 1e-10);
+  EXPECT_NEAR(gradients.at("rod_diameter"), 7850 * 0.18 * M_PI * 0.03 / 2, 1e-10);
+}
+
+TEST_F(Gradient, WritesTheDerivativesOfHistories) {
+  const ProgramRun run =
+      folder_.run_quick({"gradient", problem("slider_crank_round"), "--histories", "-o", "run"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const auto rows = read_csv(folder_.path() / "run" / "gradients.csv");
+  const auto column = [&](const std::string& title) {
+    const auto found = std::find(rows[0].begin(), rows[0].end(), title);
+    EXPECT_NE(found, rows[0].end()) << title;
+    return static_cast<std::size_t>(found - rows[0].begin());
+  };
+  EXPECT_EQ(column("time"), 0u);
+  EXPECT_EQ(rows.size(), read_csv(folder_.path() / "run" / "trajectory.csv").size());
+  // The slider's last position, which is that of the end.
+  const nlohmann::json result = folder_.result("run");
+  const auto& end = result.at("responses").at("slider_end");
+  EXPECT_EQ(std::stod(rows.back()[column("slider_end")]), end.at("value"));
+  const double expected = end.at("gradients").at("direct").at("rod_diameter");
+  EXPECT_NEAR(std::stod(rows.back()[column("slider_end:rod_diameter")]) / expected, 1.0, 1e-9);
+}
+
+TEST_F(Gradient, TakesTheMethodOfTheFile) {
+  const std::vector<std::string> adjoint =
+      joined({"gradient", problem("slider_crank_round"), "--json", "--set",
+              R"(/sensitivity={"method": "adjoint"})"},
+             quick());
+  const auto methods = [&](const std::vector<std::string>& words) {
+    std::vector<std::string> names;
+    const nlohmann::json document = folder_.run(words).document();
+    for (const auto& [name, gradient] :
+         document.at("responses").at("rod_bow").at("gradients").items()) {
+      names.push_back(name);
+    }
+    return names;
+  };
+  EXPECT_THAT(methods(adjoint), ElementsAre("adjoint"));
+  EXPECT_THAT(methods(joined(adjoint, {"--method", "forward-difference"})),
+              ElementsAre("forward-difference"));
+}
+
+TEST(Backends, AreListed) {
+  const ProgramFolder folder;
+  const auto backends = folder.run({"backends", "--json"}).document().at("backends");
+  EXPECT_THAT(backends.get<std::vector<std::string>>(), ::testing::Contains("ipopt"));
 }
 
 }  // namespace

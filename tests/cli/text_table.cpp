@@ -1,11 +1,9 @@
 #include "tests/cli/text_table.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <map>
 #include <sstream>
 
-#include <gtest/gtest.h>
+#include "tests/support/test.hpp"
 
 namespace pleuel::test {
 

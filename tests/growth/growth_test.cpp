@@ -1,20 +1,16 @@
-#include <cmath>
 #include <functional>
-#include <string>
-#include <vector>
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/response/effect_influence.hpp"
-#include "core/scene/problem_reader.hpp"
 #include "core/trust/checks.hpp"
 #include "optimization/design/design_problem.hpp"
 #include "sensitivity/sampled_gradients.hpp"
 #include "studies/derivative_check.hpp"
 #include "tests/core/counted_allocations.hpp"
+#include "tests/support/problem_runs.hpp"
+#include "tests/support/test.hpp"
 
 /// How the work of commands grows with what a file has many of: by the memory that is asked for on the
 /// way, which no other work of the machine disturbs. The time loop asks for none (allocation_test.cpp).
@@ -43,12 +39,10 @@ double exponent(const Family& family, int count, const Work& work) {
 }
 
 ProblemFile read(const std::string& scene, const std::string& rest) {
-  return read_problem_text(fmt::format(R"({{"scene": {{"materials": {{"steel": {{"young": "210 GPa",
+  return problem_from(fmt::format(R"({{"scene": {{"materials": {{"steel": {{"young": "210 GPa",
                  "poisson": 0.3, "density": "7850 kg/m^3"}}}}, {}}},
                  "simulation": {{"end_time": "2 ms", "step": "0.2 ms"}}, {}}})",
-                                       scene, rest),
-                           "growth.json")
-      .complete();
+                                  scene, rest));
 }
 
 std::string drive(const std::string& body, double x) {

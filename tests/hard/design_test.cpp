@@ -1,7 +1,3 @@
-#include <algorithm>
-
-#include <gmock/gmock.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "optimization/backends.hpp"
 #include "optimization/design/design_problem.hpp"
@@ -9,6 +5,7 @@
 #include "sensitivity/gradients.hpp"
 #include "tests/hard/hard_problems.hpp"
 #include "tests/support/differences.hpp"
+#include "tests/support/test.hpp"
 
 /// Designs that cannot be simulated beside those that are looked for, and designs at the bounds.
 namespace pleuel::test::design_test {
@@ -55,7 +52,7 @@ TEST_P(HardOptimization, FindsTheOptimumFromAnImpossibleStart) {
   const Result result = optimize(impossible_designs("120 mm"), GetParam());
   EXPECT_EQ(result.status, Status::verified) << result.message;
   EXPECT_NEAR(result.evaluation.objective / easy.evaluation.objective, 1.0, 1e-6);
-  EXPECT_THAT(result.message, testing::HasSubstr("the start cannot be evaluated"));
+  EXPECT_THAT(result.message, HasSubstr("the start cannot be evaluated"));
 }
 
 /// Where all designs between the bounds lock nothing can be said, and none is called an optimum.
@@ -67,7 +64,7 @@ TEST_P(HardOptimization, FailsWhereNoDesignCanBeSimulated) {
   const Result result = optimize(problem, GetParam());
   EXPECT_EQ(result.status, Status::failed);
   EXPECT_EQ(count_failures(result.history), result.evaluations);
-  EXPECT_THAT(result.message, testing::HasSubstr("other designs between the bounds"));
+  EXPECT_THAT(result.message, HasSubstr("other designs between the bounds"));
 }
 
 /// The bow of the rod falls with a shorter crank and a higher rod: both bounds are reached.

@@ -1,17 +1,12 @@
 #pragma once
 
-#include <algorithm>
 #include <cctype>
 #include <memory>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include "core/response/analysis.hpp"
 #include "core/response/monitors.hpp"
 #include "tests/support/problem_runs.hpp"
+#include "tests/support/test.hpp"
 
 /// What the tests of hard cases share: the formulations that all of them run with, and short ways
 /// to a history.

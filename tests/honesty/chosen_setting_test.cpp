@@ -1,20 +1,14 @@
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <limits>
 #include <optional>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include "core/base/relative_error.hpp"
 #include "core/jobs/parallel.hpp"
 #include "core/trust/setting_choice.hpp"
 #include "core/trust/trusted_run.hpp"
 #include "tests/random/simulated_scene.hpp"
+#include "tests/support/test.hpp"
 
 /// Whether the setting that an accuracy chooses is right and cheap: beside a grid of 39 settings whose
 /// true errors are known. Prints a table of docs/accuracy.md. Work is steps × unknowns, which does not

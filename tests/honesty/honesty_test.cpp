@@ -1,10 +1,4 @@
-#include <cmath>
 #include <cstdlib>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include "core/jobs/parallel.hpp"
 #include "core/response/analysis.hpp"
@@ -12,6 +6,7 @@
 #include "tests/honesty/judged_values.hpp"
 #include "tests/honesty/shipped_problems.hpp"
 #include "tests/random/simulated_scene.hpp"
+#include "tests/support/test.hpp"
 
 /// Whether error bars are true: errors lie within them, and they are not much wider. The program
 /// prints the tables of docs/accuracy.md.

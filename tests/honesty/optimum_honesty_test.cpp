@@ -1,14 +1,10 @@
-#include <cmath>
-#include <string>
 #include <utility>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include "core/trust/refined_runs.hpp"
 #include "optimization/design/design_solve.hpp"
 #include "tests/honesty/coarseness.hpp"
 #include "tests/honesty/shipped_problems.hpp"
+#include "tests/support/test.hpp"
 
 /// The error bars of optima beside optima of finer simulations. Prints a table of docs/accuracy.md.
 namespace pleuel::test::optimum_honesty_test {

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "core/response/analysis.hpp"
-#include "core/scene/problem_reader.hpp"
 #include "tests/support/problem_runs.hpp"
 
 namespace pleuel::test {
@@ -13,15 +12,15 @@ namespace pleuel::test {
 /// force across it.
 inline ProblemFile pushed_block(const std::string& value,
                                 const std::vector<std::string>& overrides = {}) {
-  return read_problem_text(R"({
+  return problem_from(R"({
   "scene": {
     "bodies": {"block": {"type": "rigid", "at": [0, 0, 0], "mass": 2, "inertia": [1, 1, 1, 0, 0, 0]}},
     "joints": {"slide": {"type": "prismatic", "bodies": ["ground", "block"], "at": [0, 0, 0], "axis": [1, 0, 0]}},
     "loads": {
       "push": {"type": "force", "body": "block", "at": [0, 0, 0], "direction": [1, 0, 0], "value": )" +
-                               value + R"(},
+                          value + R"(},
       "press": {"type": "force", "body": "block", "at": [0, 0, 0], "direction": [0, -1, 0], "value": )" +
-                               value + R"(}
+                          value + R"(}
     }
   },
   "simulation": {"end_time": 0.1, "step": 1e-3},
@@ -31,22 +30,21 @@ inline ProblemFile pushed_block(const std::string& value,
     "reaction": {"type": "reaction-force", "joint": "slide", "direction": "magnitude", "over_time": "max"}
   }
 })",
-                           "block.json", overrides)
-      .complete();
+                      overrides);
 }
 
 /// A clamped steel beam of 1 m under its weight and a force across its tip; its height and the
 /// force are variables.
 inline ProblemFile loaded_cantilever(const std::string& value,
                                      const std::vector<std::string>& overrides = {}) {
-  return read_problem_text(R"({
+  return problem_from(R"({
   "scene": {
     "gravity": [0, -9.81, 0],
     "bodies": {"beam": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
       "section": {"type": "rectangle", "width": 0.02, "height": {"variable": "height"}}, "elements": 4, "damping": {"stiffness": 1e-3}}},
     "joints": {"clamp": {"type": "fixed", "bodies": ["ground", "beam"], "at": [0, 0, 0]}},
     "loads": {"push": {"type": "force", "body": "beam", "at": [1, 0, 0], "direction": [0, -1, 0], "value": )" +
-                               value + R"(}}
+                          value + R"(}}
   },
   "simulation": {"end_time": 0.1, "step": 1e-3, "initial_state": "quasi-static"},
   "variables": {"height": {"start": 0.03, "lower": 0.01, "upper": 0.1},
@@ -59,8 +57,7 @@ inline ProblemFile loaded_cantilever(const std::string& value,
   },
   "objective": {"minimize": "stress"}
 })",
-                           "cantilever.json", overrides)
-      .complete();
+                      overrides);
 }
 
 inline double value_at_start(const ProblemFile& problem, const std::string& response) {

@@ -1,23 +1,15 @@
 #include <array>
-#include <cmath>
 #include <limits>
 #include <stdexcept>
-#include <string>
 #include <utility>
-#include <vector>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "include/pleuel.h"
 #include "include/pleuel.hpp"
 #include "tests/support/source_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::backend_test {
 namespace {
-
-using testing::HasSubstr;
-using testing::Not;
 
 /// Some milliseconds of simulation: the ramp only, in coarse steps.
 const Problem::Overrides quick = {{"/simulation/step", "0.2 ms"},

@@ -3,18 +3,14 @@
 #include <iterator>
 #include <stdexcept>
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "include/pleuel.hpp"
 #include "tests/support/source_folder.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 /// Bodies that functions of the caller make.
 namespace pleuel::test::body_maker_test {
 namespace {
-
-using testing::HasSubstr;
 
 const Problem::Overrides quick = {{"/simulation/end_time", "5 ms"},
                                   {"/simulation/step", "0.1 ms"},
@@ -82,7 +78,7 @@ TEST(BodyMaker, FailsTheDesignWithItsWords) {
     const RegisteredBody body = registered(fails);
     const Problem problem("crank.json", quick, text_of_problem());
     EXPECT_THAT(failure_at(problem, 0.015),
-                testing::AllOf(HasSubstr(expected), HasSubstr("rod_height = 0.015 m")));
+                AllOf(HasSubstr(expected), HasSubstr("rod_height = 0.015 m")));
     EXPECT_EQ(failure_at(problem, 0.025), "");
   }
 }

@@ -1,17 +1,12 @@
 // Calls of all functions with arguments of all kinds: they may fail, but never crash, throw, or say yes to nonsense.
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <random>
-#include <string>
 #include <thread>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "include/pleuel.h"
 #include "tests/support/source_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::border_fuzz_test {
 namespace {

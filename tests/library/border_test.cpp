@@ -1,24 +1,17 @@
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
 #include <limits>
 #include <stdexcept>
-#include <string>
 #include <thread>
-#include <vector>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "include/pleuel.h"
 #include "tests/support/source_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::border_test {
 namespace {
 
 using Numbers = std::vector<double>;
-using testing::HasSubstr;
 
 /// Some milliseconds of simulation: the start of the motion in coarse steps.
 const std::vector<const char*> quick = {"/simulation/end_time=5 ms", "/simulation/step=0.1 ms"};

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <string>
-
-#include <gtest/gtest.h>
+#include "tests/support/test.hpp"
 
 namespace pleuel::test {
 

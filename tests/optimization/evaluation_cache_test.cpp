@@ -1,8 +1,8 @@
 #include "optimization/evaluation_cache.hpp"
 
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
+#include "optimization/history.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::evaluation_cache_test {
 namespace {
@@ -104,6 +104,26 @@ TEST_F(CacheOfEvaluations, CountsIterationsOfTheSearchButNotOfAudits) {
   cache_.set_purpose(Purpose::audit);
   at(0.7, Request::values_and_gradients);
   EXPECT_EQ(cache_.iterations(), before + 1);
+}
+
+EvaluationRecord record(double objective, double max_violation, const std::string& failure = "") {
+  EvaluationRecord record;
+  record.objective = objective;
+  record.max_violation = max_violation;
+  record.failure = failure;
+  return record;
+}
+
+TEST(BestRecord, IsTheLowestOneWithinTheLimits) {
+  const History history = {record(5, 0), record(1, 1e-2), record(3, 1e-5), record(4, 0),
+                           record(0, 0, "it cannot be simulated")};
+  EXPECT_EQ(best_record(history, 1e-4).objective, 3);
+  EXPECT_EQ(best_record(history, 1e-6).objective, 4);
+}
+
+TEST(BestRecord, IsTheOneNearestToTheLimitsIfNoneKeepsThem) {
+  const History history = {record(1, 0.3), record(5, 0.1), record(2, 0.2), record(9, 0.0, "no")};
+  EXPECT_EQ(best_record(history, 1e-4).objective, 5);
 }
 
 }  // namespace

@@ -1,8 +1,4 @@
-#include <cmath>
 #include <limits>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "backend_names.hpp"
 #include "complex_step.hpp"
@@ -10,6 +6,7 @@
 #include "known_problems.hpp"
 #include "optimization/backends.hpp"
 #include "optimization/solve.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::failure_test {
 namespace {
@@ -107,8 +104,8 @@ TEST_P(FailingEvaluations, AtTheStartEndTheRunWithTheReason) {
   FunctionProblem problem = fragile_cantilever(0.5, mishap_);
   const Result result = solve(problem, options_);
   EXPECT_EQ(result.status, Status::failed);
-  EXPECT_THAT(result.message, testing::HasSubstr("the start cannot be evaluated"));
-  EXPECT_THAT(result.message, testing::HasSubstr("x1 = 5"));
+  EXPECT_THAT(result.message, HasSubstr("the start cannot be evaluated"));
+  EXPECT_THAT(result.message, HasSubstr("x1 = 5"));
   EXPECT_EQ(result.history.size(), 1u);
 }
 
@@ -147,7 +144,7 @@ TEST_P(Failure, EverywhereButAtTheStartIsGivenUp) {
   EXPECT_NE(result.status, Status::verified);
   EXPECT_EQ(result.x, start);
   EXPECT_LE(result.evaluations, 1 + 20 * (1 + options_.max_restarts));
-  EXPECT_THAT(result.message, testing::HasSubstr("no equilibrium"));
+  EXPECT_THAT(result.message, HasSubstr("no equilibrium"));
 }
 
 TEST_P(Failure, TooOftenInARowEndsTheRun) {
@@ -162,7 +159,7 @@ TEST_P(Failure, TooOftenInARowEndsTheRun) {
   const Result result = solve(problem, options_);
   EXPECT_EQ(result.status, Status::failed);
   EXPECT_EQ(result.evaluations, 3);
-  EXPECT_THAT(result.message, testing::HasSubstr("too many in a row"));
+  EXPECT_THAT(result.message, HasSubstr("too many in a row"));
 }
 
 TEST_P(Failure, OfTheProgramItselfPassesThrough) {
@@ -181,7 +178,7 @@ TEST_P(Failure, ToFindADesignWithinContradictoryLimitsIsInfeasible) {
   KnownProblem known = cantilever(0.1);
   const Result result = solve(known.problem, options_);
   EXPECT_EQ(result.status, Status::infeasible);
-  EXPECT_THAT(result.message, testing::HasSubstr("deflection"));
+  EXPECT_THAT(result.message, HasSubstr("deflection"));
   EXPECT_GT(result.max_violation, 0.2);
 }
 
@@ -235,6 +232,77 @@ TEST_P(Failure, OfTheConstraintQualificationIsNotVerifiedElsewhere) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, Failure, testing::ValuesIn(optimizer_names()), name_of_backend);
+
+/// What solve() complains about.
+std::string complaint(FunctionProblem problem, const std::string& backend = "nlopt-slsqp") {
+  return thrown<InputError>([&] { solve(problem, {.backend = backend}); });
+}
+
+FunctionProblem with_first_variable(const Variable& variable) {
+  const FunctionProblem cantilever_problem = cantilever().problem;
+  std::vector<Variable> variables = cantilever_problem.variables();
+  variables[0] = variable;
+  return {variables, cantilever_problem.constraints(), [](const Eigen::VectorXd&, Request) {
+            ADD_FAILURE() << "bad input was evaluated";
+            return Evaluation{};
+          }};
+}
+
+TEST(Input, AnUnknownBackendIsAnsweredWithTheNamesThereAre) {
+  EXPECT_EQ(complaint(cantilever().problem, "nlopt-mna"),
+            "there is no optimizer backend \"nlopt-mna\"; known are nlopt-mma, nlopt-ccsaq, "
+            "nlopt-slsqp, ipopt");
+}
+
+TEST(Input, AStartOutsideItsBoundsIsNamed) {
+  EXPECT_EQ(complaint(with_first_variable({"width", 12.0, 1.0, 10.0})),
+            "variable width: the start 12 lies outside its bounds [1, 10]");
+}
+
+TEST(Input, AStartOutsideItsBoundsByRoundingIsMovedOntoThem) {
+  KnownProblem known = cantilever();
+  std::vector<Variable> variables = known.problem.variables();
+  variables[0].start = 10.0 * (1.0 + 1e-15);
+  const FunctionProblem problem(variables, known.problem.constraints(), {});
+  EXPECT_EQ(checked_start(problem)[0], 10.0);
+}
+
+TEST(Input, ContradictoryBoundsAreNamed) {
+  EXPECT_EQ(complaint(with_first_variable({"width", 5.0, 6.0, 4.0})),
+            "variable width: the lower limit 6 must not exceed the upper limit 4");
+}
+
+TEST(Input, AStartThatIsNotANumberIsNamed) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(complaint(with_first_variable({"width", nan, 1.0, 10.0})),
+              HasSubstr("variable width: the start nan"));
+}
+
+TEST(Input, ContradictoryLimitsAreNamed) {
+  const FunctionProblem problem(cantilever().problem.variables(), {{"sag", 2.0, 1.0}}, {});
+  EXPECT_EQ(complaint(problem),
+            "constraint sag: the lower limit 2 must not exceed the upper limit 1");
+}
+
+TEST(Input, WithoutVariablesThereIsNothingToOptimize) {
+  EXPECT_THAT(complaint(FunctionProblem({}, {}, {})), HasSubstr("no variables"));
+}
+
+TEST(Input, WithAllVariablesFixedTheStartIsJudgedAsItIs) {
+  KnownProblem known = cantilever();
+  std::vector<Variable> variables = known.problem.variables();
+  for (Variable& variable : variables) variable = {variable.name, 6.0, 6.0, 6.0};
+  for (const std::string& backend : optimizer_names()) {
+    FunctionProblem problem(variables, known.problem.constraints(),
+                            [&](const Eigen::VectorXd& x, Request request) {
+                              return known.problem.evaluate(x, request);
+                            });
+    const Result result = solve(problem, {.backend = backend});
+    EXPECT_EQ(result.status, Status::verified) << result.message;
+    EXPECT_EQ(result.x, Eigen::VectorXd::Constant(5, 6.0));
+    EXPECT_EQ(result.evaluations, 1);
+  }
+}
 
 }  // namespace
 }  // namespace pleuel::test::failure_test

@@ -1,22 +1,16 @@
 /// A verdict for every variable: small parts of the objective, bad scales, variables without
 /// influence. All optima are closed forms.
 
-#include <cmath>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "backend_names.hpp"
 #include "complex_step.hpp"
 #include "core/base/eager_matrices.hpp"
 #include "known_problems.hpp"
 #include "optimization/backends.hpp"
 #include "optimization/solve.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::small_part_test {
 namespace {
-
-using testing::HasSubstr;
 
 /// Two cantilevers under tip loads, the second one so much lighter: mass 1 + part at b h = 1, and
 /// stress 1/(b h²) ≤ 1 each. A high section is light: b goes to its bound 0.5, and h is √2 there,

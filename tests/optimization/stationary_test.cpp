@@ -1,22 +1,21 @@
-/// Problems that start at designs which fulfil the conditions of Karush, Kuhn & Tucker and are no
-/// minima: every gradient-based method likes to stay there.
-
-#include <cmath>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "backend_names.hpp"
 #include "complex_step.hpp"
 #include "core/base/eager_matrices.hpp"
 #include "known_problems.hpp"
 #include "optimization/backends.hpp"
+#include "optimization/gradient_check.hpp"
 #include "optimization/lowest_curvature.hpp"
+#include "optimization/scaling.hpp"
 #include "optimization/solve.hpp"
+#include "optimization/verdict.hpp"
 #include "tests/support/dense_algebra.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::stationary_test {
 namespace {
+
+// Problems that start at designs which fulfil the conditions of Karush, Kuhn & Tucker and are no
+// minima: every gradient-based method likes to stay there.
 
 template <typename V, typename... Entries>
 auto column(const V&, const Entries&... entries) {
@@ -115,8 +114,8 @@ TEST(StationaryDesign, ThatIsAPlateauSaysSo) {
   };
   const auto constant = [](const auto& x) { return column(x, 2.0 + 0.0 * x[0]); };
   const auto minimum = [](const auto& x) { return column(x, 2.0 + x[0] * x[0]); };
-  EXPECT_THAT(message_at_zero(constant), testing::HasSubstr("nor does any change"));
-  EXPECT_THAT(message_at_zero(minimum), testing::Not(testing::HasSubstr("nor does any change")));
+  EXPECT_THAT(message_at_zero(constant), HasSubstr("nor does any change"));
+  EXPECT_THAT(message_at_zero(minimum), Not(HasSubstr("nor does any change")));
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, StationaryStart, testing::ValuesIn(optimizer_names()),
@@ -135,7 +134,7 @@ TEST(StationaryDesign, ThatIsNoMinimumIsNotVerified) {
     const double there =
         known.problem.evaluate(*verdict.better_neighbour, Request::values).objective;
     EXPECT_LT(there, here - 1e-4 * here) << known.name;
-    EXPECT_THAT(verdict.message, testing::HasSubstr("not at a minimum"));
+    EXPECT_THAT(verdict.message, HasSubstr("not at a minimum"));
   }
 }
 
@@ -144,8 +143,8 @@ TEST(StationaryDesign, IsNamedWithItsBetterNeighbour) {
   KnownProblem known = arm(1.0);
   const Result result = solve(known.problem, {.max_escapes = 0});
   EXPECT_EQ(result.status, Status::stalled);
-  EXPECT_THAT(result.message, testing::HasSubstr("objective is lower by"));
-  EXPECT_THAT(result.message, testing::HasSubstr("at phi = "));
+  EXPECT_THAT(result.message, HasSubstr("objective is lower by"));
+  EXPECT_THAT(result.message, HasSubstr("at phi = "));
 }
 
 /// x⁴: as flat as a minimum can be.
@@ -198,7 +197,7 @@ TEST(StationaryDesign, IsJudgedAtFewEvaluations) {
   const Eigen::VectorXd x = Eigen::Vector3d(4.0, 7.0 / 3.0, 4.0 / 3.0) / 3.0;
   const Verdict verdict = judge_anew(counted, checked_start(counted), x);
   EXPECT_EQ(verdict.status, Status::verified) << verdict.message;
-  EXPECT_THAT(verdict.message, testing::HasSubstr("along 2 of the 2 directions"));
+  EXPECT_THAT(verdict.message, HasSubstr("along 2 of the 2 directions"));
   EXPECT_LE(gradients, 2 + 1 + 2);  // start, design, that design in the cache, products
   EXPECT_LE(values, 6 + 4);
 }
@@ -275,6 +274,97 @@ TEST(LowestCurvature, IsFoundWhereAllDirectionsAreAlike) {
   const LowestCurvature found = lowest_curvature(product, Eigen::MatrixXd::Identity(3, 3), 6);
   EXPECT_EQ(found.products, 3);
   EXPECT_NEAR(found.curvature, -2.0, 1e-14);
+}
+
+/// f with the gradient that is asked for, right or wrong.
+class TwoVariables {
+ public:
+  using Value = std::function<double(const Eigen::Vector2d&)>;
+
+  TwoVariables(const Value& value, const Eigen::Vector2d& gradient, const Variable& first)
+      : problem_({first, {"b", 2.0, -10.0, 10.0}}, {},
+                 [this, value, gradient](const Eigen::VectorXd& x, Request) {
+                   if (x != start_) steps_.push_back(x - start_);
+                   Evaluation evaluation;
+                   evaluation.objective = value(x);
+                   evaluation.objective_gradient = gradient;
+                   evaluation.constraint_jacobian.resize(0, 2);
+                   return evaluation;
+                 }),
+        start_(checked_start(problem_)) {}
+
+  GradientCheck check() {
+    const EvaluatedDesign design{start_, problem_.evaluate(start_, Request::values_and_gradients)};
+    EvaluationCache cache(problem_, design, {variable_scales(problem_, start_), {}}, {});
+    KktAudit audit;
+    audit.gradient_scale =
+        scaled_objective_gradient(problem_, design.evaluation, local_scales(problem_, start_))
+            .norm();
+    return check_gradients(cache, design, audit, Tolerances().gradient);
+  }
+
+  /// From the start to the designs that were looked at.
+  const std::vector<Eigen::Vector2d>& steps() const { return steps_; }
+
+ private:
+  std::vector<Eigen::Vector2d> steps_;
+  FunctionProblem problem_;
+  Eigen::VectorXd start_;
+};
+
+const Variable free_variable{"a", 3.0, -10.0, 10.0};
+const Eigen::Vector2d slope(1.0, 2.0);
+
+double plane(const Eigen::Vector2d& x) {
+  return slope.dot(x);
+}
+
+// Two directions that are opposite to each other do not see it. Half of the error lies along each
+// of two generic directions; tolerances.gradient is 5e-3.
+TEST(GradientCheck, SeesAnErrorAcrossItsFirstDirection) {
+  for (const Variable& first : {free_variable, Variable{"a", 10.0, -10.0, 10.0}}) {
+    TwoVariables right(plane, slope, first);
+    EXPECT_LE(right.check().error, 1e-10);
+    const Eigen::Vector2d direction = right.steps().front();
+    const Eigen::Vector2d error = Eigen::Vector2d(-direction.y(), direction.x()).normalized();
+    TwoVariables wrong(plane, slope + 0.1 * error, first);
+    EXPECT_GE(wrong.check().error, 0.01);
+  }
+}
+
+// |n · (x − x₀)| + plane at x₀, with the gradient of one side.
+TEST(GradientCheck, SeesAKinkWhicheverWayItLies) {
+  for (int k = 0; k < 12; ++k) {
+    const double angle = 2.0 * std::acos(-1.0) * k / 12.0;
+    const Eigen::Vector2d normal(3.0 * std::cos(angle), 2.0 * std::sin(angle)), at(3.0, 2.0);
+    TwoVariables kinked(
+        [&](const Eigen::Vector2d& x) { return plane(x) + std::abs(normal.dot(x - at)); },
+        slope + normal, free_variable);
+    EXPECT_GE(kinked.check().error, 0.1) << "normal at " << angle;
+  }
+}
+
+// As the responses of members that ring: the phase ω t turns by 350 rad where a height doubles.
+// With h = 1e-3 the third derivative alone would make an error of 1e-3 · 350³ h² / 3 = 0.014.
+TEST(GradientCheck, TellsARingingValueFromAWrongGradient) {
+  const auto ringing = [](const Eigen::Vector2d& x) {
+    return plane(x) / 3.0 + 1e-3 * std::sin(350.0 * x.x() / 3.0);
+  };
+  const Eigen::Vector2d right = slope / 3.0 + Eigen::Vector2d(0.35 / 3.0 * std::cos(350.0), 0.0);
+  EXPECT_LE(TwoVariables(ringing, right, free_variable).check().error, Tolerances().gradient);
+  EXPECT_GE(TwoVariables(ringing, 1.05 * right, free_variable).check().error, 0.01);
+}
+
+TEST(GradientCheck, LooksAtSixDesignsWithinTheBounds) {
+  for (const double start : {-10.0, 0.0, 10.0}) {
+    TwoVariables problem(plane, slope, {"a", start, -10.0, 10.0});
+    problem.check();
+    EXPECT_EQ(problem.steps().size(), 6u);
+    for (const Eigen::Vector2d& step : problem.steps()) {
+      EXPECT_LE(std::abs(start + step.x()), 10.0);
+      EXPECT_NE(step.x(), 0.0);
+    }
+  }
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "core/scene/problem_reader.hpp"
+#include "tests/support/problem_runs.hpp"
 
 namespace pleuel::test {
 
@@ -39,7 +39,7 @@ inline ProblemFile turning_arm(const std::string& more,
     "responses": {)" + std::string(is_rigid ? "" : arm_responses) +
                            R"(}
   })";
-  return read_problem_text(text, "turning_arm.json", overrides).complete();
+  return problem_from(text, overrides);
 }
 
 }  // namespace pleuel::test

@@ -1,17 +1,14 @@
-#include <cmath>
-#include <string>
-
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/response/linearized_expression.hpp"
-#include "core/scene/problem_reader.hpp"
 #include "core/trust/checks.hpp"
 #include "optimization/design/design_solve.hpp"
 #include "sensitivity/gradients.hpp"
+#include "tests/problems/verified_optimum.hpp"
 #include "tests/support/problem_runs.hpp"
+#include "tests/support/test.hpp"
 
 /// A slider-crank whose points are formulas of the lengths of crank and rod: its stroke is twice the
 /// crank, whatever the rod.
@@ -61,7 +58,7 @@ Json slider_crank() {
 }
 
 ProblemFile problem_of(const Json& document) {
-  return read_problem_text(document.dump(), "slider_crank.json").complete();
+  return problem_from(document.dump());
 }
 
 double value_of(const ProblemFile& problem, const Analysis& analysis, const char* name) {
@@ -165,9 +162,7 @@ TEST(Maximize, FindsTheLargestDesignWithinItsLimits) {
   Json document = slider_crank();
   document["objective"] = {{"maximize", "= crank"}};
   document["constraints"]["room"] = {{"response", "stroke"}, {"upper", "100 mm"}};
-  DesignProblem design(problem_of(document));
-  const Result result = solve_design(design, {});
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+  const Result result = verified_optimum(problem_of(document));
   EXPECT_NEAR(result.x(0), 0.05, 1e-6);
   EXPECT_NEAR(-result.evaluation.objective, 0.05, 1e-6);
 }

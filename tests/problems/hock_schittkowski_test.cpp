@@ -1,12 +1,8 @@
-#include <cmath>
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "core/scene/problem_reader.hpp"
 #include "optimization/design/design_solve.hpp"
+#include "tests/support/test.hpp"
 
 /// Problems 21, 35, 37, 71 and 76 of W. Hock & K. Schittkowski, Test Examples for Nonlinear
 /// Programming Codes, Springer 1981, with the optima of the book, written in the language of problem

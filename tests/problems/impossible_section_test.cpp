@@ -1,8 +1,4 @@
 /// Bounds may allow sections that cannot be. The optimizer must not end at one.
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
@@ -12,6 +8,7 @@
 #include "optimization/design/design_solve.hpp"
 #include "tests/support/parameter_name.hpp"
 #include "tests/support/source_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::impossible_section_test {
 namespace {
@@ -41,14 +38,10 @@ constexpr Eigen::Index diameter = 1, wall = 2;
 
 TEST(ImpossibleSection, IsNotSimulated) {
   const ProblemFile problem = tube_problem();
-  try {
-    analyze(problem, Eigen::Vector3d(0.03, 0.007, 0.004));
-    FAIL() << "a tube of 7 mm has a wall of 4 mm";
-  } catch (const SimulationError& error) {
-    EXPECT_STREQ(error.what(),
-                 "the body \"rod\" is impossible: its section's thickness must not exceed the "
-                 "radius 0.0035 [m] of the tube, got 0.004");
-  }
+  EXPECT_EQ(thrown<SimulationError>([&] { analyze(problem, Eigen::Vector3d(0.03, 0.007, 0.004)); }),
+            "the body \"rod\" is impossible: its section's thickness must not exceed the "
+            "radius 0.0035 [m] of the tube, got 0.004")
+      << "a tube of 7 mm has a wall of 4 mm";
 }
 
 class OptimumOfTube : public testing::TestWithParam<const char*> {};

@@ -1,26 +1,22 @@
-#include <cmath>
-#include <numbers>
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
-#include "core/scene/problem_reader.hpp"
+#include "optimization/backends.hpp"
 #include "optimization/design/design_solve.hpp"
 #include "optimization/design/peak_problem.hpp"
 #include "tests/support/parameter_name.hpp"
+#include "tests/support/problem_runs.hpp"
+#include "tests/support/test.hpp"
 
-/// A limit on lateral buckling decides an optimum.
 namespace pleuel::test::lateral_limit_test {
 namespace {
+
+// A limit on lateral buckling decides an optimum.
 
 constexpr double length = 1.2, height = 0.04, force = 10.0, young = 2.1e11, shear = 8.0e10,
                  density = 7850.0;
 
 /// A flat bar on edge, clamped at one end, with a force across at the other.
 ProblemFile flat_bar() {
-  return read_problem_text(
-             R"j({"scene": {
+  return problem_from(R"j({"scene": {
     "materials": {"steel": {"young": "210 GPa", "poisson": 0.3125, "density": 7850,
                             "strength": "235 MPa"}},
     "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": [1.2, 0, 0], "material": "steel",
@@ -38,9 +34,7 @@ ProblemFile flat_bar() {
     "sideways": {"type": "lateral-buckling", "body": "bar", "over_time": "max"}},
   "objective": {"minimize": "mass"},
   "constraints": {"stress": {"response": "stress", "upper": 0.5},
-                  "sideways": {"response": "sideways", "upper": 0.5}}})j",
-             "flat_bar.json")
-      .complete();
+                  "sideways": {"response": "sideways", "upper": 0.5}}})j");
 }
 
 /// F/F_cr with F_cr = 4.0126 √(EI GJ)/L² (Timoshenko & Gere, §6.3), J = hb³/3 (1 − 0.63 b/h), over
@@ -74,8 +68,7 @@ constexpr double strut_length = 1.0, press = 1e4;
 /// A strut between a universal joint and a line, b wide along z and h high along y, with a limit on
 /// its buckling. In space.
 ProblemFile strut(const std::string& response, const std::string& over_time = "max") {
-  return read_problem_text(
-             R"j({"scene": {
+  return problem_from(R"j({"scene": {
     "materials": {"steel": {"young": "210 GPa", "poisson": 0.3125, "density": 7850}},
     "bodies": {"strut": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
       "section": {"type": "rectangle", "width": {"variable": "b"}, "height": {"variable": "h"}},
@@ -94,11 +87,9 @@ ProblemFile strut(const std::string& response, const std::string& over_time = "m
                 "h": {"start": "40 mm", "lower": "5 mm", "upper": "60 mm"}},
   "responses": {"mass": {"type": "mass"},
     "share": {"type": ")j" +
-                 response + R"(", "body": "strut", "over_time": ")" + over_time + R"("}},
+                      response + R"(", "body": "strut", "over_time": ")" + over_time + R"("}},
   "objective": {"minimize": "mass"},
-  "constraints": {"share": {"response": "share", "upper": 0.5}}})",
-             "strut.json")
-      .complete();
+  "constraints": {"share": {"response": "share", "upper": 0.5}}})");
 }
 
 /// P/P_E with P_E = π² E I/L², I = across thick³/12.
@@ -188,6 +179,121 @@ TEST(LateralLimit, OfARoundBeamHasPlacesByItsJointsOnly) {
     std::get<BeamBody>(file.scene.bodies[0].shape).segments[0].section = CircleSection{0.02};
     EXPECT_EQ(place_count(file, file.responses[1]), places);
   }
+}
+
+// The lightest cantilever with a limit on its lowest frequency is square: both planes tie.
+
+constexpr double bar_length = 0.5, limit = 2.0 * std::numbers::pi * 60.0;
+
+ProblemFile mast(const std::string& responses_and_limits) {
+  return problem_from(R"j({"scene": {"bodies": {"mast": {"type": "beam", "from": [0, 0, 0],
+    "to": [0.5, 0, 0], "elements": 6, "section": {"type": "rectangle", "width": "= w", "height": "= h"},
+    "material": "plain"}}, "materials": {"plain": {"young": "210 GPa", "poisson": 0.3, "density": 7850}},
+    "joints": {"root": {"type": "fixed", "bodies": ["ground", "mast"], "at": [0, 0, 0]}}},
+  "simulation": {"end_time": "2 ms", "step": "1 ms", "resolution_check": false},
+  "variables": {"w": {"start": "12 mm", "lower": "5 mm", "upper": "60 mm"},
+                "h": {"start": "20 mm", "lower": "5 mm", "upper": "60 mm"}},
+  "objective": {"minimize": "m"},
+  "responses": {"m": {"type": "mass"}, )j" +
+                      responses_and_limits + "}");
+}
+
+Result optimized(const ProblemFile& file, const std::string& backend = "nlopt-slsqp") {
+  DesignProblem design(file);
+  SolveOptions options;
+  options.backend = backend;
+  return solve_design(design, options);
+}
+
+/// ω = 3.516/L² √(E s²/12ρ) of a square of side s, but for rotary inertia (3e-4).
+const double side =
+    limit * bar_length * bar_length / 3.516015268500151 * std::sqrt(12.0 * 7850.0 / 2.1e11);
+
+/// @param owner  a key of the response: the body, or none for the whole mechanism
+std::string limited_along_both_axes(const std::string& owner) {
+  return fmt::format(R"j("y": {{"type": "frequency", "direction": "y"{0}}},
+                         "z": {{"type": "frequency", "direction": "z"{0}}}}},
+  "constraints": {{"stiff": {{"response": "= min(y, z)", "lower": "60 Hz"}}}})j",
+                     owner);
+}
+
+TEST(MeetingFrequencies, AreVerifiedByTheirDirections) {
+  for (const char* owner : {R"(, "body": "mast")", ""}) {
+    for (const std::string& backend : optimizer_names()) {
+      const Result result = optimized(mast(limited_along_both_axes(owner)), backend);
+      EXPECT_EQ(result.status, Status::verified) << backend << ": " << result.message;
+      EXPECT_NEAR(result.x(0), side, 1e-3 * side) << backend;
+      EXPECT_NEAR(result.x(1), side, 1e-3 * side) << backend;
+    }
+  }
+}
+
+TEST(MeetingFrequencies, WithoutADirectionAreAdvisedToTakeOne) {
+  const Result result = optimized(mast(R"("f": {"type": "frequency"}},
+  "constraints": {"stiff": {"response": "f", "lower": "60 Hz"}})"));
+  EXPECT_EQ(result.status, Status::stalled);
+  EXPECT_NEAR(result.x(0), side, 2e-3 * side);
+  EXPECT_THAT(result.message, HasSubstr("f coincides with the frequency of another mode"));
+  EXPECT_THAT(result.message, Not(HasSubstr("windows")));
+}
+
+// A limit on fatigue decides an optimum.
+
+/// A light bar in two segments, pulled by 3 kN + 2 kN sin ωt at its end and by as much at the end of
+/// the first segment: 6 kN and 4 kN in the first one.
+ProblemFile stepped_bar() {
+  return problem_from(R"j({"scene": {"gravity": [0, 0, 0],
+    "materials": {"light": {"young": "200 GPa", "poisson": 0.3, "density": 1,
+      "ultimate_strength": "400 MPa", "endurance_limit": "100 MPa"}},
+    "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": [0.5, 0, 0], "material": "light",
+      "segments": [
+        {"section": {"type": "rectangle", "width": {"variable": "a"}, "height": "10 mm"},
+         "elements": 1},
+        {"section": {"type": "rectangle", "width": {"variable": "b"}, "height": "10 mm"},
+         "elements": 1}]}},
+    "joints": {"wall": {"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}},
+    "loads": {
+      "pull": {"type": "force", "body": "bar", "at": [0.5, 0, 0], "direction": [1, 0, 0],
+               "value": "3 kN"},
+      "shake": {"type": "force", "body": "bar", "at": [0.5, 0, 0], "direction": [1, 0, 0],
+                "value": {"type": "harmonic", "amplitude": "2 kN", "frequency": "10 Hz"}},
+      "pull_2": {"type": "force", "body": "bar", "at": [0.25, 0, 0], "direction": [1, 0, 0],
+               "value": "3 kN"},
+      "shake_2": {"type": "force", "body": "bar", "at": [0.25, 0, 0], "direction": [1, 0, 0],
+                "value": {"type": "harmonic", "amplitude": "2 kN", "frequency": "10 Hz"}}}},
+  "effects": {"geometric_stiffening": "off"},
+  "simulation": {"end_time": "0.1 s", "step": "1 ms", "initial_state": "quasi-static",
+                 "resolution_check": false},
+  "variables": {"a": {"start": "20 mm", "lower": "1 mm", "upper": "50 mm"},
+                "b": {"start": "20 mm", "lower": "1 mm", "upper": "50 mm"}},
+  "responses": {"mass": {"type": "mass"},
+                "life": {"type": "fatigue", "body": "bar", "criterion": "goodman"}},
+  "objective": {"minimize": "mass"},
+  "constraints": {"life": {"response": "life", "upper": 0.5}}})j");
+}
+
+/// One limit on the whole beam is one on each of its segments, but not on windows of time.
+TEST(FatigueLimit, IsDividedBySegmentsOnly) {
+  DesignProblem design(stepped_bar());
+  PeakProblem peaks(design, 4);
+  EXPECT_EQ(peaks.constraints().size(), 2U);
+  const Eigen::VectorXd x = Eigen::Vector2d(0.02, 0.01);
+  const Evaluation at = peaks.evaluate(x, Request::values_and_gradients);
+  // σ_a/S_e + σ_m/S_u of 200 mm² and of 100 mm².
+  EXPECT_NEAR(at.constraints(0), 4e3 / 2e-4 / 100e6 + 6e3 / 2e-4 / 400e6, 1e-4);
+  EXPECT_NEAR(at.constraints(1), 2e3 / 1e-4 / 100e6 + 3e3 / 1e-4 / 400e6, 1e-4);
+  EXPECT_NEAR(at.constraint_jacobian(0, 0) * 0.02, -at.constraints(0), 1e-3);
+  EXPECT_NEAR(at.constraint_jacobian(1, 1) * 0.01, -at.constraints(1), 1e-3);
+  EXPECT_NEAR(at.constraint_jacobian(0, 1) * 0.01, 0.0, 1e-3);
+}
+
+/// Both segments at their limit: A = (F_a/S_e + F_m/S_u)/0.5, 110 mm² and 55 mm².
+TEST(FatigueLimit, SizesBothSegments) {
+  DesignProblem design(stepped_bar());
+  const Result result = solve_design(design, SolveOptions());
+  EXPECT_EQ(result.status, Status::verified) << result.message;
+  EXPECT_NEAR(result.x(0) * 0.01, (4e3 / 100e6 + 6e3 / 400e6) / 0.5, 1e-8);
+  EXPECT_NEAR(result.x(1) * 0.01, (2e3 / 100e6 + 3e3 / 400e6) / 0.5, 1e-8);
 }
 
 }  // namespace

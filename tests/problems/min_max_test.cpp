@@ -1,8 +1,4 @@
-#include <cmath>
-
-#include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include <filesystem>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/scene/problem_reader.hpp"
@@ -10,15 +6,19 @@
 #include "optimization/backends.hpp"
 #include "optimization/design/design_solve.hpp"
 #include "optimization/design/peak_problem.hpp"
+#include "tests/support/problem_runs.hpp"
+#include "tests/support/source_folder.hpp"
+#include "tests/support/test.hpp"
 
-/// The largest of several responses, as an objective and as a limit.
 namespace pleuel::test::min_max_test {
 namespace {
 
+// The largest of several responses, as an objective and as a limit.
+
 /// A rigid bar of 1 m, and the formulas f = (p − 0.3 m)² + q², g = (p + 0.2 m)² + q² + 0.1 m².
 ProblemFile bar(const std::string& goals) {
-  return read_problem_text(
-             R"({"scene": {"bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0],
+  return problem_from(
+      R"({"scene": {"bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0],
     "rigid": true, "material": "steel", "elements": 1,
     "section": {"type": "circle", "diameter": "10 mm"}}},
     "joints": {"wall": {"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}}},
@@ -29,9 +29,7 @@ ProblemFile bar(const std::string& goals) {
                 "g": {"type": "expression", "value": "(p + 0.2 m)^2 + q^2 + 0.1 m^2"},
                 "x": {"type": "position", "body": "bar", "at": 1, "direction": "x",
                       "over_time": "max"}},)" +
-                 goals + "}",
-             "bar.json")
-      .complete();
+      goals + "}");
 }
 
 /// f = g where −0.6 p + 0.09 = 0.4 p + 0.14: p = −0.05 m; there both are 0.1225 m². The larger one is
@@ -68,7 +66,7 @@ TEST(MinMax, OfFormulasMakesResponsesOfThem) {
   const ProblemFile file = bar(R"j("objective": {"minimize": "= max(2*f, g + f, f)"})j");
   std::vector<std::string> names;
   for (const ResponseSettings& response : file.responses) names.push_back(response.name);
-  EXPECT_THAT(names, testing::ElementsAre("f", "g", "x", "2*f", "g + f", "max(2*f, g + f, f)"));
+  EXPECT_THAT(names, ElementsAre("f", "g", "x", "2*f", "g + f", "max(2*f, g + f, f)"));
   EXPECT_EQ(file.objective->response, "max(2*f, g + f, f)");
   EXPECT_EQ(extreme_parts(file, 5, Extreme::largest), (std::vector<std::size_t>{0, 3, 4}));
   EXPECT_TRUE(extreme_parts(file, 5, Extreme::smallest).empty());
@@ -128,6 +126,85 @@ TEST(PeakProblem, LeavesAMinimumWithAnUpperLimitWhole) {
   EXPECT_EQ(rows_with(OverTime::min, true), 1u);
   EXPECT_EQ(rows_with(OverTime::max, false), 1u);
   EXPECT_EQ(rows_with(OverTime::max_abs, true), 2u);
+}
+
+/// A quick variant of a problem file: coarse, and over in 20 ms.
+ProblemFile quick_problem(const char* name) {
+  const auto path =
+      std::filesystem::path(source_folder()) / "problems" / (std::string(name) + ".json");
+  return read_problem(path, {"/simulation/step=0.2 ms", "/simulation/end_time=20 ms",
+                             "/scene/joints/bearing/drive/ramp=20 ms"})
+      .complete();
+}
+
+TEST(PeakProblem, FoldsToTheConstraintsOfTheFile) {
+  DesignProblem problem(quick_problem("slider_crank"));
+  PeakProblem peaks(problem, 16);
+  const Eigen::VectorXd x = start_design(problem.file());
+  const Evaluation whole = problem.evaluate(x, Request::values);
+  const Evaluation rows = peaks.evaluate(x, Request::values);
+  EXPECT_GT(rows.constraints.size(), whole.constraints.size());
+  const Eigen::VectorXd folded = peaks.fold_values(rows.constraints);
+  for (Eigen::Index i = 0; i < folded.size(); ++i) {
+    EXPECT_EQ(folded(i), whole.constraints(i)) << problem.constraints()[std::size_t(i)].name;
+  }
+}
+
+/// The gradient of a whole maximum is that of its highest window.
+TEST(PeakProblem, HasTheGradientOfTheWholeInItsWorstRow) {
+  DesignProblem problem(quick_problem("slider_crank_round"));
+  PeakProblem peaks(problem, 16);
+  const Eigen::VectorXd x = 0.8 * start_design(problem.file());
+  const Evaluation whole = problem.evaluate(x, Request::values_and_gradients);
+  const Evaluation rows = peaks.evaluate(x, Request::values_and_gradients);
+  const auto& constraint_of_row = peaks.constraint_of_row();
+  Eigen::Index first = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto count =
+        Eigen::Index(std::count(constraint_of_row.begin(), constraint_of_row.end(), i));
+    Eigen::Index worst = 0;
+    rows.constraints.segment(first, count).maxCoeff(&worst);
+    EXPECT_EQ(rows.constraint_jacobian.row(first + worst),
+              whole.constraint_jacobian.row(Eigen::Index(i)));
+    first += count;
+  }
+  EXPECT_EQ(first, rows.constraints.size()) << "all four limits are on peaks";
+}
+
+/// Differences of each window's peak: those of the exact method, to their truncation.
+TEST(PeakProblem, HasTheGradientsOfDifferencesIfAsked) {
+  ProblemFile file = quick_problem("slider_crank_round");
+  DesignProblem exact(file);
+  file.sensitivity.method = GradientMethod::central_difference;
+  DesignProblem differenced(file, 2);
+  PeakProblem peaks(exact, 16), differenced_peaks(differenced, 16);
+  const Eigen::VectorXd x = 0.8 * start_design(file);
+  const Evaluation expected = peaks.evaluate(x, Request::values_and_gradients);
+  const Evaluation found = differenced_peaks.evaluate(x, Request::values_and_gradients);
+  EXPECT_EQ(differenced.method()->method, GradientMethod::central_difference);
+  EXPECT_EQ(found.constraints, expected.constraints);
+  const auto compare = [](const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+    EXPECT_LE((a - b).lpNorm<Eigen::Infinity>(), 1e-5 * b.lpNorm<Eigen::Infinity>());
+    EXPECT_GT((a - b).lpNorm<Eigen::Infinity>(), 0.0);
+  };
+  compare(found.constraint_jacobian, expected.constraint_jacobian);
+  compare(found.objective_gradient, expected.objective_gradient);
+}
+
+TEST(PeakProblem, AddsTheMultipliersOfTheRowsOfAConstraint) {
+  DesignProblem problem(quick_problem("slider_crank_round"));
+  PeakProblem peaks(problem, 16);
+  const Eigen::VectorXd ones = Eigen::VectorXd::Ones(Eigen::Index(peaks.constraints().size()));
+  // 16 windows; of the stress of one segment, at four stretches of it.
+  EXPECT_EQ(peaks.fold_multipliers(ones), Eigen::Vector4d(64.0, 64.0, 16.0, 16.0));
+}
+
+/// Sixteen rows for each limit from the beginning mislead SLSQP here into an infeasible design.
+TEST(SolveDesign, SplitsNoLimitsWhereTheOptimumIsSmooth) {
+  DesignProblem problem(quick_problem("slider_crank_round"));
+  const Result result = solve_design(problem, {.backend = "nlopt-slsqp"});
+  EXPECT_EQ(to_string(result.status), "verified") << result.message;
+  EXPECT_EQ(result.restarts, 0);
 }
 
 }  // namespace

@@ -1,26 +1,19 @@
 #include "optimization/design/multi_start.hpp"
 
-#include <cmath>
-
-#include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
-#include "core/scene/problem_reader.hpp"
 #include "optimization/backends.hpp"
 #include "optimization/design/setting_text.hpp"
 #include "tests/optimization/backend_names.hpp"
+#include "tests/support/problem_runs.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::multi_start_test {
 namespace {
 
-using testing::HasSubstr;
-
 /// An arm of 100 mm that is held at the angle phi; the place of its tip, 100 mm · cos phi, is least
 /// at the bounds: 100 mm · cos 1 = 54.030 mm and 100 mm · cos 0.8 = 69.671 mm.
 ProblemFile held_arm(const std::string& optimizer) {
-  return read_problem_text(fmt::format(R"({{"scene": {{
+  return problem_from(fmt::format(R"({{"scene": {{
     "bodies": {{"arm": {{"type": "beam", "from": [0, 0, 0], "to": ["100 mm", 0, 0], "rigid": true,
       "material": "steel", "elements": 2, "section": {{"type": "circle", "diameter": "10 mm"}}}}}},
     "joints": {{"bearing": {{"type": "revolute", "bodies": ["ground", "arm"], "at": [0, 0, 0],
@@ -30,9 +23,7 @@ ProblemFile held_arm(const std::string& optimizer) {
     "responses": {{"x": {{"type": "position", "body": "arm", "at": 1, "direction": "x",
       "over_time": "final"}}}},
     "objective": {{"minimize": "x"}}, "optimizer": {}}})",
-                                       optimizer),
-                           "arm.json")
-      .complete();
+                                  optimizer));
 }
 
 MultiStart solved(const ProblemFile& file, const Execution& execution = {}) {
@@ -129,12 +120,8 @@ TEST(MultiStart, SaysOfOneStartThatOthersWereNotLookedFor) {
 }
 
 TEST(MultiStart, RefusesADesignOutsideTheBounds) {
-  try {
-    held_arm(R"({"starts": [{"phi": 2}]})");
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("/optimizer/starts/0/phi"));
-  }
+  EXPECT_THAT(thrown<InputError>([&] { held_arm(R"({"starts": [{"phi": 2}]})"); }),
+              HasSubstr("/optimizer/starts/0/phi"));
 }
 
 /// A cantilever of four pieces of 200 mm under a force of 500 N at its tip, each 20 mm wide and h
@@ -154,9 +141,8 @@ class SteppedCantilever : public testing::TestWithParam<std::string> {
       variables += fmt::format(
           R"("h{}": {{"start": "90 mm", "lower": "5 mm", "upper": "200 mm"}}{})", i, comma);
     }
-    return read_problem_text(
-               fmt::format(
-                   R"({{"scene": {{"gravity": [0, 0, 0], "bodies": {{"beam": {{"type": "beam",
+    return problem_from(fmt::format(
+        R"({{"scene": {{"gravity": [0, 0, 0], "bodies": {{"beam": {{"type": "beam",
         "from": [0, 0, 0], "to": [{}, 0, 0], "material": "steel", "segments": [{}]}}}},
       "joints": {{"wall": {{"type": "fixed", "bodies": ["ground", "beam"], "at": [0, 0, 0]}}}},
       "loads": {{"tip": {{"type": "force", "body": "beam", "at": [{}, 0, 0],
@@ -169,9 +155,7 @@ class SteppedCantilever : public testing::TestWithParam<std::string> {
         "stress": {{"type": "stress", "body": "beam", "over_time": "max"}}}},
       "objective": {{"minimize": "mass"}},
       "constraints": {{"strength": {{"response": "stress", "upper": {}}}}}}})",
-                   4 * piece, segments, 4 * piece, force, variables, stress),
-               "cantilever.json")
-        .complete();
+        4 * piece, segments, 4 * piece, force, variables, stress));
   }
 };
 

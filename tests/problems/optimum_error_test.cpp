@@ -1,14 +1,11 @@
 #include "optimization/design/optimum_error.hpp"
 
-#include <cmath>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "optimization/design/design_solve.hpp"
+#include "tests/support/problem_runs.hpp"
 #include "tests/support/source_folder.hpp"
+#include "tests/support/test.hpp"
 
 /// How far optima are from those of finer simulations, against optimizing with these.
 namespace pleuel::test::optimum_error_test {
@@ -68,12 +65,12 @@ TEST(OptimumError, IsComparedWithTheTargetOfTheFile) {
   const std::vector<std::string> step = {"/simulation/step=0.1 ms"};
   const Result usual = optimum("slider_crank", step);
   ASSERT_EQ(usual.status, Status::verified) << usual.message;
-  EXPECT_THAT(usual.message, testing::HasSubstr("steps and elements: to ±"));
+  EXPECT_THAT(usual.message, HasSubstr("steps and elements: to ±"));
   const Result strict =
       optimum("slider_crank", {step.front(), R"(/accuracy={"target": "0.0001 %"})"});
   EXPECT_EQ(strict.status, Status::unresolved);
-  EXPECT_THAT(strict.message, testing::HasSubstr("/accuracy/target is 0.0001 %"));
-  EXPECT_THAT(strict.message, testing::HasSubstr("Try "));
+  EXPECT_THAT(strict.message, HasSubstr("/accuracy/target is 0.0001 %"));
+  EXPECT_THAT(strict.message, HasSubstr("Try "));
 }
 
 /// Changes of the objective count as they are, those of a limited response by what a limit that is
@@ -109,9 +106,8 @@ TEST(OptimumError, IsTheSumOfChangesByTheirPrices) {
 /// 3 % of 10 mm where the value keeps 0.2 mm of distance from it.
 TEST(OptimumError, OfALimitThatItMayBreakIsAsLargeAsTheTargetAtMost) {
   const auto complaint = [](const std::string& side, double value, double error) {
-    DesignProblem design(
-        read_problem_text(
-            R"({"scene": {"bodies": {"b": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0],
+    DesignProblem design(problem_from(
+        R"({"scene": {"bodies": {"b": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0],
               "material": "steel", "elements": 1,
               "section": {"type": "circle", "diameter": {"variable": "d"}}}},
             "joints": {"f": {"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]}}},
@@ -121,9 +117,7 @@ TEST(OptimumError, OfALimitThatItMayBreakIsAsLargeAsTheTargetAtMost) {
             "sag": {"type": "deflection", "body": "b", "at": 1, "over_time": "max"}},
           "objective": {"minimize": "m"}, "accuracy": {"target": 0.01},
           "constraints": {"limit": {"response": "sag", ")" +
-                side + R"(": "10 mm"}}})",
-            "limit.json")
-            .complete());
+        side + R"(": "10 mm"}}})"));
     Result result;
     result.status = Status::verified;
     result.x = Eigen::VectorXd::Constant(1, 0.02);
@@ -141,8 +135,8 @@ TEST(OptimumError, OfALimitThatItMayBreakIsAsLargeAsTheTargetAtMost) {
     trust.evidence.assign(2, exact);
     return inaccuracy(design, result, trust);
   };
-  EXPECT_THAT(complaint("upper", 9.8e-3, 0.3e-3), testing::HasSubstr("\"sag\", which is limited"));
-  EXPECT_THAT(complaint("lower", 10.2e-3, 0.3e-3), testing::HasSubstr("± 3.0 % only"));
+  EXPECT_THAT(complaint("upper", 9.8e-3, 0.3e-3), HasSubstr("\"sag\", which is limited"));
+  EXPECT_THAT(complaint("lower", 10.2e-3, 0.3e-3), HasSubstr("± 3.0 % only"));
   EXPECT_EQ(complaint("upper", 9.6e-3, 0.3e-3), "");
   EXPECT_EQ(complaint("lower", 10.4e-3, 0.3e-3), "");
   EXPECT_EQ(complaint("upper", 9.99e-3, 0.09e-3), "");  // within the target of 1 %

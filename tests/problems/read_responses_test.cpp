@@ -1,7 +1,3 @@
-#include <cmath>
-#include <string>
-
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "core/base/eager_matrices.hpp"
@@ -10,6 +6,7 @@
 #include "core/scene/problem_reader.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/support/problem_runs.hpp"
+#include "tests/support/test.hpp"
 
 /// Responses of joints, springs, motors and sections in closed form.
 namespace pleuel::test::read_responses_test {
@@ -226,12 +223,7 @@ TEST(Stress, OfSeveralBodiesIsTheLargestOfThem) {
 std::string complaint(const char* response) {
   Json document = Json::parse(cantilever);
   document["responses"] = {{"asked", Json::parse(response)}};
-  try {
-    read_problem_text(document.dump(), "test.json").complete();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return thrown<InputError>([&] { read_problem_text(document.dump(), "test.json").complete(); });
 }
 
 TEST(ReadResponse, OfAnythingElseIsRefusedWithItsPlace) {

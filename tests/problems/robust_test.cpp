@@ -1,13 +1,12 @@
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "optimization/design/design_problem.hpp"
 #include "optimization/design/design_solve.hpp"
 #include "optimization/design/margin_problem.hpp"
 #include "studies/uncertainty.hpp"
+#include "tests/support/problem_runs.hpp"
 #include "tests/support/source_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::robust_test {
 namespace {
@@ -84,8 +83,8 @@ TEST(RobustConstraints, AreNotVerifiedWhereDeviationsLeaveNoSection) {
 /// not change with S to first order, but at three deviations of 20 N by √1.36 = 1.166, of 4 N by 1.007.
 TEST(RobustConstraints, AreNotVerifiedWhereFirstOrderMissesThem) {
   const auto result_of = [](double deviation) {
-    DesignProblem problem(read_problem_text(fmt::format(
-                                                R"j({{"scene": {{"gravity": [0, 0, 0],
+    DesignProblem problem(problem_from(fmt::format(
+        R"j({{"scene": {{"gravity": [0, 0, 0],
                   "bodies": {{"b": {{"type": "beam", "from": [0, 0, 0], "to": [0.6, 0, 0],
                       "material": "steel", "elements": 2, "damping": {{"stiffness": 1e-5}},
                       "section": {{"type": "circle", "diameter": {{"variable": "d"}}}}}}}},
@@ -103,9 +102,7 @@ TEST(RobustConstraints, AreNotVerifiedWhereFirstOrderMissesThem) {
                 "objective": {{"minimize": "m"}},
                 "constraints": {{"strength": {{"response": "s", "upper": 1.5e8, "deviations": 3}}}},
                 "uncertainty": {{"parameters": {{"side": {{"deviation": {}}}}}}}}})j",
-                                                deviation),
-                                            "cantilever.json")
-                              .complete());
+        deviation)));
     return solve_design(problem, {.backend = "nlopt-slsqp"});
   };
   const Result far = result_of(20.0);
@@ -122,9 +119,8 @@ TEST(RobustConstraints, AreNotVerifiedWhereFirstOrderMissesThem) {
 /// 2.1 of the other. A bar that is 1 mm higher has no such frequencies.
 TEST(RobustConstraints, TellMarginsOfFrequenciesThatCoincide) {
   const auto findings_of = [](double higher) {
-    const ProblemFile problem =
-        read_problem_text(
-            fmt::format(R"j({{"scene": {{"bodies": {{"b": {{"type": "beam", "from": [0, 0, 0],
+    const ProblemFile problem = problem_from(
+        fmt::format(R"j({{"scene": {{"bodies": {{"b": {{"type": "beam", "from": [0, 0, 0],
                   "to": [0.5, 0, 0], "material": "steel", "elements": 4,
                   "section": {{"type": "rectangle", "width": "= a + e1",
                               "height": "= a + e2 + {} mm"}}}}}},
@@ -138,9 +134,7 @@ TEST(RobustConstraints, TellMarginsOfFrequenciesThatCoincide) {
               "constraints": {{"high": {{"response": "f", "lower": "60 Hz", "deviations": 3}}}},
               "uncertainty": {{"parameters": {{"e1": {{"deviation": "0.1 mm"}},
                                              "e2": {{"deviation": "0.1 mm"}}}}}}}})j",
-                        higher),
-            "bar.json")
-            .complete();
+                    higher));
     DesignProblem design(problem);
     return check_margins(design, start_design(problem));
   };
@@ -187,9 +181,7 @@ const char* const two_peaks = R"({
 /// At the bound of a the highest peak keeps its margin, and the lower one does not.
 TEST(RobustConstraints, HoldForLowerPeaksThatScatterMore) {
   for (const char* upper : {"98 mm", "99.9 mm"}) {
-    DesignProblem problem(
-        read_problem_text(two_peaks, "two_peaks.json", {std::string("/variables/a/upper=") + upper})
-            .complete());
+    DesignProblem problem(problem_from(two_peaks, {std::string("/variables/a/upper=") + upper}));
     const Result result = solve_design(problem, {.backend = "nlopt-slsqp"});
     EXPECT_EQ(result.status, Status::verified) << result.message;
     EXPECT_NEAR(result.x(0), 0.096, 2e-5) << upper;
@@ -198,8 +190,7 @@ TEST(RobustConstraints, HoldForLowerPeaksThatScatterMore) {
 
 /// Where both keep theirs the bound is the answer.
 TEST(RobustConstraints, LeaveABoundThatAllPeaksKeep) {
-  DesignProblem problem(
-      read_problem_text(two_peaks, "two_peaks.json", {"/variables/a/upper=95 mm"}).complete());
+  DesignProblem problem(problem_from(two_peaks, {"/variables/a/upper=95 mm"}));
   const Result result = solve_design(problem, {.backend = "nlopt-slsqp"});
   EXPECT_EQ(result.status, Status::verified) << result.message;
   EXPECT_NEAR(result.x(0), 0.095, 1e-9);

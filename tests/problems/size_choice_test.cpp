@@ -1,24 +1,16 @@
 #include "optimization/design/size_choice.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <numbers>
 #include <optional>
-
-#include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "optimization/design/multi_start.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::size_choice_test {
 namespace {
-
-using testing::HasSubstr;
 
 // A cantilever of steps of 100 mm, 20 mm wide, with 1 kN at its tip from the start on, in
 // equilibrium. The stress at the root of a step is 6 F (distance to the tip) / (b h²).
@@ -267,9 +259,9 @@ TEST(SizeChoice, SaysThatNoChoiceKeepsTheLimits) {
   // 3 steps need 30 mm at the wall.
   const Answer answer = solved(make_cantilever({.steps = 3, .sizes = {0.02, 0.015, 0.025}}));
   EXPECT_EQ(answer.result().status, Status::infeasible);
-  EXPECT_THAT(answer.result().message,
-              testing::AllOf(HasSubstr("none of the 27 choices of sizes keeps all limits"),
-                             HasSubstr("s0")));
+  EXPECT_THAT(
+      answer.result().message,
+      AllOf(HasSubstr("none of the 27 choices of sizes keeps all limits"), HasSubstr("s0")));
   EXPECT_EQ(answer.result().x(0), 0.025);  // breaks them least
   EXPECT_TRUE(answer.report.is_choice);
 }

@@ -1,11 +1,8 @@
-#include <algorithm>
-
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "core/response/effect_measurement.hpp"
 #include "tests/random/seeds.hpp"
 #include "tests/random/simulated_scene.hpp"
+#include "tests/support/test.hpp"
 
 /// What a tolerance promises of effects that are left out.
 namespace pleuel::test::random_effects_test {

@@ -1,10 +1,4 @@
-#include <algorithm>
 #include <map>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/relative_error.hpp"
@@ -15,6 +9,7 @@
 #include "core/trust/resolution.hpp"
 #include "tests/random/seeds.hpp"
 #include "tests/random/simulated_scene.hpp"
+#include "tests/support/test.hpp"
 
 /// What warnings about resolution are worth, over all random mechanisms together.
 namespace pleuel::test::random_resolution_test {

@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/scene/problem_reader.hpp"
+#include "tests/support/problem_runs.hpp"
 
 namespace pleuel::test {
 
@@ -607,7 +607,7 @@ Eigen::Matrix3d general_rotation(unsigned seed) {
 ProblemFile read(const Json& scene) {
   static std::mutex one_at_a_time;  // the library of units knows no threads
   const std::lock_guard lock(one_at_a_time);
-  return read_problem_text(scene.dump(), "random.json").complete();
+  return problem_from(scene.dump());
 }
 
 }  // namespace pleuel::test

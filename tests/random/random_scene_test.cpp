@@ -1,11 +1,7 @@
 #include "tests/random/random_scene.hpp"
 
-#include <algorithm>
 #include <functional>
 #include <memory>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
@@ -15,6 +11,7 @@
 #include "tests/random/seeds.hpp"
 #include "tests/random/simulated_scene.hpp"
 #include "tests/support/parameter_name.hpp"
+#include "tests/support/test.hpp"
 
 /// Laws that hold for every mechanism, tried on random ones. The seeds are fixed by the build.
 namespace pleuel::test::random_scene_test {

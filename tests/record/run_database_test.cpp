@@ -5,19 +5,16 @@
 #include <limits>
 #include <random>
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::run_database_test {
 namespace {
-
-using ::testing::HasSubstr;
 
 class Record : public testing::Test {
  protected:
@@ -151,23 +148,15 @@ TEST_F(Record, RefusesFilesOfAnotherKind) {
 TEST_F(Record, RefusesTheRecordOfAnotherVersion) {
   RunDatabase(file()).describe("command", "optimize");
   Database(file()).execute("PRAGMA user_version = 7");
-  try {
-    RunDatabase{file()};
-    FAIL();
-  } catch (const DatabaseError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("another version"));
-  }
+  EXPECT_THAT(thrown<DatabaseError>([&] { RunDatabase{file()}; }), HasSubstr("another version"));
 }
 
 /// What opens and reads it whole says of it; empty if all is well.
 std::string refusal(const std::filesystem::path& file) {
-  try {
+  return thrown<DatabaseError>([&] {
     const RunDatabase record(file);
     record.check();
-  } catch (const DatabaseError& error) {
-    return error.what();
-  }
-  return "";
+  });
 }
 
 TEST_F(Record, NamesTheRowThatWasChanged) {

@@ -1,14 +1,14 @@
+#include <chrono>
 #include <cstdlib>
 #include <fstream>
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "core/base/error.hpp"
+#include "core/jobs/child_program.hpp"
 #include "reduction/calculix_input.hpp"
 #include "reduction/solid_matrices.hpp"
 #include "tests/reduction/solid_block.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::calculix_test {
 namespace {
@@ -42,14 +42,8 @@ TEST(CalculixInput, ErrorsNameFileAndLine) {
   const TemporaryFolder folder;
   const auto message = [&](const std::string& text) -> std::string {
     write(folder.path() / "a.inp", text);
-    try {
-      read_calculix_input(folder.path() / "a.inp");
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return thrown<InputError>([&] { read_calculix_input(folder.path() / "a.inp"); });
   };
-  using testing::HasSubstr;
   EXPECT_THAT(message("*NODE\n1, 0, x, 0\n"), HasSubstr("a.inp:2: \"x\" must be a number"));
   EXPECT_THAT(message("*ELEMENT, TYPE=C3D6\n"), HasSubstr("C3D6"));
   EXPECT_THAT(message("*ELEMENT, TYPE=C3D4\n5, 1, 2\n*NODE\n"), HasSubstr("element 5"));
@@ -81,6 +75,37 @@ TEST(CalculixProgram, WritesTheMatricesThatTheTestsAssemble) {
   };
   EXPECT_LT(difference(matrices.stiffness, model.stiffness), 1e-10);
   EXPECT_LT(difference(matrices.mass, model.mass), 1e-10);
+}
+
+std::string shell(const std::string& script, double limit = 0.0) {
+  return output_of({{"sh", "-c", script}, {}, limit}, "two\nlines\n");
+}
+
+std::string failure_of(const ChildProgram& program) {
+  return thrown<SimulationError>([&] { output_of(program, ""); });
+}
+
+TEST(ChildProgram, GetsItsInputAndGivesItsOutput) {
+  EXPECT_EQ(shell("cat; echo unheard >&2"), "two\nlines\n");
+}
+
+/// More than any pipe holds, both ways.
+TEST(ChildProgram, MayWriteMoreThanAPipeHolds) {
+  EXPECT_EQ(shell("head -c 3000000 /dev/zero").size(), 3000000u);
+}
+
+TEST(ChildProgram, FailsWithItsCodeAndItsLastWords) {
+  EXPECT_THAT(failure_of({{"sh", "-c", "echo no mesh >&2; exit 3"}, {}, 0.0}),
+              AllOf(HasSubstr("exit code 3"), HasSubstr("no mesh")));
+  EXPECT_THAT(failure_of({{"pleuel-has-no-such-program"}, {}, 0.0}), HasSubstr("in PATH"));
+  EXPECT_THAT(failure_of({{"sh", "-c", "kill -9 $$"}, {}, 0.0}), HasSubstr("signal 9"));
+}
+
+/// It ends with all that it started.
+TEST(ChildProgram, IsEndedAtItsTimeLimit) {
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_THAT(failure_of({{"sh", "-c", "sleep 60 & wait"}, {}, 0.2}), HasSubstr("limit of 0.2 s"));
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
 }
 
 }  // namespace

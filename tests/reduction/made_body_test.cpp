@@ -1,10 +1,5 @@
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "core/base/error.hpp"
 #include "core/jobs/child_program.hpp"
@@ -13,6 +8,7 @@
 #include "core/scene/continued_body.hpp"
 #include "core/scene/invariants_file.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::made_body_test {
 namespace {
@@ -223,7 +219,7 @@ TEST(AlignedBody, NeedsTheSameCoordinates) {
   InvariantsFile other = body_of(1.0);
   other.coordinates.push_back("mode 3");
   EXPECT_THAT([&] { alignment_of(reference, other); },
-              testing::ThrowsMessage<SimulationError>(testing::HasSubstr("3 coordinates")));
+              testing::ThrowsMessage<SimulationError>(HasSubstr("3 coordinates")));
   InvariantsFile mixed = reference;
   const double c = std::sqrt(0.5);
   mixed.constants.shape.setZero();
@@ -231,7 +227,7 @@ TEST(AlignedBody, NeedsTheSameCoordinates) {
   mixed.constants.places[0].displacement.setZero();
   mixed.constants.places[0].rotation = sparse((MatrixXd(3, 2) << 0, 0, 0, 0, c, c).finished());
   EXPECT_THAT([&] { alignment_of(reference, mixed); },
-              testing::ThrowsMessage<SimulationError>(testing::HasSubstr("stretching")));
+              testing::ThrowsMessage<SimulationError>(HasSubstr("stretching")));
 }
 
 /// A program that writes what stands in a file, and counts its calls.
@@ -302,8 +298,6 @@ TEST(BodyGenerator, FailsWithItsNameAndDesign) {
   const CountedProgram counted;
   counted.add("1.0", body_of(0.5));
   const auto source = make_body_source(counted.generator(true));
-  using testing::AllOf;
-  using testing::HasSubstr;
   EXPECT_THAT([&] { source->at(values(0.75)); },
               testing::ThrowsMessage<SimulationError>(
                   AllOf(HasSubstr("height = 0.75 m"), HasSubstr("sh make.sh"))));

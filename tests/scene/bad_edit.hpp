@@ -1,9 +1,8 @@
 #pragma once
 
 #include <iosfwd>
-#include <string>
 
-#include <gtest/gtest.h>
+#include "tests/support/test.hpp"
 
 namespace pleuel::test {
 
@@ -17,6 +16,10 @@ struct BadEdit {
 };
 
 void PrintTo(const BadEdit& bad, std::ostream* stream);
+
+/// Edits, a line each: pointer | value | message, and the number of mistakes where there are several. In a message
+/// a "~" in front stands for the pointer, a "^" for the one above it.
+std::vector<BadEdit> bad_edits(const std::string& table);
 
 /// Of good_json(): every kind of mistake.
 class BadProblemFile : public testing::TestWithParam<BadEdit> {};

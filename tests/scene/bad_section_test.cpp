@@ -1,14 +1,12 @@
 #include <fstream>
 #include <ostream>
-#include <string>
-
-#include <gtest/gtest.h>
 
 #include "core/base/error.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "tests/scene/good_problem.hpp"
 #include "tests/support/parameter_name.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::bad_section_test {
 namespace {

@@ -1,21 +1,15 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <string>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "core/base/error.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "tests/scene/good_problem.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::bad_text_test {
 namespace {
-
-using testing::HasSubstr;
-using testing::StartsWith;
 
 TEST(BadText, TruncatedAnywhereIsRefusedByAMessage) {
   const std::string text = good_text();
@@ -244,12 +238,7 @@ TEST(BadValue, OfNoKindIsRefusedEverywhereInAMechanism) {
 }
 
 std::string complaint_about_file(const std::filesystem::path& path) {
-  try {
-    read_problem(path).complete();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return thrown<InputError>([&] { read_problem(path).complete(); });
 }
 
 TEST(BadFile, MissingIsCalledMissing) {

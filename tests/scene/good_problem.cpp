@@ -2,6 +2,7 @@
 
 #include "core/base/error.hpp"
 #include "core/scene/problem_reader.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test {
 
@@ -93,12 +94,7 @@ std::string complaint(const Json& document) {
 }
 
 std::string complaint_about_text(const std::string& text) {
-  try {
-    read_problem_text(text, "bad.json").complete();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return thrown<InputError>([&] { read_problem_text(text, "bad.json").complete(); });
 }
 
 Json edited(const std::string& pointer, const std::string& value) {

@@ -1,17 +1,11 @@
-#include <cmath>
-#include <numbers>
 #include <set>
-#include <string>
-#include <vector>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "core/scene/held_points.hpp"
 #include "core/scene/packed_problem.hpp"
 #include "core/scene/response_quantity.hpp"
 #include "core/scene/visit_numbers.hpp"
 #include "tests/scene/good_problem.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::mechanism_test {
 namespace {
@@ -19,9 +13,6 @@ namespace {
 using std::numbers::pi;
 using testing::DoubleEq;
 using testing::DoubleNear;
-using testing::ElementsAre;
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 constexpr double rounding = 1e-14;  // relative, of one or two conversions of units
 
@@ -321,11 +312,11 @@ TEST_F(Mechanism, RepeatsItselfOnlyWithoutDriftAndWithEqualSteps) {
   Json& simulation = document["simulation"];
   simulation["initial_state"] = "periodic";
   simulation["formulation"] = "index-1";
-  EXPECT_THAT(complaint(document), testing::HasSubstr("drift apart"));
+  EXPECT_THAT(complaint(document), HasSubstr("drift apart"));
   simulation["projection"] = true;
   EXPECT_EQ(complaint(document), "");
   simulation["local_error"] = 1e-3;
-  EXPECT_THAT(complaint(document), testing::HasSubstr("leave out \"local_error\""));
+  EXPECT_THAT(complaint(document), HasSubstr("leave out \"local_error\""));
 }
 
 TEST_F(Mechanism, HasEveryBoundNumberVisited) {

@@ -1,21 +1,16 @@
 #include <filesystem>
-#include <numbers>
-#include <string>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "core/scene/problem_reader.hpp"
 #include "core/scene/response_quantity.hpp"
 #include "tests/scene/good_problem.hpp"
 #include "tests/support/parameter_name.hpp"
 #include "tests/support/source_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::problem_files_test {
 namespace {
 
 using std::numbers::pi;
-using testing::ElementsAre;
 
 ProblemFile read_file(const std::string& name) {
   return read_problem(std::filesystem::path(source_folder()) / "problems" / name).complete();

@@ -1,8 +1,3 @@
-#include <cmath>
-
-#include <fmt/format.h>
-#include <gmock/gmock.h>
-
 #include "core/base/error.hpp"
 #include "core/integration/checkpointed_loop.hpp"
 #include "sensitivity/gradients.hpp"
@@ -10,6 +5,7 @@
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/sample_name.hpp"
 #include "tests/support/sample_scenes.hpp"
+#include "tests/support/test.hpp"
 
 /// Trajectories that do not fit into the memory: the same numbers, bit by bit, for at most one more
 /// simulation.
@@ -160,7 +156,7 @@ TEST(Checkpoints, AreKnownToTheChoiceOfTheMethod) {
   const auto analysis = analyze(problem, start_design(problem));
   const auto all = response_values(*analysis);
   const MethodChoice choice = choose_method(*analysis, {all[1]});
-  EXPECT_THAT(choice.reason, testing::HasSubstr("simulated again"));
+  EXPECT_THAT(choice.reason, HasSubstr("simulated again"));
 }
 
 TEST(Checkpoints, SayHowMuchMemoryTheyNeed) {
@@ -168,14 +164,9 @@ TEST(Checkpoints, SayHowMuchMemoryTheyNeed) {
   SimulationOptions options{0.1, 1e-3, 0.8};
   const double least = least_memory(model.mechanism, options);
   options.memory = 0.9 * least;
-  try {
-    simulate(model.mechanism, options);
-    FAIL() << "that is too little";
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("/sensitivity/memory is too little"));
-    EXPECT_THAT(error.what(), testing::HasSubstr(fmt::format("of 100 steps; at least {:.3g} MB",
-                                                             1.01e-6 * least)));
-  }
+  const std::string said = thrown<InputError>([&] { simulate(model.mechanism, options); });
+  EXPECT_THAT(said, HasSubstr("/sensitivity/memory is too little"));
+  EXPECT_THAT(said, HasSubstr(fmt::format("of 100 steps; at least {:.3g} MB", 1.01e-6 * least)));
 }
 
 /// K checkpoints and stretches of L states hold K L states: within a factor of what two levels can

@@ -1,13 +1,12 @@
 #include "tests/support/flexible_slider_crank.hpp"
 
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "sensitivity/adjoint.hpp"
 #include "sensitivity/direct.hpp"
 #include "tests/sensitivity/flexible_slider_crank_reference.hpp"
 #include "tests/support/dense.hpp"
 #include "tests/support/differences.hpp"
+#include "tests/support/test.hpp"
 
 /// Derivatives of the flexible slider-crank of the IVP Test Set with respect to the rod's E, ρ and
 /// height against a computation that shares nothing with the code under test.

@@ -1,14 +1,15 @@
 #include "sensitivity/kinks.hpp"
 
-#include <cmath>
 #include <memory>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/response/analysis.hpp"
-#include "core/scene/problem_reader.hpp"
+#include "sensitivity/finite_difference.hpp"
+#include "sensitivity/gradients.hpp"
+#include "tests/support/problem_runs.hpp"
+#include "tests/support/sample_name.hpp"
+#include "tests/support/sample_scenes.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::kinks_test {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 /// A + factor · b on one side and A − factor · b on the other. Relative to the scales of both, which
 /// are 0.1 m, the gradients (1, ± factor) differ by 2 factor/√(1 + factor²).
 ProblemFile block_with(double factor) {
-  return read_problem_text(fmt::format(R"({{"scene": {{
+  return problem_from(fmt::format(R"({{"scene": {{
           "bodies": {{"block": {{"type": "rigid", "at": [0, 0, 0], "mass": 1,
                                 "inertia": [1, 1, 1, 0, 0, 0]}}}},
           "joints": {{"guide": {{"type": "prismatic", "bodies": ["ground", "block"],
@@ -30,9 +31,7 @@ ProblemFile block_with(double factor) {
                        "b": {{"start": 0, "lower": -5, "upper": 5}}}},
         "responses": {{"reach": {{"type": "position", "body": "block", "direction": "x",
                                   "over_time": "max-abs"}}}}}})",
-                                       factor),
-                           "block.json")
-      .complete();
+                                  factor));
 }
 
 std::vector<Kink> kinks_with(double factor) {
@@ -81,6 +80,113 @@ TEST(Kinks, AreTheSameByTheWayOfGradients) {
     EXPECT_NEAR(both.kinks[0].difference, alone[0].difference, 1e-12);
   }
 }
+
+/// Relative to the largest derivative of a response by relative changes of the variables.
+double gradient_error(const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected,
+                      const Eigen::VectorXd& x) {
+  const Eigen::MatrixXd difference = (found - expected) * x.asDiagonal();
+  const Eigen::MatrixXd size = expected * x.asDiagonal();
+  double worst = 0.0;
+  for (Eigen::Index i = 0; i < size.rows(); ++i) {
+    worst = std::max(
+        worst, difference.row(i).lpNorm<Eigen::Infinity>() / size.row(i).lpNorm<Eigen::Infinity>());
+  }
+  return worst;
+}
+
+/// However the derivatives of the invariants come about, the gradients are as good as they are; the
+/// motion is the same.
+TEST(GradientsOfTheSliderCrank, AreAsGoodAsTheDerivativesOfTheInvariants) {
+  const std::vector<std::string> quick = {"/simulation/end_time=20 ms", "/simulation/step=0.1 ms",
+                                          "/scene/joints/bearing/drive/ramp=20 ms"};
+  const auto run = [&](const std::string& choice, ExactMethod method) {
+    std::vector<std::string> overrides = quick;
+    overrides.push_back(R"(/sensitivity={"invariant_derivatives": ")" + choice + "\"}");
+    const ProblemFile problem = sample_problem("slider_crank", overrides);
+    const auto analysis = analyze(problem, start_design(problem));
+    return sampled_gradients(*analysis, response_values(*analysis), method);
+  };
+  const Eigen::VectorXd x = start_design(sample_problem("slider_crank", quick));
+  for (auto method : {ExactMethod::direct, ExactMethod::adjoint}) {
+    const Eigen::MatrixXd exact = run("exact", method);
+    // The same arithmetic; and ten times what was measured: 1e-9 and 1e-6.
+    EXPECT_EQ(gradient_error(run("complex-step", method), exact, x), 0.0);
+    EXPECT_LE(gradient_error(run("central", method), exact, x), 1e-8);
+    const double forward = gradient_error(run("forward", method), exact, x);
+    EXPECT_LE(forward, 1e-5);
+    EXPECT_GT(forward, 1e-10) << "these were differences";
+  }
+}
+
+ResponseSettings response(const std::string& name, ResponseType type, const std::string& body,
+                          double at, OverTime over_time) {
+  ResponseSettings settings;
+  settings.name = name;
+  settings.type = type;
+  settings.bodies = {body};
+  settings.at = at;
+  settings.direction = 1;
+  settings.over_time = over_time;
+  return settings;
+}
+
+/// What a designer asks of beams with modes: where places are, how far they bend. No response
+/// depends on the choice of a basis within its span.
+ProblemFile problem_of(const SampleScene& sample) {
+  ProblemFile problem;
+  problem.scene = sample.scene;
+  problem.effects = sample.effects;
+  problem.simulation.end_time = 0.02;
+  problem.simulation.step = 1e-3;
+  problem.simulation.newton_tolerance = 1e-12;
+  for (std::size_t i = 0; i < sample.design.size(); ++i) {
+    DesignVariable variable;
+    variable.name = sample.variables[i];
+    variable.start = sample.design[i];
+    problem.variables.push_back(variable);
+  }
+  problem.responses = {
+      response("tip of crank", ResponseType::position, "crank", 1.0, OverTime::final),
+      response("bow of crank", ResponseType::deflection, "crank", 0.5, OverTime::final),
+      response("place on rod", ResponseType::position, "rod", 0.35, OverTime::final),
+      response("bow of rod", ResponseType::deflection, "rod", 0.6, OverTime::rms),
+      response("root of flag", ResponseType::deflection, "flag", 0.0, OverTime::rms),
+      response("tip of flag", ResponseType::position, "flag", 1.0, OverTime::final),
+      response("end of arm", ResponseType::position, "arm", 1.0, OverTime::final),
+      response("bow of arm", ResponseType::deflection, "arm", 1.0, OverTime::final)};
+  return problem;
+}
+
+class ReducedBodies : public testing::TestWithParam<int> {};
+
+/// Every neighbouring design is reduced anew. Central differences at the best step of a V-curve,
+/// of what a relative change of a variable does, against the largest such effect: 1e-7 as for full
+/// models. The round bars have pairs of equal frequencies in space.
+TEST_P(ReducedBodies, HaveTheGradientsOfModelsThatAreReducedAnew) {
+  const SampleScene sample = all_samples()[GetParam()];
+  const ProblemFile problem = problem_of(sample);
+  const Eigen::VectorXd x = start_design(problem);
+  const auto analysis = analyze(problem, x);
+  const Eigen::MatrixXd direct = direct_gradients(*analysis) * x.asDiagonal();
+  Eigen::MatrixXd best = Eigen::MatrixXd::Ones(direct.rows(), direct.cols());
+  for (double step : {1e-3, 1e-4}) {
+    const Eigen::MatrixXd wide = central_differences(problem, x, step) * x.asDiagonal();
+    const Eigen::MatrixXd narrow = central_differences(problem, x, step / 2) * x.asDiagonal();
+    best = best.cwiseMin(((4 * narrow - wide) / 3 - direct).cwiseAbs());
+    best = best.cwiseMin((narrow - direct).cwiseAbs());
+  }
+  for (Eigen::Index i = 0; i < direct.rows(); ++i) {
+    const double scale = direct.row(i).lpNorm<Eigen::Infinity>();
+    for (Eigen::Index j = 0; j < direct.cols(); ++j) {
+      EXPECT_LE(best(i, j), 1e-7 * scale)
+          << problem.responses[i].name << ", " << sample.variables[j];
+    }
+    EXPECT_GT(scale, 0.0);
+  }
+}
+
+/// The reduced samples.
+INSTANTIATE_TEST_SUITE_P(Samples, ReducedBodies, testing::Values(5, 6), sample_name);
 
 }  // namespace
 }  // namespace pleuel::test::kinks_test

@@ -1,15 +1,11 @@
-#include <cmath>
-#include <numbers>
 #include <ostream>
-#include <string>
-
-#include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
 #include "sensitivity/direct.hpp"
 #include "tests/support/convergence.hpp"
 #include "tests/support/sample_scenes.hpp"
 #include "tests/support/scheme_case.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::sensitivity_order_test {
 namespace {

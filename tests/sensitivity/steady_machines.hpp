@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "core/scene/problem_reader.hpp"
 #include "tests/support/problem_runs.hpp"
 
 /// Mechanisms whose motion repeats itself.
@@ -79,7 +78,7 @@ struct Oscillator {
     constexpr const char* variable =
         R"("variables": {"speed": {"start": 30, "lower": 20, "upper": 40}},)";
     const bool is_variable = frequency_text != "30";
-    return read_problem_text(fmt::format(R"({{"name": "oscillator", "scene": {{"gravity": [0, 0, 0],
+    return problem_from(fmt::format(R"({{"name": "oscillator", "scene": {{"gravity": [0, 0, 0],
         "bodies": {{"mass": {{"type": "point-mass", "at": [0, 0, 0], "mass": {}}}}},
         "joints": {{"guide": {{"type": "point-on-line", "bodies": ["ground", "mass"],
                                "at": [0, 0, 0], "axis": [1, 0, 0]}}}},
@@ -91,10 +90,8 @@ struct Oscillator {
         {}
         "responses": {{"x": {{"type": "position", "body": "mass", "direction": "x",
                               "over_time": "max"}}}}}})",
-                                         m, k, damper, force, frequency_text, period,
-                                         period / steps, is_variable ? variable : ""),
-                             "oscillator.json")
-        .complete();
+                                    m, k, damper, force, frequency_text, period, period / steps,
+                                    is_variable ? variable : ""));
   }
 };
 

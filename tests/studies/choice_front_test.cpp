@@ -1,22 +1,14 @@
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
-#include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "core/base/error.hpp"
-#include "core/scene/problem_reader.hpp"
 #include "studies/front_ends.hpp"
 #include "studies/pareto.hpp"
+#include "tests/support/problem_runs.hpp"
+#include "tests/support/test.hpp"
 
 /// Fronts of sizes from lists.
 namespace pleuel::test::choice_front_test {
 namespace {
-
-using testing::ElementsAre;
-using testing::HasSubstr;
 
 constexpr double density = 7850.0;
 const std::vector<double> widths = {0.02, 0.03, 0.045}, heights = {0.025, 0.04, 0.05, 0.06};
@@ -33,8 +25,8 @@ std::string mm_list(const std::vector<double>& sizes) {
 ProblemFile bar(const std::string& pareto, const std::string& extra = R"({"start": "0.5 m",
                 "lower": "0.5 m", "upper": "0.5 m"})",
                 const std::string& more = "") {
-  return read_problem_text(
-             fmt::format(R"({{"scene": {{"bodies": {{"bar": {{"type": "beam", "from": [0, 0, 0],
+  return problem_from(
+      fmt::format(R"({{"scene": {{"bodies": {{"bar": {{"type": "beam", "from": [0, 0, 0],
     "to": [1, 0, 0], "rigid": true, "material": "steel", "elements": 1,
     "section": {{"type": "rectangle", "width": {{"variable": "b"}}, "height": {{"variable": "h"}}}}}}}},
     "joints": {{"wall": {{"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}}}}}},
@@ -44,9 +36,7 @@ ProblemFile bar(const std::string& pareto, const std::string& extra = R"({"start
     "slack": {{"type": "expression", "value": "extra/(10 m) + 1e-5*(1 m)/b*((1 m)/h)^2"}},
     "goodness": {{"type": "expression", "value": "0 - slack"}}}},
   {} "pareto": {}}})",
-                         mm_list(widths), mm_list(heights), extra, more, pareto),
-             "bar.json")
-      .complete();
+                  mm_list(widths), mm_list(heights), extra, more, pareto));
 }
 
 double slack(double b, double h) {
@@ -173,7 +163,7 @@ TEST(ChoiceFront, LeavesOutWhatCannotBeSimulated) {
     "type": "expression", "value": "((60 mm)/a)^2 + 0*sqrt((a/(1 mm) - 35)^2 - 9)"}},
     "pareto": {"responses": ["mass", "slack"]}})json";
   const auto front_with = [&](const char* sizes) {
-    return front_of(read_problem_text(begin + sizes + end, "bar.json").complete());
+    return front_of(problem_from(begin + sizes + end));
   };
   const ParetoFront front = front_with(R"("30 mm", "34 mm", "35 mm", "40 mm")");
   EXPECT_EQ(front.choices->failed, 2);
@@ -246,12 +236,8 @@ TEST(ChoiceFront, SaysWhetherAllChoicesWereTriedForAPoint) {
 TEST(ChoiceFront, TakesNoGapWhereNotAllChoicesAreSimulated) {
   const ProblemFile file = bar(R"({"responses": ["mass", "slack"], "gap": 0.1})",
                                R"({"start": "0.7 m", "lower": "0.5 m", "upper": "1 m"})");
-  try {
-    front_of(file);
-    FAIL() << "no complaint";
-  } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("/pareto/gap"));
-  }
+  EXPECT_THAT(thrown<InputError>([&] { front_of(file); }), HasSubstr("/pareto/gap"))
+      << "no complaint";
 }
 
 TEST(NonDominated, KeepsEqualOnesAndDropsTheWorse) {

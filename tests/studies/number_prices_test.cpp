@@ -1,17 +1,15 @@
 #include "studies/number_prices.hpp"
 
-#include <cmath>
 #include <fstream>
 #include <iterator>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "optimization/design/design_solve.hpp"
 #include "studies/priced_numbers.hpp"
+#include "tests/support/problem_runs.hpp"
 #include "tests/support/source_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::number_prices_test {
 namespace {
@@ -51,8 +49,8 @@ std::vector<std::string> names_of(const std::vector<NumberGroup>& groups) {
 
 TEST(NumberPrices, AreTheExponentsOfAClosedForm) {
   const ProblemText text{bar, "bar.json"};
-  const PriceList list = number_prices(text, read_problem_text(bar, "bar.json").complete(),
-                                       Eigen::VectorXd::Constant(1, height_of_bar));
+  const PriceList list =
+      number_prices(text, problem_from(bar), Eigen::VectorXd::Constant(1, height_of_bar));
   EXPECT_NEAR(list.objective, 7850 * 0.4 * 0.03 * height_of_bar, 1e-12);
   EXPECT_LT(list.residual, 1e-6);
   for (const auto& [name, exponent] :
@@ -74,8 +72,7 @@ TEST(NumberPrices, AreTheExponentsOfAClosedForm) {
 TEST(NumberPrices, OfABoundIsThatOfTheObjective) {
   const std::vector<std::string> overrides = {"/variables/height/start=50 mm",
                                               "/variables/height/lower=40 mm"};
-  const PriceList list = number_prices({bar, "bar.json", overrides},
-                                       read_problem_text(bar, "bar.json", overrides).complete(),
+  const PriceList list = number_prices({bar, "bar.json", overrides}, problem_from(bar, overrides),
                                        Eigen::VectorXd::Constant(1, 0.04));
   const NumberPrice* bound = find(list, "/variables/height/lower");
   ASSERT_NE(bound, nullptr);
@@ -92,7 +89,7 @@ TEST(NumberPrices, OfABoundIsThatOfTheObjective) {
 TEST(NumberPrices, SaysWhichBoundDecidesNext) {
   const std::vector<std::string> overrides = {"/variables/height/start=20 mm",
                                               "/variables/height/upper=20.05 mm"};
-  const ProblemFile problem = read_problem_text(bar, "bar.json", overrides).complete();
+  const ProblemFile problem = problem_from(bar, overrides);
   const PriceList list = number_prices({bar, "bar.json", overrides}, problem,
                                        Eigen::VectorXd::Constant(1, height_of_bar));
   EXPECT_EQ(find(list, "/scene/loads/press/value")->next_limit, "height");
@@ -103,7 +100,7 @@ TEST(NumberPrices, OfAFixedVariableIsThatOfTheNumber) {
   const std::vector<std::string> overrides = {
       R"(/scene/bodies/bar/section/width={"variable": "width"})",
       R"(/variables/width={"start": "30 mm", "lower": "30 mm", "upper": "30 mm"})"};
-  const ProblemFile problem = read_problem_text(bar, "bar.json", overrides).complete();
+  const ProblemFile problem = problem_from(bar, overrides);
   const PriceList list =
       number_prices({bar, "bar.json", overrides}, problem, Eigen::Vector2d(height_of_bar, 0.03));
   const NumberPrice* width = find(list, "width");
@@ -118,8 +115,7 @@ TEST(NumberPrices, AreThoseOfAnOptimumThatNoLimitHolds) {
   const std::vector<std::string> overrides = {
       "/constraints={}", R"json(/objective={"minimize": "= m/(1 kg) + s/(100 MPa)"})json"};
   const double height = std::cbrt(12.0 * 500.0 / (7850.0 * 0.03 * 0.03 * 1e8));
-  const PriceList list = number_prices({bar, "bar.json", overrides},
-                                       read_problem_text(bar, "bar.json", overrides).complete(),
+  const PriceList list = number_prices({bar, "bar.json", overrides}, problem_from(bar, overrides),
                                        Eigen::VectorXd::Constant(1, height));
   const double mass = 7850 * 0.4 * 0.03 * height;
   EXPECT_LT(list.residual, 1e-6);
@@ -134,8 +130,7 @@ TEST(NumberPrices, AreThoseOfAnOptimumThatNoLimitHolds) {
 TEST(NumberPrices, OfChosenSizesAreThoseWithThem) {
   const std::vector<std::string> overrides = {
       R"(/variables/height={"start": "20 mm", "choices": ["15 mm", "20 mm", "25 mm"]})"};
-  const PriceList list = number_prices({bar, "bar.json", overrides},
-                                       read_problem_text(bar, "bar.json", overrides).complete(),
+  const PriceList list = number_prices({bar, "bar.json", overrides}, problem_from(bar, overrides),
                                        Eigen::VectorXd::Constant(1, 0.02));
   EXPECT_LT(list.residual, 1e-6);
   EXPECT_NEAR(list.objective, 7850 * 0.4 * 0.03 * 0.02, 1e-12);
@@ -157,8 +152,7 @@ TEST(NumberPrices, OfAMotionThatRepeatsItselfAreWithoutItsPeriod) {
       R"(/scene/bodies/bar/damping={"stiffness": "0.1 ms"})",
       R"(/scene/loads/press/value={"type": "harmonic", "amplitude": "0.5 kN", "frequency": "40 Hz"})",
       "/constraints={}", R"json(/objective={"minimize": "= m/(1 kg) + s/(100 MPa)"})json"};
-  const PriceList list = number_prices({bar, "bar.json", overrides},
-                                       read_problem_text(bar, "bar.json", overrides).complete(),
+  const PriceList list = number_prices({bar, "bar.json", overrides}, problem_from(bar, overrides),
                                        Eigen::VectorXd::Constant(1, 0.02));
   EXPECT_THAT(list.unknown, testing::Contains("/scene/loads/press/value/frequency"));
   EXPECT_EQ(find(list, "/scene/loads/press/value/frequency"), nullptr);
@@ -170,19 +164,17 @@ TEST(NumberPrices, OfAMotionThatRepeatsItselfAreWithoutItsPeriod) {
 }
 
 TEST(PricedNumbers, MovePointsThatAreSharedAsOne) {
-  const auto groups =
-      priced_numbers({bar, "bar.json"}, read_problem_text(bar, "bar.json").complete()).groups;
+  const auto groups = priced_numbers({bar, "bar.json"}, problem_from(bar)).groups;
   for (const NumberGroup& group : groups) {
     if (group.name == "/scene/bodies/bar/to/0") {
-      EXPECT_THAT(group.pointers,
-                  testing::ElementsAre("/scene/bodies/bar/to/0", "/scene/loads/press/at/0"));
+      EXPECT_THAT(group.pointers, ElementsAre("/scene/bodies/bar/to/0", "/scene/loads/press/at/0"));
     } else if (group.name == "/scene/bodies/bar/from/1") {
       EXPECT_THAT(group.pointers,
-                  testing::ElementsAre("/scene/bodies/bar/from/1", "/scene/joints/wall/at/1"));
+                  ElementsAre("/scene/bodies/bar/from/1", "/scene/joints/wall/at/1"));
     }
   }
   // Across the plane nothing is priced.
-  EXPECT_THAT(names_of(groups), testing::Not(testing::Contains("/scene/bodies/bar/to/2")));
+  EXPECT_THAT(names_of(groups), Not(testing::Contains("/scene/bodies/bar/to/2")));
   EXPECT_THAT(names_of(groups), testing::Contains("/scene/bodies/bar/to/1"));
 }
 
@@ -191,26 +183,23 @@ TEST(PricedNumbers, AreThoseOfLibraryMaterialsToo) {
   const std::string declared =
       R"("materials": {"steel": {"young": "210 GPa", "poisson": 0.3, "density": "7850 kg/m^3"}},)";
   text.erase(text.find(declared), declared.size());
-  const auto groups =
-      priced_numbers({text, "bar.json"}, read_problem_text(text, "bar.json").complete()).groups;
+  const auto groups = priced_numbers({text, "bar.json"}, problem_from(text)).groups;
   EXPECT_THAT(names_of(groups), testing::Contains("/scene/materials/steel/density"));
 }
 
 TEST(PricedNumbers, LeaveOutWhatNoVariableCanStandFor) {
   const std::vector<std::string> overrides = {"/scene/gravity=[0, -9.81, 0]"};
-  const auto groups = priced_numbers({bar, "bar.json", overrides},
-                                     read_problem_text(bar, "bar.json", overrides).complete())
-                          .groups;
-  EXPECT_THAT(names_of(groups), testing::Not(testing::Contains(testing::HasSubstr("gravity"))));
+  const auto groups =
+      priced_numbers({bar, "bar.json", overrides}, problem_from(bar, overrides)).groups;
+  EXPECT_THAT(names_of(groups), Not(testing::Contains(HasSubstr("gravity"))));
 }
 
 /// The end of the bar cannot be moved without the load, which a formula places.
 TEST(PricedNumbers, LeaveOutPointsThatFormulasMove) {
   const std::vector<std::string> overrides = {"/scene/loads/press/at/0== 0.4 m + 0*height"};
-  const auto groups = priced_numbers({bar, "bar.json", overrides},
-                                     read_problem_text(bar, "bar.json", overrides).complete())
-                          .groups;
-  EXPECT_THAT(names_of(groups), testing::Not(testing::Contains("/scene/bodies/bar/to/0")));
+  const auto groups =
+      priced_numbers({bar, "bar.json", overrides}, problem_from(bar, overrides)).groups;
+  EXPECT_THAT(names_of(groups), Not(testing::Contains("/scene/bodies/bar/to/0")));
   EXPECT_THAT(names_of(groups), testing::Contains("/scene/bodies/bar/from/0"));
 }
 
@@ -219,7 +208,7 @@ TEST(PricedNumbers, LeaveOutPointsThatFormulasMove) {
 TEST(NumberPrices, AreThoseOfPlacesOnElasticBeams) {
   const std::vector<std::string> overrides = {"/scene/loads/press/at/0=0.3"};
   const ProblemText text{bar, "bar.json", overrides};
-  const ProblemFile problem = read_problem_text(bar, "bar.json", overrides).complete();
+  const ProblemFile problem = problem_from(bar, overrides);
   const double height = std::sqrt(6 * 500 * 0.3 / (0.03 * 1e8));
   const PriceList list = number_prices(text, problem, Eigen::VectorXd::Constant(1, height));
   const auto exponent = [&](const std::string& name) {

@@ -1,12 +1,9 @@
 #include <array>
-#include <cmath>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "core/base/error.hpp"
-#include "core/scene/problem_reader.hpp"
 #include "studies/pareto.hpp"
+#include "tests/support/problem_runs.hpp"
+#include "tests/support/test.hpp"
 
 /// Fronts between two responses.
 namespace pleuel::test::trade_off_test {
@@ -16,8 +13,8 @@ namespace {
 /// k·b, with a variable b that nothing else depends on.
 ProblemFile bar(const std::string& responses, int points, const std::string& more = "",
                 const std::string& others = "") {
-  return read_problem_text(
-             R"({"scene": {"bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0],
+  return problem_from(
+      R"({"scene": {"bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0],
     "rigid": true, "material": "steel", "elements": 1,
     "section": {"type": "rectangle", "width": {"variable": "side"}, "height": {"variable": "side"}}}},
     "joints": {"wall": {"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}}},
@@ -25,14 +22,12 @@ ProblemFile bar(const std::string& responses, int points, const std::string& mor
   "variables": {"side": {"start": "40 mm", "lower": "20 mm", "upper": "60 mm"},
                 "extra": {"start": "0.7 m", "lower": "0.2 m", "upper": "1 m"}},
   )" +
-                 (others.empty() ? R"("responses": {"mass": {"type": "mass"},
+      (others.empty() ? R"("responses": {"mass": {"type": "mass"},
     "slack": {"type": "expression", "value": "(1 kg) * ((60 mm) / (side))^2 + (1 kg/m) * extra"},
     "goodness": {"type": "expression", "value": "0 - slack"}},)"
-                                 : others) +
-                 more + R"("pareto": {"responses": [)" + responses + R"(], "points": )" +
-                 std::to_string(points) + "}}",
-             "bar.json")
-      .complete();
+                      : others) +
+      more + R"("pareto": {"responses": [)" + responses + R"(], "points": )" +
+      std::to_string(points) + "}}");
 }
 
 constexpr double density = 7850.0;
@@ -210,19 +205,16 @@ TEST(TradeOff, JumpsWhereAllThatIsBetweenIsDominated) {
 /// Two formulas of x and y, from −2 to 2, beside a mechanism that plays no part.
 ProblemFile formulas(const std::string& first, const std::string& second,
                      const std::string& more = "", double gap = 0.2) {
-  const ProblemFile file =
-      read_problem_text(
-          R"({"scene": {"bodies": {"m": {"type": "point-mass", "at": [0, 0, 0], "mass": "1 kg"}},
+  const ProblemFile file = problem_from(
+      R"({"scene": {"bodies": {"m": {"type": "point-mass", "at": [0, 0, 0], "mass": "1 kg"}},
     "joints": {}, "gravity": [0, 0, 0], "loads": {"f": {"type": "force", "body": "m",
     "at": [0, 0, 0], "direction": [1, 0, 0], "value": "1 N"}}},
   "simulation": {"end_time": 0.01, "step": 0.005},
   "variables": {"x": {"start": 0.5, "lower": -2, "upper": 2},
                 "y": {"start": 0.5, "lower": -2, "upper": 2}},
   "responses": {"f": {"type": "expression", "value": ")" +
-              first + R"("}, "g": {"type": "expression", "value": ")" + second + R"("}},)" + more +
-              R"("pareto": {"responses": ["f", "g"], "points": 3}})",
-          "formulas.json")
-          .complete();
+      first + R"("}, "g": {"type": "expression", "value": ")" + second + R"("}},)" + more +
+      R"("pareto": {"responses": ["f", "g"], "points": 3}})");
   return with_gap(file, gap);
 }
 

@@ -1,17 +1,13 @@
 #include "studies/uncertainty.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
+#include <array>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/find_named.hpp"
-#include "core/scene/problem_reader.hpp"
 #include "studies/noise.hpp"
 #include "tests/studies/quick_problem.hpp"
+#include "tests/support/problem_runs.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::uncertainty_test {
 namespace {
@@ -50,8 +46,7 @@ TEST(Uncertainty, OfTheMassIsThatOfTheClosedForm) {
 /// Deflections go with h⁻³: of 20 ± 3 mm, ε = 0.15, (1 + ε)⁻³ deviates by far more than 3 ε; the
 /// mass, which is linear in h, does not.
 TEST(Uncertainty, SaysWhereFirstOrderIsNotEnough) {
-  const ProblemFile problem = read_problem_text(
-                                  R"({"scene": {
+  const ProblemFile problem = problem_from(R"({"scene": {
           "bodies": {"b": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
             "section": {"type": "rectangle", "width": 0.02, "height": {"variable": "h"}},
             "elements": 1}},
@@ -62,9 +57,7 @@ TEST(Uncertainty, SaysWhereFirstOrderIsNotEnough) {
         "variables": {"h": {"start": 0.02, "lower": 0.001, "upper": 0.1}},
         "uncertainty": {"parameters": {"h": {"deviation": 0.003}}, "samples": 500},
         "responses": {"mass": {"type": "mass"},
-          "sag": {"type": "deflection", "body": "b", "at": 1, "over_time": "max"}}})",
-                                  "h.json")
-                                  .complete();
+          "sag": {"type": "deflection", "body": "b", "at": 1, "over_time": "max"}}})");
   const auto findings = [](const ProblemFile& of) {
     std::vector<std::string> texts;
     for (const Finding& finding : uncertainty_study(of, {.tasks = {.jobs = 2}}).findings)
@@ -82,8 +75,7 @@ TEST(Uncertainty, SaysWhereFirstOrderIsNotEnough) {
 /// A force F sin φ with φ within ± 1.5 rad: its deviation is F √(½ − sin(2a)/(4a)) = 0.690 F, and
 /// by first order F a/√3 = 0.866 F.
 TEST(Uncertainty, SaysWhereSamplesScatterLessThanFirstOrder) {
-  const ProblemFile problem = read_problem_text(
-                                  R"({"scene": {
+  const ProblemFile problem = problem_from(R"({"scene": {
           "bodies": {"b": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
             "section": {"type": "rectangle", "width": 0.02, "height": 0.02}, "elements": 1}},
           "joints": {"f": {"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]}},
@@ -93,9 +85,7 @@ TEST(Uncertainty, SaysWhereSamplesScatterLessThanFirstOrder) {
         "simulation": {"end_time": 2e-3, "step": 1e-3, "initial_state": "quasi-static"},
         "variables": {"phase": {"start": 0, "lower": -3, "upper": 3}},
         "uncertainty": {"parameters": {"phase": {"interval": 1.5}}, "samples": 500},
-        "responses": {"sag": {"type": "deflection", "body": "b", "at": 1, "over_time": "final"}}})",
-                                  "phase.json")
-                                  .complete();
+        "responses": {"sag": {"type": "deflection", "body": "b", "at": 1, "over_time": "final"}}})");
   const UncertaintyStudy study = uncertainty_study(problem, {.tasks = {.jobs = 2}});
   const UncertainResponse& sag = study.responses[0];
   const double ratio = std::sqrt(0.5 - std::sin(3.0) / 6.0) / (1.5 / std::sqrt(3.0));
@@ -331,6 +321,44 @@ TEST(Uncertainty, MayBeOfFixedVariables) {
   const UncertaintyStudy study = uncertainty_study(problem, {.tasks = {.jobs = 1}});
   const UncertainResponse& mass = response_of(problem, study, "crank_and_rod");
   EXPECT_NEAR(mass.deviation, 0.01 * mass.value, 1e-12);
+}
+
+using pleuel::RandomNumbers;
+
+/// The standard prescribes the 10000th number of mt19937_64 with the seed 5489.
+TEST(RandomNumbers, AreThoseOfTheEngine) {
+  RandomNumbers numbers(5489);
+  for (int i = 1; i < 10000; ++i) numbers.uniform();
+  EXPECT_NEAR(numbers.uniform(), 9981545732273789042.0 / 18446744073709551616.0, 1e-15);
+}
+
+/// Of N independent samples, a share below x scatters about Φ(x) by √(Φ(1 − Φ)/N); moments likewise
+/// (that of the fourth by √(96/N)). Four such deviations.
+TEST(RandomNumbers, AreNormal) {
+  constexpr int samples = 200'000;
+  RandomNumbers numbers(1);
+  std::vector<double> x(samples);
+  double mean = 0.0, square = 0.0, fourth = 0.0, neighbours = 0.0;
+  for (int i = 0; i < samples; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    x[k] = numbers.normal();
+    mean += x[k] / samples;
+    square += x[k] * x[k] / samples;
+    fourth += std::pow(x[k], 4) / samples;
+    if (i > 0) neighbours += x[k] * x[k - 1] / samples;
+  }
+  const double scatter = 4.0 / std::sqrt(double(samples));
+  EXPECT_NEAR(mean, 0.0, scatter);
+  EXPECT_NEAR(square, 1.0, std::sqrt(2.0) * scatter);
+  EXPECT_NEAR(fourth, 3.0, std::sqrt(96.0) * scatter);
+  EXPECT_NEAR(neighbours, 0.0, scatter);
+  for (const double quantile : {-3.0, -1.96, -1.0, -0.3, 0.0, 0.5, 1.5, 2.5}) {
+    const double expected = 0.5 * std::erfc(-quantile / std::sqrt(2.0));
+    const auto below =
+        std::count_if(x.begin(), x.end(), [quantile](double value) { return value < quantile; });
+    EXPECT_NEAR(double(below) / samples, expected, scatter * std::sqrt(expected * (1 - expected)))
+        << quantile;
+  }
 }
 
 }  // namespace

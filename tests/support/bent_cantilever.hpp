@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/response/analysis.hpp"
-#include "core/scene/problem_reader.hpp"
+#include "tests/support/problem_runs.hpp"
 
 /// A cantilever of 1 m along x that starts and stays in equilibrium under loads at its tip. It has
 /// a square section with E I = 100 N m².
@@ -63,9 +63,7 @@ struct BentCantilever {
       "stress": {"type": "stress", "body": "beam", "over_time": "max"})";
   }
 
-  pleuel::ProblemFile problem() const {
-    return pleuel::read_problem_text(text(), "bent.json").complete();
-  }
+  pleuel::ProblemFile problem() const { return problem_from(text()); }
 };
 
 /// Elastica: tip of a cantilever under a force of fixed direction, α = P L²/(E I); a shooting

@@ -3,10 +3,9 @@
 #include <cctype>
 #include <functional>
 #include <sstream>
-#include <string>
 #include <type_traits>
 
-#include <gtest/gtest.h>
+#include "tests/support/test.hpp"
 
 /// Words for the parameter of a test: letters and digits of a text, the rest as underscores.
 inline std::string as_name(const std::string& text) {

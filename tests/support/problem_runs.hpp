@@ -1,9 +1,19 @@
 #pragma once
 
+#include <stdexcept>
+#include <string>
+#include <vector>
+
 #include <Eigen/Core>
 
 #include "core/scene/problem_reader.hpp"
 #include "tests/support/source_folder.hpp"
+
+/// A problem from its text, with overrides.
+inline pleuel::ProblemFile problem_from(const std::string& text,
+                                        const std::vector<std::string>& overrides = {}) {
+  return pleuel::read_problem_text(text, "problem.json", overrides).complete();
+}
 
 /// A problem file of the repository, with overrides.
 inline pleuel::ProblemFile sample_problem(const std::string& name,

@@ -1,10 +1,7 @@
 #pragma once
 
-#include <string>
-
-#include <gtest/gtest.h>
-
 #include "tests/support/sample_scenes.hpp"
+#include "tests/support/test.hpp"
 
 /// The name of a test whose parameter is the place of its sample among all_samples().
 inline std::string sample_name(const testing::TestParamInfo<int>& info) {

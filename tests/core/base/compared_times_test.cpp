@@ -1,8 +1,7 @@
 #include <random>
 
-#include <gtest/gtest.h>
-
 #include "core/base/stopwatch.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::compared_times_test {
 namespace {

@@ -1,15 +1,12 @@
 #include "core/base/sparse_rows.hpp"
 
-#include <cmath>
 #include <limits>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "core/base/dense_solvers.hpp"
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "tests/support/parameter_name.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::sparse_rows_test {
 namespace {
@@ -65,11 +62,11 @@ TEST(ConnectedBlocks, ShareNoColumn) {
   matrix.insert(4, 4) = 0.0;  // a zero that may become a number
   const std::vector<RowBlock> blocks = connected_blocks(matrix);
   ASSERT_EQ(blocks.size(), 3u);
-  EXPECT_THAT(blocks[0].rows, testing::ElementsAre(0, 3, 4));
-  EXPECT_THAT(blocks[0].columns, testing::ElementsAre(1, 4));
-  EXPECT_THAT(blocks[1].rows, testing::ElementsAre(1));
-  EXPECT_THAT(blocks[2].rows, testing::ElementsAre(2));
-  EXPECT_THAT(blocks[2].columns, testing::IsEmpty());
+  EXPECT_THAT(blocks[0].rows, ElementsAre(0, 3, 4));
+  EXPECT_THAT(blocks[0].columns, ElementsAre(1, 4));
+  EXPECT_THAT(blocks[1].rows, ElementsAre(1));
+  EXPECT_THAT(blocks[2].rows, ElementsAre(2));
+  EXPECT_THAT(blocks[2].columns, IsEmpty());
 }
 
 /// 20 links are decomposed densely, 120 sparsely.

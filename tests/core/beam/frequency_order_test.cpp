@@ -1,7 +1,6 @@
-#include <gtest/gtest.h>
-
 #include "tests/support/convergence.hpp"
 #include "tests/support/sample_beams.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::frequency_order_test {
 namespace {

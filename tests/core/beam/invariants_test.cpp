@@ -2,11 +2,10 @@
 #include <initializer_list>
 #include <utility>
 
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/sample_beams.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::invariants_test {
 namespace {

@@ -1,15 +1,12 @@
 #include "core/beam/lateral_buckling.hpp"
 
-#include <cmath>
-#include <numbers>
 #include <random>
-
-#include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/section/rectangle_section.hpp"
 #include "core/section/round_section.hpp"
 #include "tests/support/parameter_name.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::lateral_buckling_test {
 namespace {

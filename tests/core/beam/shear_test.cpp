@@ -1,13 +1,10 @@
-#include <cmath>
-#include <numbers>
-
 #include <Eigen/Core>
-#include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
 #include "tests/support/convergence.hpp"
 #include "tests/support/dense_algebra.hpp"
 #include "tests/support/sample_beams.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::shear_test {
 namespace {

@@ -1,13 +1,12 @@
 #include <random>
 
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "core/effects/general_body_equations.hpp"
 #include "core/effects/make_body_equations.hpp"
 #include "core/effects/planar_body_equations.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/sample_beams.hpp"
+#include "tests/support/test.hpp"
 
 /// The equations for special motions are those for any motion.
 namespace pleuel::test::body_equations_test {

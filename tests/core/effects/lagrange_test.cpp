@@ -1,12 +1,11 @@
 #include <complex>
 #include <random>
 
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "core/effects/floating_frame_body.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/sample_beams.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::lagrange_test {
 namespace {

@@ -1,7 +1,6 @@
 #include <random>
 
 #include <Eigen/Core>
-#include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
 #include "tests/support/dense.hpp"
@@ -9,6 +8,7 @@
 #include "tests/support/differences.hpp"
 #include "tests/support/sample_beams.hpp"
 #include "tests/support/sample_scenes.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::stiffening_test {
 namespace {

@@ -1,16 +1,12 @@
 /// What a scene calls for, and nothing else: the exact list of terms and the number of coordinates.
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "core/model/effect_estimates.hpp"
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/sample_scenes.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::term_list_test {
 namespace {
-
-using testing::ElementsAre;
 
 std::vector<std::string> terms_of(const Model& model) {
   std::vector<std::string> names;

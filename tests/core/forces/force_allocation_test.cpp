@@ -1,8 +1,7 @@
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "tests/core/counted_allocations.hpp"
 #include "tests/core/forces/force_samples.hpp"
+#include "tests/support/test.hpp"
 
 #ifdef PLEUEL_COUNTS_ALLOCATIONS
 namespace pleuel::test::force_allocation_test {

@@ -1,9 +1,8 @@
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "tests/core/forces/force_samples.hpp"
 #include "tests/support/dense.hpp"
 #include "tests/support/differences.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::force_derivative_test {
 namespace {

@@ -1,6 +1,3 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/base/rotation_vector.hpp"
@@ -10,6 +7,7 @@
 #include "tests/core/forces/force_samples.hpp"
 #include "tests/support/dense.hpp"
 #include "tests/support/differences.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::force_law_test {
 namespace {
@@ -241,8 +239,8 @@ TEST(SpringDamper, SaysWhereItsEndsCoincide) {
   state.time = 0.25;
   const std::string from_residual =
       message_of([&] { residual_of(*buffer.term, state, position_level); });
-  EXPECT_THAT(from_residual, testing::HasSubstr("buffer"));
-  EXPECT_THAT(from_residual, testing::HasSubstr("t = 0.25 s"));
+  EXPECT_THAT(from_residual, HasSubstr("buffer"));
+  EXPECT_THAT(from_residual, HasSubstr("t = 0.25 s"));
   EXPECT_EQ(message_of([&] { tangent_of(*buffer.term, state, {.q = 1.0}, position_level); }),
             from_residual);
   EXPECT_EQ(message_of([&] { (void)buffer.gauge->read(state, Reading::force); }), from_residual);
@@ -257,8 +255,7 @@ TEST(JointForce, SaysWhereItsAngleHasNoValue) {
   const auto term =
       make_joint_force({"hinge", {ground, body}, RelativeCoordinate::angle}, data, {}).term;
   const State state(6, 0);
-  EXPECT_THAT(message_of([&] { residual_of(*term, state, position_level); }),
-              testing::HasSubstr("hinge"));
+  EXPECT_THAT(message_of([&] { residual_of(*term, state, position_level); }), HasSubstr("hinge"));
 }
 
 }  // namespace

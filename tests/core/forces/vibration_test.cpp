@@ -1,5 +1,4 @@
 #include <Eigen/Core>
-#include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/beam/elastic_basis.hpp"
@@ -8,6 +7,7 @@
 #include "core/forces/point_load.hpp"
 #include "core/forces/spring_damper.hpp"
 #include "core/system/system.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::vibration_test {
 namespace {

@@ -1,9 +1,8 @@
 #include "core/frame/elastic_rotation.hpp"
 
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "tests/support/differences.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::elastic_rotation_test {
 namespace {

@@ -1,9 +1,8 @@
-#include <gtest/gtest.h>
-
 #include "core/integration/simulate.hpp"
 #include "tests/core/counted_allocations.hpp"
 #include "tests/support/sample_name.hpp"
 #include "tests/support/sample_scenes.hpp"
+#include "tests/support/test.hpp"
 
 #ifdef PLEUEL_COUNTS_ALLOCATIONS
 namespace pleuel::test::allocation_test {

@@ -1,13 +1,10 @@
 /// The size of the local error, of steps of one size and after a change of it, against the jerk of
 /// a motion that is known: q = j t³/6.
 
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "core/integration/simulate.hpp"
 #include "core/model/model.hpp"
 #include "tests/support/scheme_case.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::local_error_test {
 namespace {

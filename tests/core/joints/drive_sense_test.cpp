@@ -1,10 +1,7 @@
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "core/integration/simulate.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::drive_sense_test {
 namespace {

@@ -1,5 +1,4 @@
 #include <Eigen/Geometry>
-#include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/integration/simulate.hpp"
@@ -7,6 +6,7 @@
 #include "tests/support/dense.hpp"
 #include "tests/support/dense_algebra.hpp"
 #include "tests/support/sample_scenes.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::freedom_test {
 namespace {

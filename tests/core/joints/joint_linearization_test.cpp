@@ -2,8 +2,6 @@
 
 #include <random>
 
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
 #include "core/frame/marker_kinematics.hpp"
@@ -11,6 +9,7 @@
 #include "core/joints/joint_residual.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/parameter_name.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::joint_linearization_test {
 namespace {

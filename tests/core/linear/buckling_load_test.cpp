@@ -1,20 +1,13 @@
-#include <cmath>
-#include <numbers>
-
-#include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "core/linear/elastic_stability.hpp"
 #include "tests/core/start/quasi_static_beam.hpp"
+#include "tests/support/test.hpp"
 
 /// At what share of their loads members buckle, as it is told.
 namespace pleuel::test::buckling_load_test {
 namespace {
 
 using namespace quasi_static_beam;
-using testing::HasSubstr;
 
 /// Euler's load of two pins, π² EI/L², and of a cantilever, a quarter of it, whatever the frame of
 /// the body is that the load turns with, and however many there are.

@@ -1,21 +1,14 @@
 #include "core/linear/elastic_stability.hpp"
 
-#include <cmath>
-#include <numbers>
-
-#include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "tests/core/start/quasi_static_beam.hpp"
+#include "tests/support/test.hpp"
 
 /// Columns on springs and below what turns.
 namespace pleuel::test::elastic_stability_test {
 namespace {
 
 using namespace quasi_static_beam;
-using testing::HasSubstr;
 
 /// A spring that presses a stiff column towards a point d beyond its tip pushes the tip aside, with
 /// P w/d: a soft spring k at the foot holds it up to P L (1 + L/d) = k.

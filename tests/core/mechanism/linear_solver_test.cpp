@@ -4,10 +4,10 @@
 #include <random>
 
 #include <Eigen/Geometry>
-#include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
 #include "tests/support/dense_algebra.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::linear_solver_test {
 namespace {

@@ -1,12 +1,10 @@
 #include "core/mechanism/pivoted_factors.hpp"
 
-#include <algorithm>
 #include <numeric>
 #include <random>
 
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::pivoted_factors_test {
 namespace {

@@ -1,20 +1,11 @@
 #include "core/mobility/lock.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "core/base/rotation_vector.hpp"
 #include "core/response/analysis.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "tests/support/problem_runs.hpp"
+#include "tests/support/test.hpp"
 
 /// Where rigid mechanisms cannot follow their drives, by closed forms of their closure.
 namespace pleuel::test::lock_test {
@@ -100,14 +91,11 @@ TEST(Lock, IsNoneWhereARodPasses) {
 
 TEST(Lock, NamesWhatIsInLine) {
   const ProblemFile problem = slider_crank(0.055);
-  try {
-    analyze(problem, start_design(problem));
-    FAIL() << "simulated";
-  } catch (const LockedMechanism& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("\"shaft\" at 66.44°"));
-    EXPECT_THAT(error.what(), testing::HasSubstr("\"rod\", \"slider\" are in line"));
-    EXPECT_THAT(error.what(), testing::HasSubstr("about 5 mm apart"));
-  }
+  const std::string said =
+      thrown<LockedMechanism>([&] { analyze(problem, start_design(problem)); });
+  EXPECT_THAT(said, HasSubstr("\"shaft\" at 66.44°"));
+  EXPECT_THAT(said, HasSubstr("\"rod\", \"slider\" are in line"));
+  EXPECT_THAT(said, HasSubstr("about 5 mm apart"));
 }
 
 TEST(Lock, IsSimulatedWhereBodiesAreMeantToBend) {

@@ -1,15 +1,11 @@
 #include "core/model/attachment.hpp"
 
-#include <algorithm>
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "core/base/find_named.hpp"
 #include "core/model/body_builder.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/sample_scenes.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::attachment_test {
 namespace {

@@ -1,9 +1,3 @@
-#include <cmath>
-
-#include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/model/divided_beams.hpp"
@@ -14,11 +8,10 @@
 #include "tests/support/convergence.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/problem_runs.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::divided_beam_test {
 namespace {
-
-using ::testing::HasSubstr;
 
 struct Simulated {
   ProblemFile problem;
@@ -223,14 +216,12 @@ TEST(DividedBeam, HasExactGradients) {
 
 /// A beam that turns about its first end, on a bearing that may be driven.
 ProblemFile turning_beam(int frames, const std::string& rest) {
-  return read_problem_text(fmt::format(R"({{"name": "turning", "scene": {{"materials": {{
+  return problem_from(fmt::format(R"({{"name": "turning", "scene": {{"materials": {{
           "light": {{"young": 7e10, "poisson": 0.3, "density": 3000}},
           "rubber": {{"young": 5e6, "poisson": 0.45, "density": 1100}}}},
         "bodies": {{"beam": {{"type": "beam", "from": [0, 0, 0], "elements": 16, "frames": {},
           {}}})",
-                                       frames, rest),
-                           "turning.json")
-      .complete();
+                                  frames, rest));
 }
 
 /// The spin-up of Kane, Ryan & Banerjee 1987: EXUDYN's geometrically exact beam gives −0.573780 m
@@ -289,7 +280,7 @@ TEST(DividedBeam, StartsWithTheSpinOfTheWholeBeam) {
       "first": {"type": "velocity", "body": "beam", "at": 0, "direction": "y", "over_time": "final"},
       "last": {"type": "velocity", "body": "beam", "at": 1, "direction": "y", "over_time": "final"},
       "energy": {"type": "kinetic-energy", "body": "beam", "over_time": "max"}}})";
-  const Simulated run(read_problem_text(text, "spin.json").complete());
+  const Simulated run(problem_from(text));
   EXPECT_NEAR(run.value("first"), 2.0, 1e-3);
   EXPECT_NEAR(run.value("last"), 2.0 + 5.0 * 1.0, 1e-3);  // v + ω L
 }
@@ -299,12 +290,7 @@ TEST(DividedBeam, IsRefusedWhereFramesWouldChangeWhatIsMeant) {
     BentCantilever cantilever;
     cantilever.frames = 2;
     cantilever.more = more;
-    try {
-      cantilever.problem();
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "";
+    return thrown<InputError>([&] { cantilever.problem(); });
   };
   EXPECT_THAT(message(R"(, "rigid": true)"), HasSubstr("/scene/bodies/beam/frames"));
   EXPECT_THAT(message(R"(, "damping": {"mass": 1})"), HasSubstr("\"mass\" damping"));

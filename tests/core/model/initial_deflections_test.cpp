@@ -1,10 +1,5 @@
 #include "core/model/initial_deflections.hpp"
 
-#include <cmath>
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/trust/initial_motion.hpp"
@@ -12,11 +7,10 @@
 #include "tests/core/trust/findings_of.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/sample_scenes.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::initial_deflections_test {
 namespace {
-
-using ::testing::HasSubstr;
 
 constexpr double length = 1.0, width = 0.02, height = 0.03, young = 2.1e11, bow = 2e-4, rate = 0.3;
 

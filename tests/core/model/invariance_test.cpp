@@ -1,10 +1,9 @@
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "core/integration/simulate.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/sample_name.hpp"
 #include "tests/support/sample_scenes.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::invariance_test {
 namespace {

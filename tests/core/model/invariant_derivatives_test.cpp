@@ -2,13 +2,12 @@
 
 #include <complex>
 
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "core/model/resolve_beam.hpp"
 #include "tests/support/convergence.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/sample_scenes.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::invariant_derivatives_test {
 namespace {

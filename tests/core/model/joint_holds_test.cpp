@@ -1,9 +1,7 @@
 #include "core/model/joint_holds.hpp"
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include "core/scene/problem_reader.hpp"
+#include "tests/support/problem_runs.hpp"
+#include "tests/support/test.hpp"
 
 /// What mechanisms hold of a bar from the origin to (1, 0, 0) m, which bends.
 namespace pleuel::test::joint_holds_test {
@@ -37,7 +35,7 @@ std::vector<JointHold> holds_of_bar(const std::string& bodies, const std::string
            "simulation": {{"end_time": 1, "step": 0.1}},
            "responses": {{"mass": {{"type": "mass"}}}}}})j",
       bodies, joints);
-  const ProblemFile problem = read_problem_text(text, "bar.json").complete();
+  const ProblemFile problem = problem_from(text);
   return JointHolds(problem.scene, {}).of("bar");
 }
 

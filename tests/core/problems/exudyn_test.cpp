@@ -1,12 +1,11 @@
 #include <fstream>
 #include <sstream>
 
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "core/response/analysis.hpp"
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/source_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::exudyn_test {
 namespace {

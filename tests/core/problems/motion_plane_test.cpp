@@ -2,14 +2,13 @@
 
 #include <functional>
 
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/parameter_name.hpp"
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/sample_scenes.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::motion_plane_test {
 namespace {

@@ -1,14 +1,14 @@
 #include <map>
 
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/response/monitors.hpp"
-#include "core/scene/problem_reader.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/problem_runs.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::space_and_plane_test {
 namespace {
@@ -52,7 +52,7 @@ Json swung_arm() {
 
 ProblemFile problem_of(Json document, const char* spatial_motion) {
   document["effects"]["spatial_motion"] = spatial_motion;
-  return read_problem_text(document.dump(), "case.json").complete();
+  return problem_from(document.dump());
 }
 
 /// The largest rotation of a node of the boom against its frame [rad].

@@ -1,13 +1,9 @@
-#include <string>
-#include <vector>
-
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/response/analysis.hpp"
-#include "core/scene/problem_reader.hpp"
 #include "sensitivity/sampled_gradients.hpp"
+#include "tests/support/problem_runs.hpp"
+#include "tests/support/test.hpp"
 
 /// Forces that are spread along a stretch, beside closed forms of beams.
 namespace pleuel::test::spread_force_test {
@@ -38,7 +34,7 @@ constexpr const char* cantilever = R"({
 })";
 
 ProblemFile problem_of(const std::vector<std::string>& overrides) {
-  return read_problem_text(cantilever, "cantilever.json", overrides).complete();
+  return problem_from(cantilever, overrides);
 }
 
 double value(const ProblemFile& problem, const Eigen::VectorXd& x, std::size_t response) {

@@ -10,6 +10,7 @@
 #include "core/response/body_export.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/support/source_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test {
 
@@ -137,13 +138,10 @@ ProblemFile Exchange::read(const std::string& name, const Json& document) const 
 }
 
 std::string Exchange::complaint(const Json& document) const {
-  try {
+  return thrown<InputError>([&] {
     const ProblemFile problem = read("problem.json", document);
     analyze(problem, start_design(problem));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  });
 }
 
 void Exchange::write(const std::string& text) const {

@@ -1,15 +1,10 @@
 #include "core/response/fatigue.hpp"
 
-#include <cmath>
-#include <numbers>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
-#include "core/scene/problem_reader.hpp"
 #include "sensitivity/gradients.hpp"
+#include "tests/support/problem_runs.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::fatigue_test {
 namespace {
@@ -125,8 +120,8 @@ constexpr double constant_force = 3000.0, force_amplitude = 2000.0;
 constexpr double width = 0.02, height = 0.01, endurance = 100e6, ultimate = 400e6, yield = 250e6;
 
 ProblemFile pulled_bar(const std::string& criterion, double constant) {
-  return read_problem_text(fmt::format(
-                               R"j({{"scene": {{"gravity": [0, 0, 0],
+  return problem_from(fmt::format(
+      R"j({{"scene": {{"gravity": [0, 0, 0],
     "materials": {{"light": {{"young": "200 GPa", "poisson": 0.3, "density": 1,
       "strength": "250 MPa", "ultimate_strength": {{"variable": "ultimate"}},
       "endurance_limit": {{"variable": "endurance"}}}}}},
@@ -147,9 +142,7 @@ ProblemFile pulled_bar(const std::string& criterion, double constant) {
                  "ultimate": {{"start": "400 MPa", "lower": "1 MPa", "upper": "1 GPa"}},
                  "endurance": {{"start": "100 MPa", "lower": "1 MPa", "upper": "1 GPa"}}}},
   "responses": {{"use": {{"type": "fatigue", "body": "bar", "criterion": "{}"}}}}}})j",
-                               constant, criterion),
-                           "bar.json")
-      .complete();
+      constant, criterion));
 }
 
 double use_of(const std::string& criterion, double constant) {
@@ -203,8 +196,7 @@ TEST(Fatigue, IsThatOfTheWindow) {
 /// A round cantilever that is bent to and fro, 45° between its axes: σ = 32 F L/(π d³) where the
 /// outline is met at 45°, not at the ends of its axes.
 TEST(Fatigue, OfARoundSectionIsSeenAllAroundIt) {
-  const ProblemFile problem = read_problem_text(
-                                  R"j({"scene": {"gravity": [0, 0, 0],
+  const ProblemFile problem = problem_from(R"j({"scene": {"gravity": [0, 0, 0],
     "materials": {"light": {"young": "200 GPa", "poisson": 0.3, "density": 1,
       "ultimate_strength": "400 MPa", "endurance_limit": "100 MPa"}},
     "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": [0.5, 0, 0], "elements": 2,
@@ -215,9 +207,7 @@ TEST(Fatigue, OfARoundSectionIsSeenAllAroundIt) {
                         "amplitude": "100 N", "frequency": "10 Hz"}}}},
   "effects": {"geometric_stiffening": "off"},
   "simulation": {"end_time": "0.1 s", "step": "1 ms", "initial_state": "quasi-static"},
-  "responses": {"use": {"type": "fatigue", "body": "bar", "criterion": "gerber"}}})j",
-                                  "round.json")
-                                  .complete();
+  "responses": {"use": {"type": "fatigue", "body": "bar", "criterion": "gerber"}}})j");
   const double stress = 32.0 * 100.0 * 0.5 / (std::numbers::pi * std::pow(0.02, 3));
   const auto analysis = analyze(problem, start_design(problem));
   EXPECT_NEAR(analysis->reductions[0].value, stress / 100e6, 1e-4);
@@ -232,14 +222,9 @@ TEST(Fatigue, OfARoundSectionIsSeenAllAroundIt) {
 TEST(Fatigue, NeedsTheDataOfTheMaterial) {
   ProblemFile problem = pulled_bar("goodman", constant_force);
   problem.scene.materials[0].endurance_limit.reset();
-  try {
-    analyze(problem, start_design(problem));
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(),
-                 "the response \"use\" cannot be computed: the material of \"bar\" needs an "
-                 "endurance limit and an ultimate strength");
-  }
+  EXPECT_EQ(thrown<InputError>([&] { analyze(problem, start_design(problem)); }),
+            "the response \"use\" cannot be computed: the material of \"bar\" needs an "
+            "endurance limit and an ultimate strength");
 }
 
 }  // namespace

@@ -1,18 +1,12 @@
-#include <cmath>
-#include <numbers>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "core/response/analysis.hpp"
 #include "core/response/effect_measurement.hpp"
-#include "core/scene/problem_reader.hpp"
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/core/trust/findings_of.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/problem_runs.hpp"
+#include "tests/support/test.hpp"
 
 /// Natural frequencies and buckling of members that move in a plane: what is out of it counts.
 namespace pleuel::test::full_modes_test {
@@ -49,7 +43,7 @@ std::string cantilever(const std::string& section, const std::string& effects, i
 }
 
 Eigen::VectorXd values(const std::string& text) {
-  ProblemFile problem = read_problem_text(text, "a.json").complete();
+  ProblemFile problem = problem_from(text);
   decide_effects(problem);
   return values_of(*analyze(problem, start_design(problem)));
 }
@@ -109,7 +103,7 @@ TEST(FrequencyOfAMechanism, OfARoundSectionComesTwiceWithOneGradient) {
   std::string text = cantilever(R"({"type": "circle", "diameter": {"variable": "d"}})",
                                 R"({"rotary_inertia": "off"})", 4);
   text.insert(1, R"("variables": {"d": {"start": 0.02, "lower": 0.01, "upper": 0.03}},)");
-  const ProblemFile problem = read_problem_text(text, "a.json").complete();
+  const ProblemFile problem = problem_from(text);
   const auto analysis = analyze(problem, start_design(problem));
   const Eigen::VectorXd found = values_of(*analysis);
   const Eigen::MatrixXd gradient = direct_gradients(*analysis);
@@ -128,7 +122,7 @@ TEST(FrequencyOfAPlanarMechanism, HasTheGradientOfTheModeOutOfThePlane) {
       R"({"rotary_inertia": "off"})", 1);
   text.insert(1, R"("variables": {"b": {"start": 0.01, "lower": 0.005, "upper": 0.03},
                                   "h": {"start": 0.03, "lower": 0.005, "upper": 0.05}},)");
-  const ProblemFile problem = read_problem_text(text, "a.json").complete();
+  const ProblemFile problem = problem_from(text);
   const auto analysis = analyze(problem, start_design(problem));
   const Eigen::MatrixXd gradient = direct_gradients(*analysis);
   for (Eigen::Index i = 0; i < 2; ++i) {

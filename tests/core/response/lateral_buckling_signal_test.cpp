@@ -1,18 +1,13 @@
 #include "core/response/lateral_buckling_signal.hpp"
 
-#include <cmath>
-#include <numbers>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
-#include "core/scene/problem_reader.hpp"
 #include "core/trust/sideways_buckling.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/core/trust/findings_of.hpp"
 #include "tests/support/parameter_name.hpp"
+#include "tests/support/problem_runs.hpp"
+#include "tests/support/test.hpp"
 
 /// A thin bar of 1.2 m, 2 mm × 40 mm, on edge: it bends in the plane x–y.
 namespace pleuel::test::lateral_buckling_signal_test {
@@ -58,7 +53,7 @@ ProblemFile problem_of(const Bar& bar) {
                 "h": {{"start": "40 mm", "lower": "1 mm", "upper": "90 mm"}}}},
   "responses": {{"share": {{"type": "lateral-buckling", "body": "bar", "over_time": "max"}}}}}})j",
       bar.elements, bar.body, bar.bodies, bar.joints, bar.loads, bar.effects);
-  return read_problem_text(text, "bar.json").complete();
+  return problem_from(text);
 }
 
 std::unique_ptr<Analysis> analysis_of(const Bar& bar) {
@@ -416,13 +411,9 @@ TEST(LateralBucklingResponse, OfAPendulumWithARigidTipIsThatOfACantilever) {
 }
 
 TEST(LateralBucklingResponse, IsRefusedWhereNoJointHoldsTheBeam) {
-  try {
-    analysis_of({"", force(1.0, "[1, 0, 0]")});
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("\"share\""), std::string::npos) << error.what();
-    EXPECT_NE(std::string(error.what()).find("no joint holds"), std::string::npos);
-  }
+  const std::string said = thrown<InputError>([&] { analysis_of({"", force(1.0, "[1, 0, 0]")}); });
+  EXPECT_NE(std::string(said).find("\"share\""), std::string::npos) << said;
+  EXPECT_NE(std::string(said).find("no joint holds"), std::string::npos);
 }
 
 }  // namespace

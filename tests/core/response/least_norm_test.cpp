@@ -1,7 +1,5 @@
 #include "core/start/least_norm.hpp"
 
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "core/start/initial_state.hpp"
 #include "sensitivity/finite_difference.hpp"
@@ -10,6 +8,7 @@
 #include "tests/support/dense_algebra.hpp"
 #include "tests/support/parameter_name.hpp"
 #include "tests/support/problem_runs.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::least_norm_test {
 namespace {

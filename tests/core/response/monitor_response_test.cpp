@@ -1,6 +1,3 @@
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/response/monitors.hpp"
@@ -10,6 +7,7 @@
 #include "tests/support/energy.hpp"
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/sample_name.hpp"
+#include "tests/support/test.hpp"
 
 /// Energies and errors of the time integration as responses; their gradients are tested with those
 /// of all signals.

@@ -1,5 +1,3 @@
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "core/mechanism/configuration.hpp"
 #include "core/model/body_energy.hpp"
@@ -11,6 +9,7 @@
 #include "tests/support/energy.hpp"
 #include "tests/support/random_state.hpp"
 #include "tests/support/sample_scenes.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::monitor_test {
 namespace {

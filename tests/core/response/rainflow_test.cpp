@@ -1,16 +1,12 @@
 #include <array>
-#include <cmath>
 #include <map>
-#include <numbers>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/response/fatigue_damage.hpp"
-#include "core/scene/problem_reader.hpp"
 #include "sensitivity/gradients.hpp"
+#include "tests/support/problem_runs.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::rainflow_test {
 namespace {
@@ -149,8 +145,7 @@ TEST(Damage, IsLinearisedInItsSamples) {
 /// A light bar that is pulled by F₀ + F₁ sin(ωt + phase).
 /// @param simulation  its time, step and start
 ProblemFile pulled_bar(const std::string& simulation, const std::string& phase) {
-  ProblemFile problem = read_problem_text(
-                            R"j({"scene": {"gravity": [0, 0, 0],
+  ProblemFile problem = problem_from(R"j({"scene": {"gravity": [0, 0, 0],
     "materials": {"light": {"young": "200 GPa", "poisson": 0.3, "density": 1,
       "ultimate_strength": "400 MPa", "fatigue_strength": "900 MPa", "fatigue_exponent": 8}},
     "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": [0.5, 0, 0], "elements": 1,
@@ -162,14 +157,12 @@ ProblemFile pulled_bar(const std::string& simulation, const std::string& phase) 
               "shake": {"type": "force", "body": "bar", "at": [0.5, 0, 0], "direction": [1, 0, 0],
                         "value": {"type": "harmonic", "amplitude": "40 kN", "frequency": "10 Hz",
                                   "phase": ")j" +
-                                phase + R"j("}}}},
+                                     phase + R"j("}}}},
   "effects": {"geometric_stiffening": "off"},
   "simulation": {"newton_tolerance": 1e-13, )j" +
-                                simulation + R"j(},
+                                     simulation + R"j(},
   "variables": {"width": {"start": "20 mm", "lower": "2 mm", "upper": "50 mm"}},
-  "responses": {"damage": {"type": "fatigue-damage", "body": "bar", "criterion": "goodman"}}})j",
-                            "bar.json")
-                            .complete();
+  "responses": {"damage": {"type": "fatigue-damage", "body": "bar", "criterion": "goodman"}}})j");
   return problem;
 }
 

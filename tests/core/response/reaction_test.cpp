@@ -1,5 +1,3 @@
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "core/joints/joint_term.hpp"
 #include "core/response/analysis.hpp"
@@ -7,6 +5,7 @@
 #include "tests/core/response/response_samples.hpp"
 #include "tests/support/dense.hpp"
 #include "tests/support/sample_name.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::reaction_test {
 namespace {

@@ -1,14 +1,11 @@
-#include <cmath>
 #include <stdexcept>
 #include <tuple>
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "core/response/monitors.hpp"
-#include "core/scene/problem_reader.hpp"
 #include "core/trust/round_off.hpp"
+#include "tests/support/problem_runs.hpp"
+#include "tests/support/test.hpp"
 
 /// Section forces on both sides of a load.
 namespace pleuel::test::section_side_test {
@@ -18,7 +15,7 @@ namespace {
 /// part behind a section on the part before it is +0.6 F before the load and −0.4 F behind it; the
 /// moment there is 0.24 F L, and nothing at the pins.
 ProblemFile supported_beam(const std::string& responses, int frames = 1, double force = 100.0) {
-  return read_problem_text(fmt::format(R"j({{"scene": {{"gravity": [0, 0, 0],
+  return problem_from(fmt::format(R"j({{"scene": {{"gravity": [0, 0, 0],
     "materials": {{"light": {{"young": "200 GPa", "poisson": 0.3, "density": 1}}}},
     "bodies": {{"bar": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "elements": 5,
       "material": "light", "frames": {},
@@ -33,9 +30,7 @@ ProblemFile supported_beam(const std::string& responses, int frames = 1, double 
   "variables": {{"width": {{"start": "20 mm", "lower": "10 mm", "upper": "40 mm"}}}},
   "objective": {{"minimize": "m"}},
   "responses": {{"m": {{"type": "mass"}}, {}}}}})j",
-                                       frames, force, responses),
-                           "sides.json")
-      .complete();
+                                  frames, force, responses));
 }
 
 double value_of(const Analysis& analysis, const std::string& name) {

@@ -1,17 +1,14 @@
-#include <algorithm>
-#include <numbers>
-
 #include <Eigen/Core>
-#include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/response/analysis.hpp"
-#include "core/scene/problem_reader.hpp"
 #include "core/section/rectangle_section.hpp"
 #include "tests/core/response/response_samples.hpp"
 #include "tests/support/dense.hpp"
 #include "tests/support/dense_algebra.hpp"
+#include "tests/support/problem_runs.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::section_signal_test {
 namespace {
@@ -238,22 +235,19 @@ TEST(SectionForces, OfARigidBodyAreNotKnown) {
 /// A force towards +y, or +z, presses the fibres on that side: σ = −F L y/I_z, −F L z/I_y.
 TEST(StressOfOnePoint, HasTheSignOfItsSide) {
   const auto stress_at = [](const std::string& point, const std::string& direction) {
-    const ProblemFile problem = read_problem_text(
-                                    R"({"scene": {"gravity": [0, 0, 0],
+    const ProblemFile problem = problem_from(R"({"scene": {"gravity": [0, 0, 0],
             "bodies": {"beam": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0],
               "material": "steel", "elements": 2, "section": {"type": "general", "area": 1e-4,
                 "inertia_y": 2e-9, "inertia_z": 1e-9, "torsion": 1e-9, "points": [)" +
-                                        point + R"(]}}},
+                                             point + R"(]}}},
             "joints": {"wall": {"type": "fixed", "bodies": ["ground", "beam"], "at": [0, 0, 0]}},
             "loads": {"push": {"type": "force", "body": "beam", "at": [1, 0, 0], "value": 1,
                                "direction": )" +
-                                        direction + R"(}}},
+                                             direction + R"(}}},
           "effects": {"geometric_stiffening": "off"},
           "simulation": {"end_time": 2e-4, "step": 1e-4, "initial_state": "quasi-static"},
           "responses": {"s": {"type": "stress", "part": "normal", "body": "beam", "at": 0,
-                              "over_time": "final"}}})",
-                                    "point.json")
-                                    .complete();
+                              "over_time": "final"}}})");
     return analyze(problem, start_design(problem))->reductions[0].value;
   };
   const std::string y = "[0, 1, 0]", z = "[0, 0, 1]";

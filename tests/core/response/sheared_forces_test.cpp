@@ -1,12 +1,7 @@
-#include <cmath>
-#include <numbers>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "core/response/analysis.hpp"
 #include "core/response/buckling_signal.hpp"
-#include "core/scene/problem_reader.hpp"
+#include "tests/support/problem_runs.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::sheared_forces_test {
 namespace {
@@ -21,7 +16,7 @@ std::unique_ptr<Analysis> analysis_of(const std::string& gravity, const std::str
   for (std::size_t i = 0; i < responses.size(); ++i) {
     list += fmt::format(R"({}"r{}": {})", i == 0 ? "" : ", ", i, responses[i]);
   }
-  const ProblemFile problem = read_problem_text(fmt::format(R"({{"scene": {{"gravity": {},
+  const ProblemFile problem = problem_from(fmt::format(R"({{"scene": {{"gravity": {},
             "materials": {{"steel": {{"young": 2.1e11, "poisson": 0.3, "density": 7850}}}},
             "bodies": {{"beam": {{"type": "beam", "from": [0, 0, 0], "to": [0.5, 0, 0],
               "material": "steel", "elements": 3, "shear": true,
@@ -32,9 +27,7 @@ std::unique_ptr<Analysis> analysis_of(const std::string& gravity, const std::str
           "effects": {{"rotary_inertia": "off", "geometric_stiffening": "off"}},
           "simulation": {{"end_time": 2e-9, "step": 1e-9, "initial_state": "quasi-static"}},
           "responses": {{{}}}}})",
-                                                            gravity, joints, list),
-                                                "sheared.json")
-                                  .complete();
+                                                       gravity, joints, list));
   return analyze(problem, start_design(problem));
 }
 

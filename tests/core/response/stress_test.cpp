@@ -1,15 +1,13 @@
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include <Eigen/Core>
-#include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
+#include "core/response/analysis.hpp"
 #include "core/response/stress_signal.hpp"
 #include "tests/support/dense.hpp"
 #include "tests/support/dense_algebra.hpp"
+#include "tests/support/problem_runs.hpp"
 #include "tests/support/sample_scenes.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::stress_test {
 namespace {
@@ -174,6 +172,98 @@ TEST(Stress, OfAGeneralSectionIsThatAtItsPoints) {
     find_rest(model, state);
     EXPECT_NEAR(stresses(model, state).maxCoeff() / (density * gravity * length), 1.0, 1e-9);
   }
+}
+
+constexpr double pull = 3e4, shake = 190.0, rod_length = 0.4, diameter = 0.02;
+
+/// Mean, rms and integral over two periods of the largest normal and von Mises stress of a rod that is
+/// pulled and shaken.
+Eigen::VectorXd averages(const std::string& spatial_motion) {
+  std::string responses;
+  for (const char* part : {"normal", "von-mises"}) {
+    for (const char* over_time : {"mean", "rms", "integral"}) {
+      responses += fmt::format(
+          R"({}"{}-{}": {{"type": "stress", "body": "rod", "part": "{}", "over_time": "{}",
+                          "from": 0.2, "to": 0.6}})",
+          responses.empty() ? "" : ", ", part, over_time, part, over_time);
+    }
+  }
+  const ProblemFile problem = problem_from(fmt::format(
+      R"({{"scene": {{
+          "bodies": {{"rod": {{"type": "beam", "from": [0, 0, 0], "to": [{}, 0, 0],
+                              "material": "steel", "elements": 2,
+                              "section": {{"type": "circle", "diameter": {}}},
+                              "damping": {{"stiffness": "1e-4 s"}}}}}},
+          "joints": {{"clamp": {{"type": "fixed", "bodies": ["ground", "rod"], "at": [0, 0, 0]}}}},
+          "loads": {{
+            "pull": {{"type": "force", "body": "rod", "at": [{}, 0, 0], "direction": [1, 0, 0],
+                     "value": {{"type": "step", "to": {}, "rise": 0.1}}}},
+            "shake": {{"type": "force", "body": "rod", "at": [{}, 0, 0], "direction": [0, 1, 0],
+                      "value": {{"type": "harmonic", "amplitude": {}, "frequency": "5 Hz"}}}}}}}},
+        "effects": {{"geometric_stiffening": "off", "spatial_motion": "{}"}},
+        "simulation": {{"end_time": 0.6, "step": 0.001}}, "responses": {{{}}}}})",
+      rod_length, diameter, rod_length, pull, rod_length, shake, spatial_motion, responses));
+  return values_of(*analyze(problem, start_design(problem)));
+}
+
+/// The points of a section stay where they are, in space, too: at each the mean of what shakes is N/A.
+TEST(AveragedStress, IsThatOfAPointThatStaysWhereItIs) {
+  const Eigen::VectorXd in_plane = averages("off"), in_space = averages("on");
+  for (Eigen::Index i = 0; i < in_plane.size(); ++i) {
+    EXPECT_NEAR(in_space(i), in_plane(i), 1e-6 * in_plane(i)) << i;
+  }
+  const double axial = pull / (std::numbers::pi * diameter * diameter / 4.0);
+  EXPECT_NEAR(in_space(0), axial, 2e-3 * axial);  // the rod vibrates a little
+}
+
+// Loads a little beside nodes of the mesh, as written coordinates are rounded.
+
+/// A clamped bar of 1 m, 40 mm in diameter, at rest.
+Eigen::VectorXd values(const std::string& loads, const std::string& responses) {
+  const ProblemFile problem = problem_from(fmt::format(R"j({{"scene": {{
+    "bodies": {{"bar": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel", "elements": 4,
+      "section": {{"type": "circle", "diameter": "40 mm"}}}}}},
+    "joints": {{"clamp": {{"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}}}},
+    "loads": {{{}}}}},
+  "effects": {{"geometric_stiffening": "off"}},
+  "simulation": {{"end_time": "2 ms", "step": "1 ms", "initial_state": "quasi-static"}},
+  "responses": {{{}}}}})j",
+                                                       loads, responses));
+  return values_of(*analyze(problem, start_design(problem)));
+}
+
+class Offsets : public testing::TestWithParam<double> {};
+
+/// A couple of 50 N m bends all before it, M/W with W = π d³/32, and nothing behind it.
+TEST_P(Offsets, LeaveTheJumpOfTheMomentWhereItIs) {
+  const Eigen::VectorXd found = values(
+      fmt::format(
+          R"("turn": {{"type": "torque", "body": "bar", "at": [{:.17g}, 0, 0], "direction": [0, 0, 1],
+                     "value": "50 N m"}})",
+          0.5 + GetParam()),
+      R"("stress": {"type": "stress", "body": "bar", "at": 0.5, "over_time": "final"},
+         "before": {"type": "section-force", "body": "bar", "at": 0.5, "part": "moment-z", "side": "before",
+                    "over_time": "final"},
+         "behind": {"type": "section-force", "body": "bar", "at": 0.5, "part": "moment-z", "side": "behind",
+                    "over_time": "final"})");
+  const double stress = 50.0 * 32.0 / (M_PI * std::pow(0.04, 3));
+  EXPECT_NEAR(found(0), stress, 1e-6 * stress);
+  EXPECT_NEAR(std::abs(found(1)), 50.0, 1e-5);
+  EXPECT_NEAR(found(2), 0.0, 1e-5);
+}
+
+INSTANTIATE_TEST_SUITE_P(OfALoad, Offsets, testing::Values(0.0, 1e-8, 5e-7, -5e-7, 5e-6),
+                         [](const auto& test) { return fmt::format("Number{}", test.index); });
+
+/// 50 kN at 2.4 mm from the clamp, a hundredth of the element, and 500 N at the tip.
+TEST(AForceBesideAClamp, IsThereInSectionForces) {
+  const Eigen::VectorXd found = values(
+      R"("near": {"type": "force", "body": "bar", "at": ["2.4 mm", 0, 0], "direction": [0, -1, 0], "value": "50 kN"},
+         "tip": {"type": "force", "body": "bar", "at": [1, 0, 0], "direction": [0, -1, 0], "value": "500 N"})",
+      R"("shear": {"type": "section-force", "body": "bar", "at": 0, "part": "shear-y", "over_time": "final"},
+         "moment": {"type": "section-force", "body": "bar", "at": 0, "part": "moment-z", "over_time": "final"})");
+  EXPECT_NEAR(std::abs(found(0)), 50500.0, 0.5);
+  EXPECT_NEAR(std::abs(found(1)), 50e3 * 2.4e-3 + 500.0, 1e-2);
 }
 
 }  // namespace

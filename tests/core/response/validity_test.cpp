@@ -1,26 +1,17 @@
 #include "core/response/validity.hpp"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "core/base/error.hpp"
 #include "core/response/analysis.hpp"
 #include "core/response/monitors.hpp"
 #include "tests/support/problem_runs.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::validity_test {
 namespace {
 
-using testing::HasSubstr;
-
 template <class Work>
 std::string failure_of(const Work& work) {
-  try {
-    work();
-  } catch (const SimulationError& error) {
-    return error.what();
-  }
-  return "";
+  return thrown<SimulationError>([&] { work(); });
 }
 
 /// Short, since only what comes out matters.
@@ -64,9 +55,8 @@ TEST(PulledApartJoint, FailsBeyondAThousandthOfTheShortestBeam) {
   state.q(crank) += 0.11e-3;
   EXPECT_EQ(failure_of([&] { guard.see(0, state); }), "");
   state.q(crank) += 0.02e-3;
-  EXPECT_THAT(
-      failure_of([&] { guard.see(0, state); }),
-      testing::AllOf(HasSubstr("the joint \"crank_pin\""), HasSubstr("is apart by 0.00013")));
+  EXPECT_THAT(failure_of([&] { guard.see(0, state); }),
+              AllOf(HasSubstr("the joint \"crank_pin\""), HasSubstr("is apart by 0.00013")));
 }
 
 /// Index 1 promises accelerations only; Newton's method with a loose tolerance promises little.

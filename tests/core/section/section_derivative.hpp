@@ -1,13 +1,10 @@
 #pragma once
 
-#include <cmath>
 #include <complex>
-#include <vector>
-
-#include <gtest/gtest.h>
 
 #include "core/base/dual.hpp"
 #include "core/section/section_properties.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test {
 

@@ -1,22 +1,16 @@
 #include "core/start/equilibrium.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
-#include <numbers>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/mechanism/configuration.hpp"
-#include "core/scene/problem_reader.hpp"
 #include "sensitivity/gradients.hpp"
 #include "sensitivity/initial_sensitivity.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/sample_name.hpp"
 #include "tests/support/sample_scenes.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::equilibrium_test {
 namespace {
@@ -212,7 +206,7 @@ TEST(QuasiStaticStart, IsNotFoundAtADeadPoint) {
   for (int i = 0; i <= 1000; ++i) most = std::max(most, borne(0.02 * i / 1000));
   EXPECT_NEAR(most, 3650.8, 0.1);
   const auto height = [](double load) {
-    const ProblemFile problem = read_problem_text(flat_truss(load), "truss.json").complete();
+    const ProblemFile problem = problem_from(flat_truss(load));
     return values_of(*analyze(problem, start_design(problem)))(0);
   };
   EXPECT_NEAR(borne(height(0.9 * most)), 0.9 * most, 1e-6 * most);

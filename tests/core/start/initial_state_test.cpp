@@ -2,15 +2,13 @@
 
 #include <random>
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/integration/simulate.hpp"
 #include "core/mechanism/configuration.hpp"
 #include "tests/support/sample_name.hpp"
 #include "tests/support/sample_scenes.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::initial_state_test {
 namespace {
@@ -109,12 +107,8 @@ TEST(StartOfAMechanism, SaysThatItCannotBeAssembled) {
   mechanism.guess = State(1, 1);
   mechanism.guess.q(0) = 0.7;
   mechanism.scale = mechanism.assembly_weight = Eigen::VectorXd::Ones(1);
-  try {
-    initial_state(mechanism);
-    FAIL();
-  } catch (const SimulationError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("cannot be assembled"));
-  }
+  EXPECT_THAT(thrown<SimulationError>([&] { initial_state(mechanism); }),
+              HasSubstr("cannot be assembled"));
 }
 
 /// A rope whose ends would have to meet where the beam cannot reach.
@@ -129,12 +123,8 @@ TEST(StartOfAMechanism, NamesTheJointThatCannotBeClosed) {
   rope.drive = Drive(PolynomialFunction{{-0.5}}, DrivenCoordinate::displacement);
   scene.joints.push_back(rope);
   Model model = build_model(scene, {}, {}, {});
-  try {
-    initial_state(model.mechanism);
-    FAIL();
-  } catch (const SimulationError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("joint rope"));
-  }
+  EXPECT_THAT(thrown<SimulationError>([&] { initial_state(model.mechanism); }),
+              HasSubstr("joint rope"));
 }
 
 }  // namespace

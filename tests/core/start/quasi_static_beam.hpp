@@ -7,7 +7,8 @@
 
 #include "core/base/error.hpp"
 #include "core/response/analysis.hpp"
-#include "core/scene/problem_reader.hpp"
+#include "tests/support/problem_runs.hpp"
+#include "tests/support/test.hpp"
 
 /// Starts from elastic equilibrium, and why there is none.
 namespace pleuel::test::quasi_static_beam {
@@ -45,18 +46,13 @@ inline std::string beam(const std::string& joints, double axial, double transver
 
 /// Tip x and y where the motion begins.
 inline Eigen::Vector2d tip(const std::string& text) {
-  const ProblemFile problem = read_problem_text(text, "a.json").complete();
+  const ProblemFile problem = problem_from(text);
   const auto analysis = analyze(problem, start_design(problem));
   return {analysis->histories[0](0, 0), analysis->histories[1](0, 0)};
 }
 
 inline std::string error_of(const std::string& text) {
-  try {
-    tip(text);
-  } catch (const SimulationError& error) {
-    return error.what();
-  }
-  return "";
+  return thrown<SimulationError>([&] { tip(text); });
 }
 
 inline const std::string clamp = joint("c", "fixed", 0);

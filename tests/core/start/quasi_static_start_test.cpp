@@ -1,20 +1,14 @@
-#include <cmath>
-#include <numbers>
-
-#include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "core/start/equilibrium.hpp"
 #include "tests/core/start/quasi_static_beam.hpp"
+#include "tests/support/problem_runs.hpp"
+#include "tests/support/test.hpp"
 
 /// Starts from elastic equilibrium: those that have to be found, and those that do not exist.
 namespace pleuel::test::quasi_static_start_test {
 namespace {
 
 using namespace quasi_static_beam;
-using testing::HasSubstr;
 
 /// The elastica for α = PL²/EI = 0.25 (its equation by shooting): 0.0827459 of deflection, 0.0041178 of
 /// shortening. The model is linear in bending: its error is α²-small, some 1 %.
@@ -41,8 +35,8 @@ TEST(QuasiStaticStart, IsFoundForLargeBending) {
 /// rises by as much as the lift grows.
 TEST(QuasiStaticStart, OfATurningBladeIsThatOfLoadsThatGrow) {
   const auto rise = [](double lift) {
-    const ProblemFile problem = read_problem_text(fmt::format(
-                                                      R"j({{"scene": {{"gravity": [0, 0, 0],
+    const ProblemFile problem = problem_from(fmt::format(
+        R"j({{"scene": {{"gravity": [0, 0, 0],
                   "materials": {{"m": {{"young": 7.17e10, "poisson": 0.33, "density": 2810}}}},
                   "bodies": {{"blade": {{"type": "beam", "from": [0, 0, 0], "to": [5, 0, 0],
                       "material": "m", "elements": 8, "frame": "tangent",
@@ -56,9 +50,7 @@ TEST(QuasiStaticStart, OfATurningBladeIsThatOfLoadsThatGrow) {
                 "simulation": {{"end_time": 5e-4, "step": 5e-4, "initial_state": "quasi-static"}},
                 "responses": {{"tip": {{"type": "position", "body": "blade", "at": 1,
                                        "direction": "z", "over_time": "final"}}}}}})j",
-                                                      lift),
-                                                  "blade.json")
-                                    .complete();
+        lift));
     return analyze(problem, start_design(problem))->histories[0](0, 0);
   };
   const double little = rise(10.0);
@@ -105,7 +97,7 @@ TEST(QuasiStaticStart, OfClampedMembersCoupledAtTheirTipsIsFound) {
       "responses": {{"x": {{"type": "mass"}}, "y": {{"type": "position", "body": "one", "at": 1,
                                                 "direction": "y", "over_time": "max-abs"}}}}}})",
         type, std::string(type) == "revolute" ? "0, 0, 1" : "1, 0, 0");
-    const ProblemFile problem = read_problem_text(text, "a.json").complete();
+    const ProblemFile problem = problem_from(text);
     const auto analysis = analyze(problem, start_design(problem));
     const double inertia = 0.02 * std::pow(0.03, 3) / 12;
     EXPECT_NEAR(analysis->reductions[1].value * 6 * young * inertia / 10.0, 1.0, 1e-4) << type;

@@ -1,10 +1,9 @@
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "core/system/linear_forces.hpp"
 #include "tests/support/random_state.hpp"
 #include "tests/support/sample_name.hpp"
 #include "tests/support/sample_scenes.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::constraint_terms_test {
 namespace {

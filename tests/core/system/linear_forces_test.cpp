@@ -1,7 +1,5 @@
 #include "core/system/linear_forces.hpp"
 
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "core/mechanism/configuration.hpp"
 #include "tests/support/common_basis.hpp"
@@ -9,6 +7,7 @@
 #include "tests/support/random_state.hpp"
 #include "tests/support/sample_name.hpp"
 #include "tests/support/sample_scenes.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::linear_forces_test {
 namespace {

@@ -1,20 +1,14 @@
-/// Energy that is missing.
-
-#include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
+#include "core/trust/joint_findings.hpp"
 #include "core/trust/resolution.hpp"
 #include "tests/core/trust/crank_rocker.hpp"
 #include "tests/core/trust/findings_of.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::energy_balance_test {
 namespace {
 
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::SizeIs;
+// Energy that is missing.
 
 /// Of the largest energy, one percent may be missing.
 TEST(EnergyBalance, IsDoubtedAboveOnePercent) {
@@ -25,9 +19,8 @@ TEST(EnergyBalance, IsDoubtedAboveOnePercent) {
   monitors.energy_error = 0.0098;
   EXPECT_THAT(check_energy_balance(TrustedRun{problem, x, *analysis, monitors}), IsEmpty());
   monitors.energy_error = 0.0102;
-  const auto findings = check_energy_balance(TrustedRun{problem, x, *analysis, monitors});
-  ASSERT_THAT(findings, SizeIs(1));
-  EXPECT_THAT(findings[0].text, HasSubstr("balanced to 1 % of"));
+  const Finding finding = only(check_energy_balance(TrustedRun{problem, x, *analysis, monitors}));
+  EXPECT_THAT(finding.text, HasSubstr("balanced to 1 % of"));
 }
 
 /// What does not move has no energy to be balanced: the last digits of its potential are none.
@@ -62,6 +55,47 @@ TEST(EnergyBalance, IsAskedOfSmallMotionsFarFromTheOrigin) {
   const double near = error_at(0.0);
   EXPECT_GT(near, 0.02);
   EXPECT_NEAR(error_at(1000.0), near, 0.01 * near);
+}
+
+/// A shaft along x in two bearings, 100 mm apart, with a pull along y beyond the second one.
+std::vector<Finding> findings(const std::string& first, const std::string& second) {
+  const ProblemFile shaft = read_scene(fmt::format(
+      R"({{"scene": {{"gravity": [0, 0, 0], "bodies": {{
+            "shaft": {{"type": "rigid", "at": [0.05, 0, 0], "mass": 1,
+                       "inertia": [1e-3, 2e-3, 2e-3, 0, 0, 0]}}}},
+          "joints": {{"one": {}, "other": {}}},
+          "loads": {{"belt": {{"type": "force", "body": "shaft", "at": [0.13, 0, 0],
+                               "direction": [0, 1, 0], "value": 500}}}}}},
+          "simulation": {{"end_time": 0.01, "step": 0.001}},
+          "responses": {{
+            "one": {{"type": "reaction-force", "joint": "one", "direction": "y",
+                     "over_time": "final"}},
+            "other": {{"type": "reaction-force", "joint": "other", "direction": "y",
+                       "over_time": "final"}},
+            "speed": {{"type": "angular-velocity", "body": "shaft", "direction": "x",
+                       "over_time": "max-abs"}}}}}})",
+      first, second));
+  return findings_of(shaft, check_undetermined_reactions);
+}
+
+std::string bearing(const std::string& type, double at) {
+  const std::string axis = type == "spherical" ? "" : R"(, "axis": [1, 0, 0])";
+  return fmt::format(R"({{"type": "{}", "bodies": ["ground", "shaft"], "at": [{}, 0, 0]{}}})", type,
+                     at, axis);
+}
+
+/// Two hinges hold the tilt of the shaft twice: 650 and −150 N follow only where each holds forces
+/// alone.
+TEST(UndeterminedReactions, OfTwoHingesAreTold) {
+  const Finding found = only(findings(bearing("revolute", 0.1), bearing("revolute", 0.0)));
+  EXPECT_THAT(found.responses, UnorderedElementsAre("one", "other"));
+  EXPECT_FALSE(found.is_serious);
+  // Nor where only one of them holds the tilt, and the other one the way of its end.
+  EXPECT_THAT(findings(bearing("revolute", 0.1), bearing("spherical", 0.0)), SizeIs(1));
+}
+
+TEST(UndeterminedReactions, AreNoneOfBearingsThatHoldForces) {
+  EXPECT_THAT(findings(bearing("point-on-line", 0.1), bearing("spherical", 0.0)), IsEmpty());
 }
 
 }  // namespace

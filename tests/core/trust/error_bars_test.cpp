@@ -1,14 +1,19 @@
 #include "core/trust/error_bars.hpp"
 
-#include <cmath>
-
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
+#include "core/response/history_reduction.hpp"
+#include "core/scene/problem_reader.hpp"
+#include "core/trust/checks.hpp"
+#include "core/trust/not_modelled.hpp"
+#include "tests/core/trust/crank_rocker.hpp"
+#include "tests/core/trust/findings_of.hpp"
+#include "tests/support/source_folder.hpp"
+#include "tests/support/test.hpp"
 
-/// Estimates from runs with refined steps, on values whose error is known.
 namespace pleuel::test::error_bars_test {
 namespace {
+
+// Estimates from runs with refined steps, on values whose error is known.
 
 TEST(Extrapolation, FindsTheLimitOfASecondOrderSequence) {
   const double limit = 3.7, factor = 0.02;
@@ -249,6 +254,109 @@ TEST_F(ErrorBarOfAValue, IsExactOfAConstantWhereStepsFailed) {
   const ErrorBar bar = error_bar(analysis_, 0, runs, 2);
   EXPECT_TRUE(bar.is_resolved());
   EXPECT_EQ(bar.bound(), 0.0);
+}
+
+// Bodies from files, at other designs than the file's.
+
+/// A rigid-looking body whose file knows its mass at h = 30 mm and how it changes; only the finding's
+/// own decision is looked at.
+TEST(Extrapolation, IsADoubtWhereTheDesignHasLeftThatOfTheFile) {
+  ProblemFile problem = read_scene(crank_rocker(driven, closed));
+  const StartRun start(problem);
+  auto file = std::make_shared<InvariantsFile>();
+  file->design.push_back({"h", 0.03, "m", file->constants});
+  file->design.back().derivative->mass = 2.0;
+  ImportedBody imported;
+  imported.source = "rod.json";
+  imported.file = file;
+  imported.variables = {{Number::bound(0), quantities::length, 0}};
+  problem.variables = {{"h", 0.03, 0.004, 0.06, "m"}};
+  problem.scene.bodies.push_back({"imported", imported});
+  const auto findings_at = [&](double height) {
+    Eigen::VectorXd x(1);
+    x << height;
+    return check_extrapolation(TrustedRun{problem, x, *start.analysis, start.monitors});
+  };
+  EXPECT_THAT(findings_at(0.02), IsEmpty()) << "not continued";
+  std::get<ImportedBody>(problem.scene.bodies.back().shape).is_linear = true;
+  EXPECT_THAT(findings_at(0.03), IsEmpty());
+  EXPECT_THAT(findings_at(0.03 * (1 + 0.9e-4)), IsEmpty());
+  EXPECT_THAT(findings_at(0.03 * (1 - 0.9e-4)), IsEmpty());
+  EXPECT_THAT(findings_at(0.03 * (1 + 1.1e-4)), SizeIs(1));
+  EXPECT_THAT(findings_at(0.03 * (1 - 1.1e-4)), SizeIs(1));
+  EXPECT_THAT(findings_at(0.03 * (1 + 1e-9)), IsEmpty());
+  ASSERT_THAT(findings_at(0.0303), SizeIs(1));
+  EXPECT_TRUE(findings_at(0.0303)[0].is_serious);
+  EXPECT_THAT(findings_at(0.0303)[0].text, HasSubstr("h = 0.0303 instead of 0.03 m"));
+  EXPECT_THAT(findings_at(0.0303)[0].text, HasSubstr("rod.json"));
+}
+
+// Bands around histories against runs at an eighth of the step with four times the elements.
+
+/// Errors of vibrations pass through zero; instants.
+constexpr Eigen::Index nearby = 5;
+
+struct Coverage {
+  double covered = 0.0;  ///< share of instants
+  /// Median of the band over the largest error nearby, of errors above a thousandth of the history.
+  double ratio = 0.0;
+};
+
+/// Of all histories of a problem.
+Coverage coverage(const std::string& name, const std::vector<std::string>& overrides) {
+  const ProblemFile problem =
+      read_problem(source_folder() + "/problems/" + name + ".json", overrides).complete();
+  const StartRun start(problem);
+  const std::vector<Eigen::VectorXd> bands = judge_run(start.run()).bands;
+  const RefinedRun exact = make_refined_run(problem, start.x, {0.125, 4.0});
+  EXPECT_EQ(exact.time.size(), 8 * (start.analysis->trajectory.time.size() - 1) + 1);
+  double covered = 0.0, instants = 0.0;
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < bands.size(); ++i) {
+    if (start.analysis->histories[i].size() == 0) continue;
+    const Response& response = start.analysis->responses[i];
+    const Eigen::VectorXd here = shown_history(response, start.analysis->histories[i]);
+    const Eigen::VectorXd there = shown_history(response, exact.histories[i]);
+    const double largest = here.cwiseAbs().maxCoeff();
+    EXPECT_EQ(bands[i].size(), here.size()) << response.name;
+    Eigen::VectorXd error(here.size());
+    for (Eigen::Index k = 0; k < error.size(); ++k) error(k) = std::abs(there(8 * k) - here(k));
+    for (Eigen::Index k = 0; k < error.size(); ++k) {
+      instants += 1.0;
+      if (error(k) <= bands[i](k) + 1e-9 * largest) covered += 1.0;
+      const Eigen::Index first = std::max<Eigen::Index>(k - nearby, 0);
+      const Eigen::Index last = std::min(k + nearby, error.size() - 1);
+      const double around = error.segment(first, last - first + 1).maxCoeff();
+      if (around > 1e-3 * largest) ratios.push_back(bands[i](k) / around);
+    }
+  }
+  if (ratios.empty()) return {covered / instants, 1.0};
+  const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
+  std::nth_element(ratios.begin(), middle, ratios.end());
+  return {covered / instants, *middle};
+}
+
+TEST(ErrorBands, HoldTheTrueHistories) {
+  const auto check = [](const std::string& name, const std::vector<std::string>& overrides) {
+    const Coverage found = coverage(name, overrides);
+    EXPECT_GE(found.covered, 0.95) << name << overrides.front();
+    EXPECT_LE(found.ratio, 5.0) << name << overrides.front();
+    testing::Test::RecordProperty(name, std::to_string(found.covered));
+  };
+  check("slider_crank_round", {"/simulation/step=0.1 ms"});
+  check("slider_crank_round", {"/simulation/step=0.4 ms"});
+  check("four_bar", {"/simulation/step=0.5 ms"});
+  check("robot_arm", {"/simulation/step=1 ms"});
+  check("spatial_slider_crank", {"/simulation/step=0.4 ms", "/scene/bodies/rod/elements=2"});
+}
+
+TEST(ErrorBands, AreNotMadeWhereNothingIsChecked) {
+  const ProblemFile problem =
+      read_problem(source_folder() + "/problems/robot_arm.json",
+                   {"/simulation/step=4 ms", "/simulation/resolution_check=false"})
+          .complete();
+  const StartRun start(problem);
+  EXPECT_THAT(judge_run(start.run()).bands, IsEmpty());
 }
 
 }  // namespace

@@ -5,10 +5,12 @@
 #include <utility>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include "core/response/analysis.hpp"
-#include "core/scene/problem_reader.hpp"
 #include "core/trust/checks.hpp"
 #include "core/trust/model_variants.hpp"
+#include "tests/support/problem_runs.hpp"
 
 namespace pleuel::test {
 
@@ -35,6 +37,12 @@ inline std::vector<Finding> findings_of(const ProblemFile& problem, FindChecks f
   return find(StartRun(problem).run());
 }
 
+/// The one finding that there is.
+inline Finding only(const std::vector<Finding>& findings) {
+  EXPECT_EQ(findings.size(), 1u);
+  return findings.empty() ? Finding{} : findings.front();
+}
+
 /// What variants of the model say, as one kind of finding.
 inline std::vector<Finding> check_variants(const TrustedRun& run) {
   return compare_variants(run).findings;
@@ -48,7 +56,7 @@ inline std::vector<Finding> findings_of(const ProblemFile& problem) {
 
 inline ProblemFile read_scene(const std::string& text,
                               const std::vector<std::string>& overrides = {}) {
-  return read_problem_text(text, "test.json", overrides).complete();
+  return problem_from(text, overrides);
 }
 
 }  // namespace pleuel::test

@@ -1,13 +1,7 @@
-#include <cmath>
-#include <numbers>
-#include <string>
 #include <utility>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include "tests/core/trust/buckling_findings.hpp"
+#include "tests/support/test.hpp"
 
 /// Of members that buckle together, portals and columns of several parts, against closed forms.
 namespace pleuel::test::frame_stability_test {

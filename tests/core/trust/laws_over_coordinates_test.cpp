@@ -1,19 +1,12 @@
 #include "core/trust/laws_over_coordinates.hpp"
 
-#include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "core/trust/fast_laws.hpp"
 #include "tests/core/trust/findings_of.hpp"
+#include "tests/support/test.hpp"
 
 /// Forces over the angle of a joint, and rotors, that turn too far in a step.
 namespace pleuel::test::laws_over_coordinates_test {
 namespace {
-
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::SizeIs;
 
 /// A rotor of 1250 rpm in 96 ms, two turns, with a resistance over its angle.
 ProblemFile rotor(const std::string& resistance, double step, const std::string& plane = "auto") {
@@ -94,10 +87,9 @@ TEST(FastTurning, IsDoubtedBeyondAQuarterOfATurn) {
                        check_fast_turning);
   };
   EXPECT_THAT(findings_at(2.4e-3), IsEmpty());  // 86 deg
-  const std::vector<Finding> findings = findings_at(1e-2);
-  ASSERT_THAT(findings, SizeIs(1));
-  EXPECT_TRUE(findings[0].is_serious);
-  EXPECT_THAT(findings[0].text, HasSubstr("\"wheel\" turns by 360 deg within the step of 0.01 s"));
+  const Finding finding = only(findings_at(1e-2));
+  EXPECT_TRUE(finding.is_serious);
+  EXPECT_THAT(finding.text, HasSubstr("\"wheel\" turns by 360 deg within the step of 0.01 s"));
 }
 
 /// A block that is moved from 100 mm to 400 mm in a second, on a spring with a resistance.

@@ -1,14 +1,8 @@
-#include <cmath>
-#include <numbers>
-#include <string>
 #include <utility>
-#include <vector>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include "core/trust/stability.hpp"
 #include "tests/core/trust/findings_of.hpp"
+#include "tests/support/test.hpp"
 
 /// What grows along a motion, or from an equilibrium that is never left, and on which elements and steps it is
 /// seen.
@@ -55,10 +49,9 @@ std::vector<Finding> findings_of_followed(const FollowedColumn& column) {
 TEST(MotionStability, OfBecksColumnIsLostByFlutterOnly) {
   EXPECT_TRUE(findings_of_followed({5.0}).empty());
   EXPECT_TRUE(findings_of_followed({19.0}).empty());
-  const std::vector<Finding> beyond = findings_of_followed({22.0});
-  ASSERT_EQ(beyond.size(), 1u);
-  EXPECT_TRUE(beyond[0].is_serious);
-  EXPECT_NE(beyond[0].text.find("flutter"), std::string::npos) << beyond[0].text;
+  const Finding beyond = only(findings_of_followed({22.0}));
+  EXPECT_TRUE(beyond.is_serious);
+  EXPECT_NE(beyond.text.find("flutter"), std::string::npos) << beyond.text;
 }
 
 /// Beside it a rigid pendulum that a dead force presses, and a soft spring holds too weakly: it turns away as
@@ -76,13 +69,11 @@ TEST(MotionStability, OfBecksColumnIsLostBesideWhatFallsFaster) {
                                 "at": [[6, 0.1, 0], [5, 0.1, 0]], "stiffness": 1,
                                 "free_length": 1})"});
   };
-  const std::vector<Finding> before = beside_pendulum(15.0);
-  ASSERT_EQ(before.size(), 1u);
-  EXPECT_EQ(before[0].text.find("\"c\""), std::string::npos) << before[0].text;
-  const std::vector<Finding> beyond = beside_pendulum(22.0);
-  ASSERT_EQ(beyond.size(), 1u);
-  EXPECT_TRUE(beyond[0].is_serious);
-  EXPECT_NE(beyond[0].text.find("\"c\""), std::string::npos) << beyond[0].text;
+  const Finding before = only(beside_pendulum(15.0));
+  EXPECT_EQ(before.text.find("\"c\""), std::string::npos) << before.text;
+  const Finding beyond = only(beside_pendulum(22.0));
+  EXPECT_TRUE(beyond.is_serious);
+  EXPECT_NE(beyond.text.find("\"c\""), std::string::npos) << beyond.text;
 }
 
 /// A load of 16 EI/L² that comes later; with damping a disturbance grows as exp(4.6 t)
@@ -92,20 +83,18 @@ TEST(MotionStability, OfBecksColumnIsLostWhenItsLoadComesLate) {
       R"({{"type": "table", "interpolation": "monotone", "times": [0, 0.2, 0.3, 9],
                                "values": [0, 0, {}, {}]}})";
   EXPECT_TRUE(findings_of_followed({9.0, 1e-3, late, 1.8}).empty());
-  const std::vector<Finding> findings = findings_of_followed({16.0, 1e-3, late, 1.8});
-  ASSERT_EQ(findings.size(), 1u);
-  EXPECT_TRUE(findings[0].is_serious);
-  EXPECT_NE(findings[0].text.find("flutter"), std::string::npos) << findings[0].text;
+  const Finding finding = only(findings_of_followed({16.0, 1e-3, late, 1.8}));
+  EXPECT_TRUE(finding.is_serious);
+  EXPECT_NE(finding.text.find("flutter"), std::string::npos) << finding.text;
 }
 
 /// Steps much longer than its vibration damp it; with one element it does not flutter at all.
 TEST(MotionStability, OfBecksColumnIsLostWhateverTheSteps) {
   const std::vector<std::string> coarse = {"/simulation/step=0.1", "/scene/bodies/c/elements=1"};
   EXPECT_TRUE(findings_of_followed({.press = 15.0, .overrides = coarse}).empty());
-  const std::vector<Finding> beyond = findings_of_followed({.press = 30.0, .overrides = coarse});
-  ASSERT_EQ(beyond.size(), 1u);
-  EXPECT_TRUE(beyond[0].is_serious);
-  EXPECT_NE(beyond[0].text.find("flutters"), std::string::npos) << beyond[0].text;
+  const Finding beyond = only(findings_of_followed({.press = 30.0, .overrides = coarse}));
+  EXPECT_TRUE(beyond.is_serious);
+  EXPECT_NE(beyond.text.find("flutters"), std::string::npos) << beyond.text;
 }
 
 /// One element buckles at 12 EI/L² between pins, and never between clamps; Euler: π² and 4π² EI/L². Two
@@ -170,9 +159,8 @@ std::vector<Finding> findings_of_pulsating(double share, double speed) {
 }
 
 TEST(MotionStability, OfAStrutIsLostInParametricResonance) {
-  const std::vector<Finding> findings = findings_of_pulsating(0.6, 2.0);
-  ASSERT_EQ(findings.size(), 1u);
-  EXPECT_TRUE(findings[0].is_serious) << findings[0].text;
+  const Finding finding = only(findings_of_pulsating(0.6, 2.0));
+  EXPECT_TRUE(finding.is_serious) << finding.text;
   EXPECT_TRUE(findings_of_pulsating(0.6, 2.6).empty());
 }
 
@@ -191,9 +179,8 @@ TEST(MotionStability, IsMentionedWhereItIsLostForTooShortATimeToHarm) {
     "simulation": {{"end_time": 0.02, "step": 1e-4}},
     "responses": {{"mass": {{"type": "mass"}}}}}})",
                                  clamp, pulse);
-  const std::vector<Finding> findings = findings_of(read_scene(text), check_stability);
-  ASSERT_EQ(findings.size(), 1u);
-  EXPECT_FALSE(findings[0].is_serious) << findings[0].text;
+  const Finding finding = only(findings_of(read_scene(text), check_stability));
+  EXPECT_FALSE(finding.is_serious) << finding.text;
 }
 
 std::vector<Finding> findings_of_pendulum(double tip, const std::string& start) {
@@ -210,12 +197,10 @@ std::vector<Finding> findings_of_pendulum(double tip, const std::string& start) 
 /// Upside down it falls as exp(√(3g/2L) t), which its motion, exactly upright, does not show. Who does
 /// not ask for an equilibrium may let it fall.
 TEST(MotionStability, OfAPendulumThatIsSaidToBeInEquilibriumIsAsked) {
-  const std::vector<Finding> upright = findings_of_pendulum(1.0, "quasi-static");
-  ASSERT_EQ(upright.size(), 1u);
-  EXPECT_TRUE(upright[0].is_serious);
-  EXPECT_NE(upright[0].text.find(fmt::format("exp({:.4g}", std::sqrt(1.5 * 9.81))),
-            std::string::npos)
-      << upright[0].text;
+  const Finding upright = only(findings_of_pendulum(1.0, "quasi-static"));
+  EXPECT_TRUE(upright.is_serious);
+  EXPECT_NE(upright.text.find(fmt::format("exp({:.4g}", std::sqrt(1.5 * 9.81))), std::string::npos)
+      << upright.text;
   EXPECT_TRUE(findings_of_pendulum(-1.0, "quasi-static").empty());
   EXPECT_TRUE(findings_of_pendulum(1.0, "consistent").empty());
 }
@@ -233,12 +218,11 @@ TEST(MotionStability, OfAnEquilibriumThatIsNeverLeftIsAsked) {
                        check_stability);
   };
   EXPECT_TRUE(findings(-1.0).empty());
-  const std::vector<Finding> upright = findings(1.0);
-  ASSERT_EQ(upright.size(), 1u);
-  EXPECT_TRUE(upright[0].is_serious);
-  EXPECT_NE(upright[0].text.find(fmt::format("exp({:.4g}", std::sqrt(2.0 * 9.81 / 2.5))),
+  const Finding upright = only(findings(1.0));
+  EXPECT_TRUE(upright.is_serious);
+  EXPECT_NE(upright.text.find(fmt::format("exp({:.4g}", std::sqrt(2.0 * 9.81 / 2.5))),
             std::string::npos)
-      << upright[0].text;
+      << upright.text;
 }
 
 }  // namespace

@@ -1,23 +1,17 @@
-/// Sizes that are units forgotten, or a zero too many.
-
 #include "core/trust/proportions.hpp"
 
-#include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
+#include "core/trust/start_positions.hpp"
 #include "tests/core/trust/crank_rocker.hpp"
 #include "tests/core/trust/findings_of.hpp"
 #include "tests/support/parameter_name.hpp"
 #include "tests/support/problem_runs.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::proportions_test {
 namespace {
 
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::SizeIs;
+// Sizes that are units forgotten, or a zero too many.
 
 struct Slip {
   const char* override_text;
@@ -29,10 +23,9 @@ class SizesOutOfProportion : public testing::TestWithParam<Slip> {};
 TEST_P(SizesOutOfProportion, AreNamedByTheirPlaceInTheFile) {
   const ProblemFile problem =
       sample_problem("slider_crank", {"/simulation/end_time=0.1 ms", GetParam().override_text});
-  const std::vector<Finding> findings = findings_of(problem, check_proportions);
-  ASSERT_THAT(findings, SizeIs(1));
-  EXPECT_FALSE(findings[0].is_serious);
-  EXPECT_THAT(findings[0].text, HasSubstr(GetParam().pointer));
+  const Finding finding = only(findings_of(problem, check_proportions));
+  EXPECT_FALSE(finding.is_serious);
+  EXPECT_THAT(finding.text, HasSubstr(GetParam().pointer));
 }
 INSTANTIATE_TEST_SUITE_P(
     Slips, SizesOutOfProportion,
@@ -60,16 +53,13 @@ TEST(SizesOutOfProportion, BeginWhereTheyAreSaidTo) {
                            Edge{"/scene/gravity", "[0, 0.51, 0]", "[0, 0.49, 0]"},
                            Edge{"/scene/gravity", "[0, 249, 0]", "[0, 251, 0]"}}) {
     // Rubber rods are for no motion: the finding looks at numbers only.
-    ProblemFile problem = sample_problem("slider_crank", {"/simulation/end_time=0.1 ms"});
-    const Eigen::VectorXd x = start_design(problem);
-    const auto analysis = analyze(problem, x);
-    const Monitors monitors = monitor(analysis->model, analysis->trajectory);
+    StartRun start(sample_problem("slider_crank", {"/simulation/end_time=0.1 ms"}));
     const auto count = [&](const char* value) {
-      problem.scene =
+      start.problem.scene =
           sample_problem("slider_crank", {"/scene/materials/steel/density=" + edge.density,
                                           std::string(edge.pointer) + "=" + value})
               .scene;
-      return check_proportions(TrustedRun{problem, x, *analysis, monitors}).size();
+      return check_proportions(start.run()).size();
     };
     EXPECT_EQ(count(edge.within), 0u) << edge.pointer << " " << edge.within;
     EXPECT_EQ(count(edge.beyond), 1u) << edge.pointer << " " << edge.beyond;
@@ -125,18 +115,15 @@ TEST(SizesOutOfProportion, AreNoneWherePointsAreALittleApart) {
 TEST(SizesOutOfProportion, BeginAtTenTimesTheInertiaAndAHundredTimesTheDistance) {
   // Bar of 1 m, and a wheel at its end: nothing else has a place.
   const auto findings = [](double inertia, double at) {
-    ProblemFile problem = read_scene(crank_rocker(driven, closed));
-    const Eigen::VectorXd x = start_design(problem);
-    const auto analysis = analyze(problem, x);
-    const Monitors monitors = monitor(analysis->model, analysis->trajectory);
-    problem.scene = {};
-    problem.scene.bodies = {
+    StartRun start(read_scene(crank_rocker(driven, closed)));
+    start.problem.scene = {};
+    start.problem.scene.bodies = {
         {"one", PointMass{{0.0, 0.0, 0.0}, 1.0}},
         {"two", PointMass{{1.0, 0.0, 0.0}, 1.0}},
         {"three", PointMass{{0.5, 0.0, 0.0}, 1.0}},
         {"four", PointMass{{0.3, 0.0, 0.0}, 1.0}},
         {"wheel", RigidBody{{at, 0.0, 0.0}, 2.0, {inertia, 0.1, 0.1, 0.0, 0.0, 0.0}}}};
-    return check_proportions(TrustedRun{problem, x, *analysis, monitors}).size();
+    return check_proportions(start.run()).size();
   };
   EXPECT_EQ(findings(2.0 * 9.9 * 9.9, 1.0), 0u);
   EXPECT_EQ(findings(2.0 * 10.1 * 10.1, 1.0), 1u);
@@ -169,6 +156,86 @@ TEST(SizesOutOfProportion, AreNotThinLeaves) {
   EXPECT_THAT(with_section(R"({"type": "rectangle", "width": 0.02, "height": 1e-5})"), IsEmpty());
   EXPECT_THAT(with_section(R"({"type": "rectangle", "width": 1e-5, "height": 0.02})"), IsEmpty());
   EXPECT_THAT(with_section(R"({"type": "rectangle", "width": 1e-5, "height": 1e-5})"), SizeIs(1));
+}
+
+/// A cantilever with a force at its tip, downwards and towards the wall.
+const std::string scene = R"({
+  "scene": {
+    "bodies": {"beam": {"type": "beam", "from": [0, 0, 0], "to": [0.3, 0, 0], "material": "steel",
+                        "section": {"type": "circle", "diameter": {"variable": "d"}}, "elements": 2}},
+    "joints": {"wall": {"type": "fixed", "bodies": ["ground", "beam"], "at": [0, 0, 0]}},
+    "loads": {"tool": {"type": "force", "body": "beam", "at": [0.3, 0, 0], "direction": [-1, -1, 0],
+                       "value": {"type": "constant", "value": "100 N"}}}
+  },
+  "simulation": {"end_time": 0.05, "step": 0.001},
+  "variables": {"d": {"start": "10 mm", "lower": "5 mm", "upper": "30 mm"}},
+  "responses": {
+    "mass": {"type": "mass"},
+    "sag": {"type": "deflection", "body": "beam", "at": 1, "direction": "y", "over_time": "max"},
+    "low": {"type": "deflection", "body": "beam", "at": 1, "direction": "y", "over_time": "min"},
+    "far": {"type": "deflection", "body": "beam", "at": 1, "direction": "y", "over_time": "max-abs"},
+    "early": {"type": "deflection", "body": "beam", "at": 1, "direction": "y",
+              "over_time": "max-abs", "to": 0.01},
+    "moment": {"type": "section-force", "body": "beam", "at": 0.01, "part": "moment-z",
+               "over_time": "min"},
+    "axial": {"type": "section-force", "body": "beam", "at": 0.01, "part": "axial",
+              "over_time": "max"},
+    "height": {"type": "position", "body": "beam", "at": 1, "direction": "y", "over_time": "max"}
+  },
+  "objective": {"minimize": "mass"}
+})";
+
+std::vector<Finding> findings_with_limits(const std::string& limits) {
+  return findings_of(read_scene(scene, {"/constraints=" + limits}), check_other_side);
+}
+
+TEST(OtherSide, IsNotLimitedByTheLargestValue) {
+  const Finding finding =
+      only(findings_with_limits(R"({"stiff": {"response": "sag", "upper": "1 mm"}})"));
+  EXPECT_THAT(finding.text, HasSubstr("holds \"sag\" at 1 mm to one side only"));
+  EXPECT_THAT(finding.text, HasSubstr("comes to -"));
+  EXPECT_FALSE(finding.is_serious);
+}
+
+TEST(OtherSide, IsNoneWhereItIsLimitedToo) {
+  EXPECT_THAT(findings_with_limits(R"({"stiff": {"response": "sag", "upper": "1 mm"},
+                                     "other": {"response": "low", "lower": "-20 mm"}})"),
+              IsEmpty());
+  EXPECT_THAT(findings_with_limits(R"({"stiff": {"response": "sag", "upper": "1 mm"},
+                                     "other": {"response": "far", "upper": "20 mm"}})"),
+              IsEmpty());
+  EXPECT_THAT(findings_with_limits(R"({"stiff": {"response": "far", "upper": "1 mm"}})"),
+              IsEmpty());
+  EXPECT_THAT(findings_with_limits(R"({"stiff": {"response": "sag", "upper": "1 mm"},
+                                     "other": {"response": "= -low", "upper": "20 mm"}})"),
+              IsEmpty());
+}
+
+TEST(OtherSide, IsLimitedByWhatLooksAtAllInstants) {
+  EXPECT_THAT(findings_with_limits(R"({"stiff": {"response": "sag", "upper": "1 mm"},
+                                     "other": {"response": "early", "upper": "20 mm"}})"),
+              SizeIs(1));
+}
+
+TEST(OtherSide, IsThatOfMomentsButNotOfPress) {
+  EXPECT_THAT(findings_with_limits(R"({"weak": {"response": "moment", "lower": "-1 N m"},
+                                     "press": {"response": "axial", "upper": "1 N"}})"),
+              SizeIs(1));
+  EXPECT_THAT(findings_with_limits(R"({"press": {"response": "axial", "upper": "1 N"}})"),
+              IsEmpty());
+}
+
+TEST(OtherSide, IsNoneWhereTheMotionKeepsTheLimitThere) {
+  EXPECT_THAT(findings_with_limits(R"({"stiff": {"response": "sag", "upper": "200 mm"}})"),
+              IsEmpty());
+  EXPECT_THAT(findings_with_limits(R"({"stiff": {"response": "low", "lower": "-1 mm"}})"),
+              IsEmpty());
+}
+
+/// Heights are from where the axes are.
+TEST(OtherSide, IsNoneOfPositions) {
+  EXPECT_THAT(findings_with_limits(R"({"low": {"response": "height", "upper": "1 mm"}})"),
+              IsEmpty());
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "core/trust/finding.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::ranking_test {
 namespace {

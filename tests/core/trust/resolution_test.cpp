@@ -1,28 +1,20 @@
 #include "core/trust/resolution.hpp"
 
-#include <cmath>
-#include <numbers>
 #include <utility>
 #include <variant>
-#include <vector>
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/integration/period_map.hpp"
-#include "core/scene/problem_reader.hpp"
 #include "core/trust/refined_runs.hpp"
 #include "core/trust/round_off.hpp"
+#include "tests/core/trust/findings_of.hpp"
 #include "tests/support/problem_runs.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::resolution_test {
 namespace {
-
-using testing::HasSubstr;
-using testing::IsEmpty;
 
 /// A clamped steel beam, 0.3 m long and 20 mm thick: its lowest natural frequencies are 1166 and
 /// 7310 rad/s (3.516 and 22.03 √(EI/ρA)/ℓ²). 500 N begin to act at its tip, in an instant or
@@ -59,12 +51,9 @@ std::vector<Finding> findings_about(const TrustedRun& run) {
 }
 
 std::vector<Finding> findings_of(const std::vector<std::string>& overrides) {
-  const ProblemFile problem =
-      read_problem_text(cantilever, "cantilever.json", overrides).complete();
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
-  const Monitors monitors = monitor(analysis->model, analysis->trajectory);
-  return findings_about({problem, x, *analysis, monitors});
+  const ProblemFile problem = problem_from(cantilever, overrides);
+  const StartRun start(problem);
+  return findings_about(start.run());
 }
 
 TEST(Resolution, IsNotDoubtedWhereTheStepFollowsTheMotion) {
@@ -75,9 +64,9 @@ TEST(Resolution, IsNotDoubtedWhereTheStepFollowsTheMotion) {
 TEST(Resolution, NamesWhatRingsUnseen) {
   const std::vector<Finding> findings = findings_of({sudden, "/simulation/step=2e-3"});
   ASSERT_FALSE(findings.empty());
-  EXPECT_THAT(findings[0].responses, testing::ElementsAre("stress", "tip"));
-  EXPECT_THAT(findings[0].text, testing::AllOf(HasSubstr("the steps leave \"stress\""),
-                                               HasSubstr("Try a /simulation/step of")));
+  EXPECT_THAT(findings[0].responses, ElementsAre("stress", "tip"));
+  EXPECT_THAT(findings[0].text, AllOf(HasSubstr("the steps leave \"stress\""),
+                                      HasSubstr("Try a /simulation/step of")));
 }
 
 TEST(Resolution, AdvisesDampingWhereNothingDamps) {
@@ -88,7 +77,7 @@ TEST(Resolution, AdvisesDampingWhereNothingDamps) {
         .text;
   };
   EXPECT_THAT(advice("0"), HasSubstr("s, or give the beams \"damping\": no body has any"));
-  EXPECT_THAT(advice("1e-4"), testing::Not(HasSubstr("damping")));
+  EXPECT_THAT(advice("1e-4"), Not(HasSubstr("damping")));
 }
 
 /// A minimized mass rests on nothing that moves; what nobody limits may be as wrong as it is.
@@ -115,20 +104,19 @@ TEST(Resolution, IsLeftOutIfTheFileSaysSo) {
 TEST(Resolution, NamesWhatOneElementCannotShow) {
   const std::string frequency =
       R"(/responses/second={"type": "frequency", "body": "b", "mode": 3})";
-  const std::vector<Finding> findings = findings_of({frequency, "/scene/bodies/b/elements=1"});
-  ASSERT_EQ(findings.size(), 1U);
-  EXPECT_THAT(findings[0].text, HasSubstr("the elements leave \"second\" uncertain by 72 %"));
+  const Finding finding = only(findings_of({frequency, "/scene/bodies/b/elements=1"}));
+  EXPECT_THAT(finding.text, HasSubstr("the elements leave \"second\" uncertain by 72 %"));
   EXPECT_THAT(findings_of({frequency}), IsEmpty());
 }
 
-/// A free block under F sin ωt goes to F/(mω) (t − sin ωt/ω). Its error is known: a finding from one
-/// percent on, a serious one from ten on.
-TEST(Resolution, IsDoubtedFromOnePercentOfErrorAndSeriousFromTen) {
-  constexpr double end = 0.1, omega = 60.0;
-  const double exact = end - std::sin(omega * end) / omega;  // F = mω
-  int near[4] = {};
-  for (int steps = 4; steps <= 40; ++steps) {
-    const ProblemFile problem = read_problem_text(fmt::format(R"({{"scene": {{
+constexpr double shaken_time = 0.1;
+
+/// A free block under F sin ωt goes to F/(mω) (t − sin ωt/ω): its error in so many steps, and what is
+/// found.
+std::pair<double, std::vector<Finding>> shaken_block(double steps) {
+  constexpr double omega = 60.0;
+  const double exact = shaken_time - std::sin(omega * shaken_time) / omega;  // F = mω
+  const StartRun start(problem_from(fmt::format(R"({{"scene": {{
             "bodies": {{"block": {{"type": "point-mass", "at": [0, 0, 0], "mass": 2}}}},
             "joints": {{"guide": {{"type": "point-on-line", "bodies": ["ground", "block"],
                                    "at": [0, 0, 0], "axis": [1, 0, 0]}}}},
@@ -138,14 +126,15 @@ TEST(Resolution, IsDoubtedFromOnePercentOfErrorAndSeriousFromTen) {
           "simulation": {{"end_time": 0.1, "step": {:.17g}}},
           "responses": {{"x": {{"type": "position", "body": "block", "direction": "x",
                                 "over_time": "final"}}}}}})",
-                                                              end / steps),
-                                                  "block.json")
-                                    .complete();
-    const Eigen::VectorXd x = start_design(problem);
-    const auto analysis = analyze(problem, x);
-    const Monitors monitors = monitor(analysis->model, analysis->trajectory);
-    const std::vector<Finding> findings = findings_about({problem, x, *analysis, monitors});
-    const double error = std::abs(analysis->reductions[0].value / exact - 1.0);
+                                                shaken_time / steps)));
+  return {std::abs(start.analysis->reductions[0].value / exact - 1.0), findings_about(start.run())};
+}
+
+/// The error of the block is known: a finding from one percent on, a serious one from ten on.
+TEST(Resolution, IsDoubtedFromOnePercentOfErrorAndSeriousFromTen) {
+  int near[4] = {};
+  for (int steps = 4; steps <= 40; ++steps) {
+    const auto [error, findings] = shaken_block(steps);
     if (error < 0.009) {
       EXPECT_TRUE(findings.empty()) << error;
     }
@@ -168,35 +157,13 @@ TEST(Resolution, IsDoubtedFromOnePercentOfErrorAndSeriousFromTen) {
 
 /// The same block: the step that is proposed leaves half a percent, where order 2 holds.
 TEST(Resolution, ProposesAStepThatIsFineEnoughAndNotMuchFiner) {
-  constexpr double end = 0.1, omega = 60.0;
-  const double exact = end - std::sin(omega * end) / omega;  // F = mω
-  const auto judged = [&](double steps) {
-    const ProblemFile problem = read_problem_text(fmt::format(R"({{"scene": {{
-            "bodies": {{"block": {{"type": "point-mass", "at": [0, 0, 0], "mass": 2}}}},
-            "joints": {{"guide": {{"type": "point-on-line", "bodies": ["ground", "block"],
-                                   "at": [0, 0, 0], "axis": [1, 0, 0]}}}},
-            "loads": {{"push": {{"type": "force", "body": "block", "at": [0, 0, 0],
-              "direction": [1, 0, 0],
-              "value": {{"type": "harmonic", "amplitude": 120, "frequency": 60}}}}}}}},
-          "simulation": {{"end_time": 0.1, "step": {:.17g}}},
-          "responses": {{"x": {{"type": "position", "body": "block", "direction": "x",
-                                "over_time": "final"}}}}}})",
-                                                              end / steps),
-                                                  "block.json")
-                                    .complete();
-    const Eigen::VectorXd x = start_design(problem);
-    const auto analysis = analyze(problem, x);
-    const Monitors monitors = monitor(analysis->model, analysis->trajectory);
-    return std::pair(std::abs(analysis->reductions[0].value / exact - 1.0),
-                     findings_about({problem, x, *analysis, monitors}));
-  };
   for (const double steps : {8.0, 10.0, 12.0}) {
-    const auto [error, findings] = judged(steps);
+    const auto [error, findings] = shaken_block(steps);
     ASSERT_EQ(findings.size(), 1u) << error;
     const std::string key = "Try a /simulation/step of ", &text = findings[0].text;
     ASSERT_THAT(text, HasSubstr(key));
     const double proposed = std::stod(text.substr(text.find(key) + key.size()));
-    const auto [left, more] = judged(std::round(end / proposed));
+    const auto [left, more] = shaken_block(std::round(shaken_time / proposed));
     EXPECT_LT(left, 0.01) << steps << ": " << error << ", then " << left;
     EXPECT_GT(left, 0.002) << steps << ": " << error << ", then " << left;
   }
@@ -206,16 +173,13 @@ TEST(Resolution, ProposesAStepThatIsFineEnoughAndNotMuchFiner) {
 TEST(Resolution, KnowsTheOrderOfTheScheme) {
   const std::vector<std::string> overrides = {"/simulation/scheme=implicit-euler",
                                               "/simulation/step=1e-3"};
-  const ProblemFile problem =
-      read_problem_text(cantilever, "cantilever.json", overrides).complete();
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
-  const Monitors monitors = monitor(analysis->model, analysis->trajectory);
-  const Resolution resolution = judge_resolution({problem, x, *analysis, monitors});
-  const RefinedRun fine = make_refined_run(problem, x, {1.0 / 16, 1.0});
+  const ProblemFile problem = problem_from(cantilever, overrides);
+  const StartRun start(problem);
+  const Resolution resolution = judge_resolution(start.run());
+  const RefinedRun fine = make_refined_run(problem, start.x, {1.0 / 16, 1.0});
   for (std::size_t response = 1; response < resolution.bars.size(); ++response) {
     const auto i = static_cast<Eigen::Index>(response);
-    const double error = std::abs(values_of(*analysis)(i) - fine.values(i));
+    const double error = std::abs(values_of(*start.analysis)(i) - fine.values(i));
     EXPECT_GE(resolution.bars[response]->step.bound, 0.7 * error) << i;
     EXPECT_LE(resolution.bars[response]->step.bound, 4.0 * error) << i;
   }
@@ -238,9 +202,8 @@ TEST(Refinement, FindsPeriodicMotionsBesideTheOneThatIsKnown) {
 }
 
 TEST(Refinement, KeepsTheEndAndTheLengths) {
-  ProblemFile problem = read_problem_text(cantilever, "cantilever.json",
-                                          {"/simulation/end_time=0.1", "/simulation/step=0.02"})
-                            .complete();
+  ProblemFile problem =
+      problem_from(cantilever, {"/simulation/end_time=0.1", "/simulation/step=0.02"});
   EXPECT_NEAR(refined(problem, {2.0, 1.0}).simulation.step, 0.1 / 3, 1e-15);
   EXPECT_NEAR(refined(problem, {0.5, 1.0}).simulation.step, 0.01, 1e-15);
   problem.simulation.local_error = 1e-4;
@@ -274,53 +237,44 @@ TEST(Resolution, NamesWhatAReductionLeavesOut) {
         "/simulation/initial_state=quasi-static",
         R"(/constraints={"c": {"response": "stress", "upper": 1e9}})"};
   };
-  const std::vector<Finding> findings = findings_of(weighing(0));
-  ASSERT_EQ(findings.size(), 1U);
-  EXPECT_THAT(findings[0].text, HasSubstr("the modes of a \"reduction\" leave \"stress\""));
-  EXPECT_TRUE(findings[0].is_serious);
+  const Finding finding = only(findings_of(weighing(0)));
+  EXPECT_THAT(finding.text, HasSubstr("the modes of a \"reduction\" leave \"stress\""));
+  EXPECT_TRUE(finding.is_serious);
   EXPECT_THAT(findings_of(weighing(10)), IsEmpty());
 }
 
 /// One element has no modes beside those of its ends, and more elements with only these bend as
 /// one: the middle of a clamped beam under its weight then sags by 1/24 in place of 17/384 wL⁴/EI.
 TEST(Resolution, HasBarsForModesThatNeedMoreElements) {
-  const ProblemFile problem =
-      read_problem_text(cantilever, "cantilever.json",
-                        {R"(/scene/gravity=[0, -9.81, 0])", "/scene/bodies/b/elements=1",
-                         R"(/scene/bodies/b/reduction={"modes": 0})", "/scene/loads/push/value=0",
-                         "/simulation/initial_state=quasi-static",
-                         R"(/responses={"sag": {"type": "deflection", "body": "b", "at": 0.5,
+  const ProblemFile problem = problem_from(
+      cantilever, {R"(/scene/gravity=[0, -9.81, 0])", "/scene/bodies/b/elements=1",
+                   R"(/scene/bodies/b/reduction={"modes": 0})", "/scene/loads/push/value=0",
+                   "/simulation/initial_state=quasi-static",
+                   R"(/responses={"sag": {"type": "deflection", "body": "b", "at": 0.5,
                               "over_time": "max-abs"}})",
-                         "/constraints={}", R"(/objective={"minimize": "sag"})"})
-          .complete();
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
-  const Monitors monitors = monitor(analysis->model, analysis->trajectory);
-  const Resolution found = judge_resolution({problem, x, *analysis, monitors});
-  const double exact = 17.0 / 384.0 * 24.0 * analysis->reductions[0].value;
+                   "/constraints={}", R"(/objective={"minimize": "sag"})"});
+  const StartRun start(problem);
+  const Resolution found = judge_resolution(start.run());
+  const double exact = 17.0 / 384.0 * 24.0 * start.analysis->reductions[0].value;
   ASSERT_TRUE(found.bars.at(0));
-  EXPECT_GE(found.bars[0]->elements.bound, exact - analysis->reductions[0].value);
+  EXPECT_GE(found.bars[0]->elements.bound, exact - start.analysis->reductions[0].value);
 }
 
 /// In equilibrium under a force across nothing pulls: what is computed of that is round-off.
 TEST(Resolution, IsNotAskedOfRoundOff) {
-  const ProblemFile problem =
-      read_problem_text(cantilever, "cantilever.json",
-                        {"/simulation/initial_state=quasi-static", "/scene/loads/push/value=500",
-                         R"(/responses={
+  const ProblemFile problem = problem_from(
+      cantilever, {"/simulation/initial_state=quasi-static", "/scene/loads/push/value=500",
+                   R"(/responses={
            "whole": {"type": "stress", "body": "b", "over_time": "max"},
            "bending": {"type": "stress", "part": "bending", "body": "b", "over_time": "max-abs"},
            "axial": {"type": "stress", "part": "axial", "body": "b", "over_time": "max-abs"},
            "along": {"type": "reaction-force", "joint": "f", "direction": "x", "over_time": "max-abs"},
            "across": {"type": "reaction-force", "joint": "f", "direction": "y", "over_time": "max-abs"},
            "tip": {"type": "position", "body": "b", "at": 1, "direction": "y", "over_time": "max"}})",
-                         R"(/objective={"minimize": "whole"})", "/constraints={}"})
-          .complete();
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
-  const Monitors monitors = monitor(analysis->model, analysis->trajectory);
-  const TrustedRun run{problem, x, *analysis, monitors};
-  EXPECT_THAT(find_round_off(run), testing::ElementsAre(false, false, true, true, false, false));
+                   R"(/objective={"minimize": "whole"})", "/constraints={}"});
+  const StartRun start(problem);
+  const TrustedRun run = start.run();
+  EXPECT_THAT(find_round_off(run), ElementsAre(false, false, true, true, false, false));
   EXPECT_THAT(findings_about(run), IsEmpty());
 }
 
@@ -328,19 +282,15 @@ TEST(Resolution, IsNotAskedOfRoundOff) {
 TEST(Resolution, IsNotAskedOfATorqueThatHoldsNothing) {
   for (const char* step : {"1e-2", "1e-3"}) {
     const ProblemFile problem =
-        read_problem_text(
-            R"({"scene": {"bodies": {"r": {"type": "rigid", "at": [0, 0, 0], "mass": 1,
+        problem_from(R"({"scene": {"bodies": {"r": {"type": "rigid", "at": [0, 0, 0], "mass": 1,
               "inertia": [0.1, 0.1, 0.1, 0, 0, 0]}},
             "joints": {"j": {"type": "revolute", "bodies": ["ground", "r"], "at": [0, 0, 0],
               "drive": {"type": "constant-speed", "speed": 1}}}},
           "simulation": {"end_time": 0.5, "step": 1},
           "responses": {"T": {"type": "drive-torque", "joint": "j", "over_time": "max-abs"}}})",
-            "rotor.json", {std::string("/simulation/step=") + step})
-            .complete();
-    const Eigen::VectorXd x = start_design(problem);
-    const auto analysis = analyze(problem, x);
-    const Monitors monitors = monitor(analysis->model, analysis->trajectory);
-    EXPECT_THAT(findings_about({problem, x, *analysis, monitors}), IsEmpty()) << step;
+                     {std::string("/simulation/step=") + step});
+    const StartRun start(problem);
+    EXPECT_THAT(findings_about(start.run()), IsEmpty()) << step;
   }
 }
 
@@ -349,39 +299,32 @@ TEST(Resolution, IsNotAskedOfATorqueThatHoldsNothing) {
 TEST(EnergyBalance, IsSeriousWhereSuddenLoadsLookSlow) {
   const auto findings = [](const std::string& end, const std::string& step) {
     const ProblemFile problem =
-        read_problem_text(cantilever, "cantilever.json",
-                          {sudden, "/simulation/spectral_radius=0", "/simulation/end_time=" + end,
-                           "/simulation/step=" + step})
-            .complete();
+        problem_from(cantilever, {sudden, "/simulation/spectral_radius=0",
+                                  "/simulation/end_time=" + end, "/simulation/step=" + step});
     const Eigen::VectorXd x = start_design(problem);
     const auto analysis = analyze(problem, x);
     return check_energy_balance(
         {problem, x, *analysis, monitor(analysis->model, analysis->trajectory)});
   };
   EXPECT_THAT(findings("0.01", "1e-5"), IsEmpty());
-  const std::vector<Finding> coarse = findings("1", "0.1");
-  ASSERT_EQ(coarse.size(), 1U);
-  EXPECT_TRUE(coarse[0].is_serious);
+  const Finding coarse = only(findings("1", "0.1"));
+  EXPECT_TRUE(coarse.is_serious);
 }
 
 /// A mass on a spring, ω = 2π/s, starts at 1 m/s: x(t) = sin(ωt)/ω. No step is larger than one step, and
 /// smaller ones have to tell how far it is off.
 TEST(Resolution, OfASingleStepComesFromFinerOnes) {
-  const ProblemFile problem = read_problem_text(R"({"scene": {
+  const ProblemFile problem = problem_from(R"({"scene": {
       "bodies": {"m": {"type": "point-mass", "at": [0, 0, 0], "mass": 1, "velocity": [1, 0, 0]}},
       "joints": {"g": {"type": "point-on-line", "bodies": ["ground", "m"], "at": [0, 0, 0],
                        "axis": [1, 0, 0]}},
       "loads": {"s": {"type": "joint", "joint": "g", "stiffness": 39.47841760435743}}},
     "simulation": {"end_time": 0.2, "step": 0.2},
-    "responses": {"x": {"type": "joint-position", "joint": "g", "over_time": "final"}}})",
-                                                "oscillator.json")
-                                  .complete();
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
-  const Monitors monitors = monitor(analysis->model, analysis->trajectory);
-  const Resolution found = judge_resolution({problem, x, *analysis, monitors});
+    "responses": {"x": {"type": "joint-position", "joint": "g", "over_time": "final"}}})");
+  const StartRun start(problem);
+  const Resolution found = judge_resolution(start.run());
   const double omega = 2 * std::numbers::pi;
-  const double off = std::abs(values_of(*analysis)(0) - std::sin(0.2 * omega) / omega);
+  const double off = std::abs(values_of(*start.analysis)(0) - std::sin(0.2 * omega) / omega);
   EXPECT_GT(off, 0.008);
   ASSERT_TRUE(found.bars[0]);
   EXPECT_GE(found.bars[0]->bound(), off);
@@ -399,7 +342,7 @@ struct TautBeam {
   }
 
   static ProblemFile with(int elements, int frames) {
-    return read_problem_text(fmt::format(R"({{"scene": {{
+    return problem_from(fmt::format(R"({{"scene": {{
       "materials": {{"s": {{"young": 210e9, "poisson": 0.3, "density": 7850}}}},
       "bodies": {{"b": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "s",
         "section": {{"type": "rectangle", "width": 0.08, "height": 0.01}}, "frame": "chord",
@@ -414,9 +357,7 @@ struct TautBeam {
     "simulation": {{"end_time": 0.02, "step": 0.001, "initial_state": "quasi-static"}},
     "responses": {{"M": {{"type": "section-force", "body": "b", "at": 0.5, "part": "moment-z",
                         "over_time": "max-abs"}}}}}})",
-                                         elements, frames, tension, force),
-                             "taut.json")
-        .complete();
+                                    elements, frames, tension, force));
   }
 };
 
@@ -426,12 +367,11 @@ struct TautBeam {
 TEST(ErrorBars, HoldWhereFramesDivideTheMesh) {
   for (const auto& [elements, frames] : {std::pair(2, 4), {8, 8}, {1, 8}, {4, 4}}) {
     const ProblemFile problem = TautBeam::with(elements, frames);
-    const Eigen::VectorXd x = start_design(problem);
-    const auto analysis = analyze(problem, x);
-    const Monitors monitors = monitor(analysis->model, analysis->trajectory);
+    const StartRun start(problem);
     for (const Scrutiny scrutiny : {Scrutiny::usual, Scrutiny::close}) {
-      const Resolution found = judge_resolution({problem, x, *analysis, monitors, scrutiny});
-      const double error = std::abs(analysis->reductions[0].value - TautBeam::moment());
+      const Resolution found =
+          judge_resolution({problem, start.x, *start.analysis, start.monitors, scrutiny});
+      const double error = std::abs(start.analysis->reductions[0].value - TautBeam::moment());
       EXPECT_GE(found.bars[0]->bound() + 0.03 * TautBeam::moment(), error)
           << elements << " elements in " << frames << " frames";
       EXPECT_GT(found.bars[0]->bound(), 0.1 * error);
@@ -452,7 +392,7 @@ TEST(ErrorBars, HoldWhereLoadsDivideTheMesh) {
   for (const auto& [elements, places] : meshes) {
     std::vector<std::string> loads;
     for (const double at : places) loads.push_back(load(at));
-    const ProblemFile problem = read_problem_text(fmt::format(R"({{"scene": {{
+    const ProblemFile problem = problem_from(fmt::format(R"({{"scene": {{
       "materials": {{"s": {{"young": 210e9, "poisson": 0.3, "density": 7850}}}},
       "bodies": {{"b": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "s",
         "section": {{"type": "rectangle", "width": 0.002, "height": 0.001}}, "elements": {}}}}},
@@ -460,15 +400,11 @@ TEST(ErrorBars, HoldWhereLoadsDivideTheMesh) {
       "loads": {{{}}}}},
     "simulation": {{"end_time": 2e-6, "step": 1e-6}},
     "responses": {{"f": {{"type": "frequency", "body": "b", "direction": "y", "mode": 2}}}}}})",
-                                                              elements, fmt::join(loads, ", ")),
-                                                  "loaded.json")
-                                    .complete();
-    const Eigen::VectorXd x = start_design(problem);
-    const auto analysis = analyze(problem, x);
-    const Monitors monitors = monitor(analysis->model, analysis->trajectory);
-    const Resolution found = judge_resolution({problem, x, *analysis, monitors});
+                                                         elements, fmt::join(loads, ", ")));
+    const StartRun start(problem);
+    const Resolution found = judge_resolution(start.run());
     const double exact = 22.034491564666766 * std::sqrt(210e9 / 7850 / 12.0) * 0.001;
-    const double error = std::abs(analysis->reductions[0].value - exact);
+    const double error = std::abs(start.analysis->reductions[0].value - exact);
     EXPECT_GE(found.bars[0]->bound(), 0.99 * error - 1e-6 * exact) << elements;
     EXPECT_LE(found.bars[0]->bound(), 20.0 * error + 1e-5 * exact) << elements;
   }

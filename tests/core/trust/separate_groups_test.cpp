@@ -1,19 +1,11 @@
-#include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "core/trust/initial_motion.hpp"
 #include "tests/core/trust/findings_of.hpp"
+#include "tests/support/test.hpp"
 
 /// What stands beside a mechanism, tied to the ground only, changes nothing of it.
 namespace pleuel::test::separate_groups_test {
 namespace {
-
-using testing::AllOf;
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::SizeIs;
 
 /// @param bodies, joints  of one mechanism
 /// @param distance        of a cabinet beside it; 0: none
@@ -86,11 +78,10 @@ TEST(SeparateGroups, ShareNoStart) {
 /// A blow on the hinge of a rod at rest turns it by ω = m l v/(m l² + I) = 2.5 rad/s, so that its
 /// middle moves by v − ω l = 0.25 m/s. Both differ by as much from the start that is found.
 TEST(OpenVelocities, AreDoubtedWhereASuddenStartWouldMakeThemOthers) {
-  const auto findings =
-      findings_of(read_scene(pendulum_on_carriage(0.0, sudden)), check_initial_motion);
-  ASSERT_THAT(findings, SizeIs(1));
-  EXPECT_TRUE(findings[0].is_serious);
-  EXPECT_THAT(findings[0].text,
+  const Finding finding =
+      only(findings_of(read_scene(pendulum_on_carriage(0.0, sudden)), check_initial_motion));
+  EXPECT_TRUE(finding.is_serious);
+  EXPECT_THAT(finding.text,
               AllOf(HasSubstr("the velocity of \"arm\""), HasSubstr("would make it 0.25 m/s")));
 }
 
@@ -127,9 +118,8 @@ TEST(SeparateGroups, ShareNoDoubtsOfShear) {
                              "over_time": "max"},
                   "of_block": {"type": "position", "body": "block", "at": 1, "direction": "y",
                                "over_time": "max"}}})");
-  const auto findings = findings_of(problem, check_variants);
-  ASSERT_THAT(findings, SizeIs(1));
-  EXPECT_THAT(findings[0].responses, testing::ElementsAre("of_block"));
+  const Finding finding = only(findings_of(problem, check_variants));
+  EXPECT_THAT(finding.responses, ElementsAre("of_block"));
 }
 
 }  // namespace

@@ -1,21 +1,13 @@
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
-#include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "core/section/section_properties.hpp"
 #include "tests/core/trust/sheared_beam.hpp"
+#include "tests/support/problem_runs.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::shear_range_test {
 namespace {
 
 using namespace sheared_beam;
-using ::testing::HasSubstr;
 
 /// Timoshenko: P L³/(3EI) + P L/(κGA), and P L³/(48EI) + P L/(4κGA).
 TEST(ShearShare, IsThatOfTimoshenkosClosedForm) {
@@ -118,7 +110,7 @@ TEST(ShearRange, OfAFrequencyIsThatOfItsMode) {
 /// A square of 150 mm and 250 mm, clamped at both ends: without shear its torsion is the lowest mode,
 /// with it bending has passed that. Told is what becomes of the lowest frequency.
 TEST(ShearRange, OfAFrequencyCountsModesThatPassOthers) {
-  const ProblemFile problem = read_problem_text(R"({"scene": {
+  const ProblemFile problem = problem_from(R"({"scene": {
       "materials": {"s": {"young": 210e9, "poisson": 0.3, "density": 7850}},
       "bodies": {"b": {"type": "beam", "from": [0, 0, 0], "to": [0.5, 0, 0], "material": "s",
         "section": {"type": "rectangle", "width": 0.25, "height": 0.15}, "elements": 8,
@@ -128,9 +120,7 @@ TEST(ShearRange, OfAFrequencyCountsModesThatPassOthers) {
       "loads": {"Q": {"type": "force", "body": "b", "at": [0.25, 0, 0], "direction": [0, 1, 0],
                       "value": 1000}}},
     "simulation": {"end_time": 2e-6, "step": 1e-6, "initial_state": "quasi-static"},
-    "responses": {"f": {"type": "frequency"}}})",
-                                                "clamped.json")
-                                  .complete();
+    "responses": {"f": {"type": "frequency"}}})");
   const Eigen::VectorXd x = start_design(problem);
   const auto analysis = analyze(problem, x);
   ProblemFile sheared = problem;
@@ -195,8 +185,8 @@ TEST(ShearRange, DoesNotConcernTheForcesOfAPlanarLoopInSpace) {
   const std::vector<Finding> found = check_variants({problem, x, *analysis, Monitors{}});
   ASSERT_FALSE(found.empty());
   for (const Finding& finding : found) {
-    EXPECT_THAT(finding.responses, testing::Not(testing::Contains("torque_peak"))) << finding.text;
-    EXPECT_THAT(finding.text, testing::Not(HasSubstr("stress"))) << finding.text;
+    EXPECT_THAT(finding.responses, Not(testing::Contains("torque_peak"))) << finding.text;
+    EXPECT_THAT(finding.text, Not(HasSubstr("stress"))) << finding.text;
   }
 }
 
@@ -204,9 +194,8 @@ TEST(ShearRange, DoesNotConcernTheForcesOfAPlanarLoopInSpace) {
 /// 12EI/L³ / (1 + 12EI/(κGAL²)) a metre: forces and stresses are as wrong as its stiffness.
 TEST(ShearRange, ConcernsTheForcesOfWhatIsHeldMoreThanItNeeds) {
   const auto findings = [](const std::string& response) {
-    const ProblemFile problem =
-        read_problem_text(
-            R"({"scene": {"materials": {"m": {"young": 2.1e11, "poisson": 0.3, "density": 7850}},
+    const ProblemFile problem = problem_from(
+        R"({"scene": {"materials": {"m": {"young": 2.1e11, "poisson": 0.3, "density": 7850}},
             "bodies": {"b": {"type": "beam", "from": [0, 0, 0], "to": [0.2, 0, 0], "material": "m",
               "section": {"type": "rectangle", "width": 0.05, "height": 0.1}, "elements": 4}},
             "joints": {"clamp": {"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]},
@@ -214,9 +203,7 @@ TEST(ShearRange, ConcernsTheForcesOfWhatIsHeldMoreThanItNeeds) {
                                "axis": [0, 1, 0],
                                "drive": {"type": "polynomial", "coefficients": [0, 1e-5]}}}},
           "simulation": {"end_time": 1, "step": 0.25}, "responses": {"asked": )" +
-                response + "}}",
-            "ram.json")
-            .complete();
+        response + "}}");
     const Eigen::VectorXd x = start_design(problem);
     const auto analysis = analyze(problem, x);
     return check_variants({problem, x, *analysis, Monitors{}});
@@ -324,6 +311,159 @@ TEST(ShearRange, IsNotLeftByWhatDoesNotBend) {
   beam.response = R"({"type": "position", "body": "beam", "at": 1, "direction": "y",
                       "over_time": "max-abs"})";
   EXPECT_TRUE(ShearedBeam(beam).findings().empty());
+}
+
+// Stubby beams beside others and springs: what shear passes on, and what it is measured by.
+
+/// A cantilever of two beams that are welded in its middle, 200 mm long and 80 mm deep, and what a force
+/// at its tip moves with shear over that without: (h/L)² E/(4 κ G) = 0.12, half of it in each beam.
+TEST(ShearOfSeveralBeams, AddsUp) {
+  const auto findings = [](const std::string& shear) {
+    return findings_of(read_scene(fmt::format(R"j({{"scene": {{"bodies": {{
+        "first": {{"type": "beam", "from": [0, 0, 0], "to": [0.1, 0, 0], "material": "steel", "elements": 2, {0},
+                   "section": {{"type": "rectangle", "width": "20 mm", "height": "80 mm"}}}},
+        "second": {{"type": "beam", "from": [0.1, 0, 0], "to": [0.2, 0, 0], "material": "steel", "elements": 2, {0},
+                    "section": {{"type": "rectangle", "width": "20 mm", "height": "80 mm"}}}}}},
+      "joints": {{"wall": {{"type": "fixed", "bodies": ["ground", "first"], "at": [0, 0, 0]}},
+                 "weld": {{"type": "fixed", "bodies": ["first", "second"], "at": [0.1, 0, 0]}}}},
+      "loads": {{"push": {{"type": "force", "body": "second", "at": [0.2, 0, 0], "direction": [0, -1, 0],
+                          "value": {{"type": "ramp", "to": 1000, "end": 0.01}}}}}}}},
+      "simulation": {{"end_time": 0.01, "step": 0.001}},
+      "responses": {{"tip": {{"type": "position", "body": "second", "at": 1, "direction": "y",
+                              "over_time": "min"}}}}}})j",
+                                              shear)),
+                       check_variants);
+  };
+  const std::vector<Finding> found = findings(R"("shear": false)");
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_TRUE(found[0].is_serious);
+  EXPECT_THAT(found[0].text, HasSubstr(R"("second", "first" are stubby)"));
+  EXPECT_THAT(found[0].text, HasSubstr(R"("tip" by 11 % (of)"));  // 0.12/(1 + 0.12)
+  EXPECT_TRUE(findings(R"("shear": true)").empty());
+}
+
+/// Two cantilevers, a block of 100 mm and a beam, share a load on the bar that ties their tips: the
+/// block yields by shear and leaves more to the beam.
+TEST(ShearRange, OfABlockIsToldOfWhatStandsBesideIt) {
+  const auto problem = [](bool has_shear) {
+    return read_scene(fmt::format(R"j({{"scene": {{"bodies": {{
+        "block": {{"type": "beam", "from": [0, 0, 0], "to": [0.1, 0, 0], "material": "steel",
+                   "elements": 2, "shear": {},
+                   "section": {{"type": "rectangle", "width": 0.01, "height": 0.1}}}},
+        "beam": {{"type": "beam", "from": [0, 0.5, 0], "to": [0.5, 0.5, 0], "material": "steel",
+                  "elements": 2, "section": {{"type": "rectangle", "width": 0.3, "height": 0.05}}}},
+        "bar": {{"type": "rigid", "at": [0.3, 0.25, 0], "mass": 0.001,
+                 "inertia": [1e-6, 1e-6, 1e-6, 0, 0, 0]}}}},
+      "joints": {{
+        "a": {{"type": "fixed", "bodies": ["ground", "block"], "at": [0, 0, 0]}},
+        "b": {{"type": "fixed", "bodies": ["ground", "beam"], "at": [0, 0.5, 0]}},
+        "to_block": {{"type": "point-on-line", "bodies": ["bar", "block"], "at": [0.1, 0, 0],
+                      "axis": [1, 0, 0]}},
+        "to_beam": {{"type": "revolute", "bodies": ["bar", "beam"], "at": [0.5, 0.5, 0]}},
+        "guide": {{"type": "prismatic", "bodies": ["ground", "bar"], "at": [0.3, 0.25, 0],
+                   "axis": [0, 1, 0]}}}},
+      "loads": {{"push": {{"type": "force", "body": "bar", "at": [0.3, 0.25, 0],
+                           "direction": [0, -1, 0], "value": 1000}}}}}},
+      "simulation": {{"end_time": 0.002, "step": 0.001, "initial_state": "quasi-static"}},
+      "responses": {{"stress": {{"type": "stress", "body": "beam", "over_time": "max"}},
+                     "of_bar": {{"type": "joint-position", "joint": "guide", "over_time": "final"}}}}}})j",
+                                  has_shear));
+  };
+  // Springs side by side: 3EI/L³ of the beam, over (1 + 3EI/(κGAL²)) of the block.
+  const double share = 0.5 * (1 + nu) / rectangle_shear_coefficient(nu);
+  const double block = 0.01 * 0.001 / 0.001, of_beam = 0.3 * 0.000125 / 0.125;
+  const double with = of_beam / (of_beam + block / (1.0 + share)),
+               without = of_beam / (of_beam + block);
+  const std::vector<Finding> found = findings_of(problem(false), check_variants);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_TRUE(found[0].is_serious);
+  EXPECT_THAT(found[0].responses, ElementsAre("stress", "of_bar"));
+  EXPECT_THAT(found[0].text, HasSubstr("\"block\" is stubby"));
+  EXPECT_NEAR(told_percent(found[0].text), 100.0 * (1.0 - without / with), 0.6);
+  EXPECT_TRUE(findings_of(problem(true), check_variants).empty());
+}
+
+/// A spring at the tip of a stubby cantilever, as stiff as that without shear, takes half of the
+/// load, and 1/(1 + 1/(1 + s)) of it in truth.
+TEST(ShearRange, OfASpringIsThatOfItsLoad) {
+  const double share = 0.5 * (1 + nu) / rectangle_shear_coefficient(nu);
+  const std::vector<Finding> found = findings_of(read_scene(R"({"scene": {
+        "materials": {"m": {"young": 2.1e11, "poisson": 0.3, "density": 7850}},
+        "bodies": {"block": {"type": "beam", "from": [0, 0, 0], "to": [0.1, 0, 0], "material": "m",
+                   "elements": 2, "section": {"type": "rectangle", "width": 0.01, "height": 0.1}}},
+        "joints": {"a": {"type": "fixed", "bodies": ["ground", "block"], "at": [0, 0, 0]}},
+        "loads": {"push": {"type": "force", "body": "block", "at": [0.1, 0, 0],
+                           "direction": [0, -1, 0], "value": 1000},
+                  "spring": {"type": "spring", "bodies": ["block", "ground"],
+                             "at": [[0.1, 0, 0], [0.1, -5, 0]], "stiffness": 5.25e8}}},
+      "simulation": {"end_time": 0.002, "step": 0.001, "initial_state": "quasi-static"},
+      "responses": {"force": {"type": "spring-force", "load": "spring", "over_time": "min"}}})"),
+                                                 check_variants);
+  ASSERT_EQ(found.size(), 1u);
+  const double with = (1.0 + share) / (2.0 + share);
+  EXPECT_NEAR(told_percent(found[0].text), 100.0 * (1.0 - 0.5 / with), 0.6);
+}
+
+/// A cantilever at a height of 0.5 m that a slender one, which has nothing to do with it, out-bends
+/// by far: its position is as wrong as how far it sags, 3EI/(κGAL²), and so is the difference to
+/// where it is drawn.
+TEST(ShearRange, OfAPositionIsThatOfItsOwnMotion) {
+  const std::vector<Finding> found = findings_of(read_scene(R"({"scene": {"gravity": [0, 0, 0],
+        "materials": {"m": {"young": 2.1e11, "poisson": 0.3, "density": 7850}},
+        "bodies": {"block": {"type": "beam", "from": [0, 0.5, 0], "to": [0.1, 0.5, 0], "material": "m",
+                   "elements": 2, "section": {"type": "rectangle", "width": 0.01, "height": 0.05}},
+                   "reed": {"type": "beam", "from": [1, 0, 0], "to": [2, 0, 0], "material": "m",
+                   "elements": 2, "section": {"type": "rectangle", "width": 0.01, "height": 0.01}}},
+        "joints": {"a": {"type": "fixed", "bodies": ["ground", "block"], "at": [0, 0.5, 0]},
+                   "b": {"type": "fixed", "bodies": ["ground", "reed"], "at": [1, 0, 0]}},
+        "loads": {"push": {"type": "force", "body": "block", "at": [0.1, 0.5, 0],
+                           "direction": [0, -1, 0], "value": 50000},
+                  "bend": {"type": "force", "body": "reed", "at": [2, 0, 0],
+                           "direction": [0, -1, 0], "value": 10}}},
+      "simulation": {"end_time": 0.002, "step": 0.001, "initial_state": "quasi-static"},
+      "responses": {
+        "y": {"type": "position", "body": "block", "at": 1, "direction": "y", "over_time": "min"},
+        "sag": {"type": "expression", "value": "0.5 m - y"},
+        "of_reed": {"type": "position", "body": "reed", "at": 1, "direction": "y",
+                    "over_time": "min"}}})"),
+                                                 check_variants);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_THAT(found[0].responses, ElementsAre("y", "sag"));
+  const double share = 0.5 * (1 + nu) / rectangle_shear_coefficient(nu) * 0.25;
+  EXPECT_NEAR(told_percent(found[0].text), 100.0 * share / (1.0 + share), 0.6);
+}
+
+/// The damage of one period is small beside 1, and beside nothing else: m powers of the stress. The
+/// stress that a spring beside a stubby block leaves to it is 1/(2 + s) of the load, not a half.
+TEST(ShearRange, OfASmallDamageIsThatOfTheDamage) {
+  const auto damage = [](const std::string& shear) {
+    return read_scene(R"({"scene": {"gravity": [0, 0, 0],
+        "materials": {"m": {"young": 2.1e11, "poisson": 0.3, "density": 7850,
+                            "ultimate_strength": 1e9, "fatigue_strength": 1e9,
+                            "fatigue_exponent": 5}},
+        "bodies": {"block": {"type": "beam", "from": [0, 0, 0], "to": [0.1, 0, 0], "material": "m",
+                   "elements": 2, "section": {"type": "rectangle", "width": 0.01, "height": 0.1}, )" +
+                      shear + R"(}},
+        "joints": {"a": {"type": "fixed", "bodies": ["ground", "block"], "at": [0, 0, 0]}},
+        "loads": {"push": {"type": "force", "body": "block", "at": [0.1, 0, 0],
+                           "direction": [0, -1, 0],
+                           "value": {"type": "harmonic", "amplitude": 10000, "frequency": 1}},
+                  "spring": {"type": "spring", "bodies": ["block", "ground"],
+                             "at": [[0.1, 0, 0], [0.1, -5, 0]], "stiffness": 5.25e8}}},
+      "simulation": {"end_time": 1, "step": 0.05, "initial_state": "quasi-static"},
+      "responses": {"damage": {"type": "fatigue-damage", "body": "block",
+                                "criterion": "goodman"}}})");
+  };
+  const ProblemFile problem = damage(R"("shear": false)");
+  const double without = values_of(*analyze(problem, start_design(problem)))(0);
+  const ProblemFile other = damage(R"("shear": true)");
+  const double with = values_of(*analyze(other, start_design(other)))(0);
+  ASSERT_GT(with, 0.0);
+  ASSERT_LT(with, 1e-3);
+  const std::vector<Finding> found = findings_of(problem, check_variants);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_NEAR(told_percent(found[0].text), 100.0 * std::abs(without / with - 1.0),
+              0.06 * 100.0 * std::abs(without / with - 1.0));
 }
 
 }  // namespace

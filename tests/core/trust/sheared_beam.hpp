@@ -34,8 +34,7 @@ struct LoadedBeam {
         R"({"a": {"type": "revolute", "bodies": ["ground", "beam"], "at": [0, 0, 0]},
             "b": {"type": "point-on-line", "bodies": ["ground", "beam"], "at": [1, 0, 0],
                   "axis": [1, 0, 0]}})";
-    return read_problem_text(
-               fmt::format(R"({{"name": "stubby", "scene": {{"gravity": [0, 0, 0],
+    return problem_from(fmt::format(R"({{"name": "stubby", "scene": {{"gravity": [0, 0, 0],
           "materials": {{"steel": {{"young": 2.1e11, "poisson": 0.3, "density": 7850}}}},
           "bodies": {{"beam": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0],
             "material": "steel", "section": {}, "elements": {}, "frames": {}, "frame": "{}"{}}}}},
@@ -43,10 +42,9 @@ struct LoadedBeam {
             "direction": {}, "value": 1}}}}}},
         "simulation": {{"end_time": 2e-6, "step": 1e-6, "initial_state": "quasi-static"}},
         "responses": {{"asked": {}}}}})",
-                           section, elements, frames, frame, more, is_pinned ? pins : clamp,
-                           is_pinned ? 0.5 : load_at, direction, response),
-               "stubby.json")
-        .complete();
+                                    section, elements, frames, frame, more,
+                                    is_pinned ? pins : clamp, is_pinned ? 0.5 : load_at, direction,
+                                    response));
   }
 };
 

@@ -1,16 +1,12 @@
 #include "core/trust/sideways_buckling.hpp"
 
-#include <cmath>
-#include <numbers>
 #include <utility>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include "core/base/error.hpp"
 #include "core/response/analysis.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "tests/core/trust/buckling_findings.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::sideways_buckling_test {
 namespace {

@@ -1,14 +1,8 @@
 #include "core/trust/stability.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
 #include "core/trust/sideways_buckling.hpp"
 #include "tests/core/trust/findings_of.hpp"
+#include "tests/support/test.hpp"
 
 /// A square column of 1 m × 10 mm, pressed slowly: EI = 175 N m².
 namespace pleuel::test::stability_test {
@@ -58,11 +52,10 @@ double root(double right) {
 template <class FindingsAt>
 void expect_critical(double load, const FindingsAt& findings_at) {
   EXPECT_TRUE(findings_at(0.98 * load).empty());
-  const std::vector<Finding> findings = findings_at(1.02 * load);
-  ASSERT_EQ(findings.size(), 1);
-  EXPECT_TRUE(findings[0].is_serious);
-  EXPECT_NE(findings[0].text.find("\"bar\""), std::string::npos) << findings[0].text;
-  EXPECT_NE(findings[0].text.find("buckles"), std::string::npos) << findings[0].text;
+  const Finding finding = only(findings_at(1.02 * load));
+  EXPECT_TRUE(finding.is_serious);
+  EXPECT_NE(finding.text.find("\"bar\""), std::string::npos) << finding.text;
+  EXPECT_NE(finding.text.find("buckles"), std::string::npos) << finding.text;
 }
 
 const std::string clamp =
@@ -242,9 +235,8 @@ TEST(Stability, AreFlatShaftsBetweenTheirCriticalSpeeds) {
 /// Damping that turns with a shaft makes it whirl beyond its first critical speed.
 TEST(Stability, AreShaftsThatDampThemselves) {
   EXPECT_TRUE(findings_of_shaft({0.01, 0.9, 0.0, 0.0, 1e-4}).empty());
-  const std::vector<Finding> findings = findings_of_shaft({0.01, 1.5, 0.0, 0.0, 1e-4});
-  ASSERT_EQ(findings.size(), 1);
-  EXPECT_NE(findings[0].text.find("\"bar\" whirls"), std::string::npos) << findings[0].text;
+  const Finding finding = only(findings_of_shaft({0.01, 1.5, 0.0, 0.0, 1e-4}));
+  EXPECT_NE(finding.text.find("\"bar\" whirls"), std::string::npos) << finding.text;
 }
 
 }  // namespace

@@ -1,24 +1,16 @@
-/// DegreesOfFreedom that nothing moves, and bodies that nothing holds.
-
 #include "core/trust/unactuated_freedoms.hpp"
 
-#include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include "core/scene/problem_reader.hpp"
 #include "core/trust/joint_findings.hpp"
 #include "core/trust/proportions.hpp"
 #include "tests/core/trust/crank_rocker.hpp"
 #include "tests/core/trust/findings_of.hpp"
 #include "tests/support/problem_runs.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::unactuated_freedoms_test {
 namespace {
 
-using testing::HasSubstr;
-using testing::IsEmpty;
-using testing::SizeIs;
+// DegreesOfFreedom that nothing moves, and bodies that nothing holds.
 
 TEST(IdleFreedoms, AreNotInADrivenMechanism) {
   EXPECT_THAT(findings_of(read_scene(crank_rocker(driven, closed)), check_unactuated_freedoms),
@@ -26,34 +18,30 @@ TEST(IdleFreedoms, AreNotInADrivenMechanism) {
 }
 
 TEST(IdleFreedoms, OfAForgottenDriveAreNamedByBody) {
-  const std::vector<Finding> findings =
-      findings_of(read_scene(crank_rocker("", closed)), check_unactuated_freedoms);
-  ASSERT_THAT(findings, SizeIs(1));
-  EXPECT_TRUE(findings[0].is_serious);
-  EXPECT_THAT(findings[0].text,
+  const Finding finding =
+      only(findings_of(read_scene(crank_rocker("", closed)), check_unactuated_freedoms));
+  EXPECT_TRUE(finding.is_serious);
+  EXPECT_THAT(finding.text,
               HasSubstr("\"crank\", \"coupler\", \"rocker\" can move freely (one free motion)"));
-  EXPECT_THAT(findings[0].text, HasSubstr("nothing moves there"));
-  EXPECT_THAT(findings[0].responses, testing::ElementsAre("v"));
+  EXPECT_THAT(finding.text, HasSubstr("nothing moves there"));
+  EXPECT_THAT(finding.responses, ElementsAre("v"));
 }
 
 TEST(IdleFreedoms, OfAForgottenJointAreNamedByBody) {
-  const std::vector<Finding> findings =
-      findings_of(read_scene(crank_rocker(driven, "")), check_unactuated_freedoms);
-  ASSERT_THAT(findings, SizeIs(1));
-  EXPECT_TRUE(findings[0].is_serious);
-  EXPECT_THAT(findings[0].text,
-              HasSubstr("\"coupler\", \"rocker\" can move freely (2 free motions)"));
-  EXPECT_THAT(findings[0].text, HasSubstr("only the inertia"));
+  const Finding finding =
+      only(findings_of(read_scene(crank_rocker(driven, "")), check_unactuated_freedoms));
+  EXPECT_TRUE(finding.is_serious);
+  EXPECT_THAT(finding.text, HasSubstr("\"coupler\", \"rocker\" can move freely (2 free motions)"));
+  EXPECT_THAT(finding.text, HasSubstr("only the inertia"));
 }
 
 /// With weight what a forgotten joint leaves hangs on the crank, which may be meant; with friction it is.
 TEST(IdleFreedoms, ThatHangBesideADriveAreMentioned) {
   const std::string weight = "[0, -9.81, 0]";
-  const std::vector<Finding> findings =
-      findings_of(read_scene(crank_rocker(driven, "", weight)), check_unactuated_freedoms);
-  ASSERT_THAT(findings, SizeIs(1));
-  EXPECT_FALSE(findings[0].is_serious);
-  EXPECT_THAT(findings[0].text,
+  const Finding finding =
+      only(findings_of(read_scene(crank_rocker(driven, "", weight)), check_unactuated_freedoms));
+  EXPECT_FALSE(finding.is_serious);
+  EXPECT_THAT(finding.text,
               HasSubstr("beside the drives \"coupler\", \"rocker\" can move freely (2 "
                         "free motions), with nothing but weight that acts on them"));
   EXPECT_THAT(
@@ -106,18 +94,13 @@ TEST(IdleFreedoms, OfALongChainAreCounted) {
         last, i + 1);
     last = fmt::format("b{}", i);
   }
-  const ProblemFile problem =
-      read_problem_text(
-          fmt::format(
-              R"({{"scene": {{"gravity": [0, -9.81, 0], "bodies": {{{}}}, "joints": {{{}}}}},
+  const ProblemFile problem = problem_from(fmt::format(
+      R"({{"scene": {{"gravity": [0, -9.81, 0], "bodies": {{{}}}, "joints": {{{}}}}},
                        "simulation": {{"end_time": 2e-3, "step": 1e-3}}, "responses": {{}}}})",
-              bodies, joints),
-          "chain.json")
-          .complete();
-  const std::vector<Finding> findings = findings_of(problem, check_unactuated_freedoms);
-  ASSERT_THAT(findings, SizeIs(1));
-  EXPECT_THAT(findings[0].text, HasSubstr("(120 free motions)"));
-  EXPECT_THAT(findings[0].bodies, SizeIs(links));
+      bodies, joints));
+  const Finding finding = only(findings_of(problem, check_unactuated_freedoms));
+  EXPECT_THAT(finding.text, HasSubstr("(120 free motions)"));
+  EXPECT_THAT(finding.bodies, SizeIs(links));
 }
 
 TEST(IdleFreedoms, AreNotInTheProblemsOfTheHouse) {
@@ -153,23 +136,96 @@ TEST(UnconnectedBodies, AreNamed) {
       R"(/scene/bodies/other={"type": "point-mass", "at": [0.3, 0.3, 0], "mass": 1})";
   const std::string tie =
       R"(/scene/joints/tie={"type": "distance", "bodies": ["stray", "other"], "at": [0.2, 0.3, 0], "to": [0.3, 0.3, 0]})";
-  const std::vector<Finding> still = findings_of(
-      read_scene(crank_rocker(driven, closed), {stray, other, tie}), check_unconnected_bodies);
-  ASSERT_THAT(still, SizeIs(1));
-  EXPECT_THAT(still[0].text, HasSubstr("connects \"stray\", \"other\" with the ground"));
-  EXPECT_FALSE(still[0].is_serious) << "no response looks at it";
-  const std::vector<Finding> falling = findings_of(
+  const Finding still = only(findings_of(
+      read_scene(crank_rocker(driven, closed), {stray, other, tie}), check_unconnected_bodies));
+  EXPECT_THAT(still.text, HasSubstr("connects \"stray\", \"other\" with the ground"));
+  EXPECT_FALSE(still.is_serious) << "no response looks at it";
+  const Finding falling = only(findings_of(
       read_scene(crank_rocker(driven, closed, "[0, -9.81, 0]"),
                  {stray, other, tie, R"(/responses/y={"type": "position", "body": "stray",
                                  "direction": "y", "over_time": "final"})"}),
-      check_unconnected_bodies);
-  ASSERT_THAT(falling, SizeIs(1));
-  EXPECT_TRUE(falling[0].is_serious);
+      check_unconnected_bodies));
+  EXPECT_TRUE(falling.is_serious);
   EXPECT_THAT(findings_of(read_scene(crank_rocker(driven, closed),
                                      {stray_with(R"(, "velocity": [1, 2, 0])"), other, tie}),
                           check_unconnected_bodies),
               IsEmpty());
 }
+
+/// Elastic, so that it starts at all: nothing moves by more than its members bend.
+std::vector<Finding> findings_with(const std::string& joint,
+                                   const std::vector<std::string>& more = {}) {
+  std::vector<std::string> overrides = {
+      "/scene/bodies/crank/rigid=false",
+      "/scene/bodies/coupler/rigid=false",
+      "/scene/bodies/rocker/rigid=false",
+      "/simulation/end_time=2e-5",
+      "/simulation/step=1e-5",
+      R"(/scene/joints/A/drive={"type": "ramp-to-speed", "speed": "300 rpm", "ramp": "1 s"})"};
+  overrides.insert(overrides.end(), more.begin(), more.end());
+  return findings_of(read_scene(crank_rocker("", joint), overrides), check_blocked_drives);
+}
+
+/// Nine rigid coordinates; with revolutes eight equations of joints, and one of the drive.
+TEST(BlockedDrive, IsNamedWhereAJointHasAFreedomTooFew) {
+  EXPECT_THAT(findings_with(closed), IsEmpty());
+  const std::string welded =
+      R"(, "D": {"type": "fixed", "bodies": ["ground", "rocker"], "at": [0.4, 0, 0]})";
+  const Finding finding = only(findings_with(welded));
+  EXPECT_THAT(finding.text, HasSubstr("the joints leave no motion to the drive of \"A\""));
+}
+
+TEST(BlockedDrive, IsOneOfTwoForOneFreedom) {
+  const std::string driven_too =
+      R"(, "D": {"type": "revolute", "bodies": ["ground", "rocker"], "at": [0.4, 0, 0],
+                 "drive": {"type": "ramp-to-speed", "speed": "300 rpm", "ramp": "1 s"}})";
+  const Finding finding = only(findings_with(driven_too));
+  EXPECT_THAT(finding.text,
+              HasSubstr("there is one drive more than the joints leave motions to (drives: \"A\", "
+                        "\"D\")"));
+}
+
+TEST(BlockedDrive, IsOneWhoseLoopCannotTurnAboutItsAxis) {
+  // In space, with one axis across the others.
+  EXPECT_THAT(findings_with(closed, {"/scene/joints/B/axis=[1, 0, 0]"}), SizeIs(1));
+}
+
+/// A loop of revolutes in space has three equations more than it needs, and moves all the same.
+TEST(BlockedDrive, IsNoneOfALoopThatMovesInSpace) {
+  EXPECT_THAT(findings_with(closed, {R"(/effects={"spatial_motion": "on"})"}), IsEmpty());
+}
+
+/// The drive stands still: what is simulated is round-off, unless something else acts.
+TEST(BlockedDrive, ThatStandsStillMovesNothing) {
+  const auto findings_at = [](const std::string& speed, const std::vector<std::string>& more) {
+    std::vector<std::string> overrides = {
+        R"(/scene/joints/A/drive={"type": "constant-speed", "speed": ")" + speed + R"("})",
+        "/simulation/end_time=2e-3", "/simulation/step=1e-4"};
+    overrides.insert(overrides.end(), more.begin(), more.end());
+    return findings_of(read_scene(crank_rocker("", closed), overrides), check_rest);
+  };
+  const Finding finding = only(findings_at("0 rpm", {}));
+  EXPECT_THAT(finding.text, HasSubstr("the drive of \"A\" stands still"));
+  EXPECT_TRUE(finding.is_serious);
+  EXPECT_THAT(findings_at("1 rpm", {}), IsEmpty());
+  EXPECT_THAT(findings_at("0 rpm", {"/scene/gravity=[0, -9.81, 0]"}), IsEmpty());
+}
+
+class ShippedMechanism : public testing::TestWithParam<const char*> {};
+
+TEST_P(ShippedMechanism, HasNoBlockedDrive) {
+  const ProblemFile problem = sample_problem(GetParam(), {"/simulation/end_time=20 ms"});
+  EXPECT_THAT(findings_of(problem, check_blocked_drives), IsEmpty());
+}
+INSTANTIATE_TEST_SUITE_P(Problems, ShippedMechanism,
+                         testing::Values("slider_crank", "four_bar", "robot_arm",
+                                         "spatial_slider_crank", "hard/dead_centres",
+                                         "hard/bricard"),
+                         [](const auto& test) {
+                           std::string name = test.param;
+                           std::erase(name, '/');
+                           return name;
+                         });
 
 }  // namespace
 }  // namespace pleuel::test::unactuated_freedoms_test

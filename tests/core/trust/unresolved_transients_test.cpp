@@ -1,31 +1,21 @@
-/// Swings that the steps pass over. A steel rod of 1 m and 400 mm² is clamped at one end and has a
-/// mass at the other: its first axial vibration is far faster than steps of 5 ms.
-
 #include "core/trust/unresolved_transients.hpp"
-
-#include <cmath>
-#include <numbers>
-#include <string>
-
-#include <fmt/format.h>
-#include <gmock/gmock.h>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/integration/fast_vibration.hpp"
 #include "core/trust/checks.hpp"
+#include "core/trust/startup_transient.hpp"
 #include "tests/core/trust/findings_of.hpp"
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/source_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace pleuel::test::unresolved_transients_test {
 namespace {
 
-using testing::HasSubstr;
-using testing::IsEmpty;
+// Swings that the steps pass over. A steel rod of 1 m and 400 mm² is clamped at one end and has a
+// mass at the other: its first axial vibration is far faster than steps of 5 ms.
+
 using testing::IsSupersetOf;
-using testing::Not;
-using testing::SizeIs;
-using testing::UnorderedElementsAre;
 
 constexpr double young = 2.1e11, density = 7850, area = 4e-4, tip = 5.0, force = 8000.0;
 constexpr double stiffness = young * area;  ///< of 1 m [N/m]
@@ -220,22 +210,20 @@ TEST(UnseenOvershoot, OfALoadThatJumpsIsTold) {
 /// The rod that is let go is pressed as much as it was pulled. What is missing of the pull is close
 /// to the tenth from which it is told.
 TEST(UnseenOvershoot, OfALoadThatIsLetGoIsToldOfTheLeast) {
-  const std::vector<Finding> found =
-      findings(pulled_rod(R"({"type": "table", "times": [0, 0.02], "values": [8000, 0],
+  const Finding found =
+      only(findings(pulled_rod(R"({"type": "table", "times": [0, 0.02], "values": [8000, 0],
                             "interpolation": "step"})",
-                          {R"(/simulation/initial_state="quasi-static")"}));
-  ASSERT_THAT(found, SizeIs(1));
-  EXPECT_THAT(found[0].responses, IsSupersetOf({"press", "hold"}));
-  EXPECT_THAT(found[0].text, HasSubstr("larger by far"));
+                               {R"(/simulation/initial_state="quasi-static")"})));
+  EXPECT_THAT(found.responses, IsSupersetOf({"press", "hold"}));
+  EXPECT_THAT(found.text, HasSubstr("larger by far"));
 }
 
 /// Which the implicit Euler method loses.
 TEST(UnseenOvershoot, OfASuddenStartIsTold) {
   const std::string euler = R"(/simulation/scheme="implicit-euler")";
-  const std::vector<Finding> found = findings(pulled_rod("8000", {euler}));
-  ASSERT_THAT(found, SizeIs(1));
-  EXPECT_THAT(found[0].responses, IsSupersetOf({"pull", "hold"}));
-  EXPECT_THAT(found[0].text, HasSubstr("begin undeformed"));
+  const Finding found = only(findings(pulled_rod("8000", {euler})));
+  EXPECT_THAT(found.responses, IsSupersetOf({"pull", "hold"}));
+  EXPECT_THAT(found.text, HasSubstr("begin undeformed"));
   EXPECT_THAT(findings(pulled_rod("8000", {euler, R"(/simulation/initial_state="quasi-static")"})),
               IsEmpty());
 }
@@ -265,13 +253,10 @@ TEST(UnseenOvershoot, IsThatOfFormulasCyclesAndLaterWindows) {
       R"(/scene/bodies/rod/section/width={"variable": "width"})",
       R"(/variables={"width": {"start": 0.02, "lower": 0.01, "upper": 0.05}})"};
   const ProblemFile problem = pulled_rod(jump, limits);
-  const std::vector<Finding> found = findings(problem);
-  ASSERT_THAT(found, SizeIs(1));
-  EXPECT_THAT(found[0].responses, UnorderedElementsAre("pull", "late"));
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
-  const Monitors monitors = monitor(analysis->model, analysis->trajectory);
-  const Trust trust = judge_run(TrustedRun{problem, x, *analysis, monitors});
+  const Finding found = only(findings(problem));
+  EXPECT_THAT(found.responses, UnorderedElementsAre("pull", "late"));
+  const StartRun start(problem);
+  const Trust trust = judge_run(start.run());
   for (std::size_t i = 0; i < problem.responses.size(); ++i) {
     const std::string& name = problem.responses[i].name;
     if (name != "twice" && name != "late") continue;
@@ -424,19 +409,108 @@ TEST(UnseenOvershoot, GoesOnInTheNextPeriod) {
 /// A place that swings little beside where it is has no warning: its bar knows what the steps pass over.
 TEST(UnseenOvershoot, IsInTheBarsOfWhatHasNoWarning) {
   const ProblemFile problem = pulled_rod(jump);
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
-  const Monitors monitors = monitor(analysis->model, analysis->trajectory);
-  const Trust trust = judge_run({problem, x, *analysis, monitors});
+  const StartRun start(problem);
+  const Trust trust = judge_run(start.run());
   const auto stretch = static_cast<std::size_t>(response_index(problem, "stretch"));
   ProblemFile fine = problem;
   fine.simulation.step = 1e-5;
-  const double truth = analyze(fine, x)->reductions[stretch].value;
-  const double missed = std::abs(truth - analysis->reductions[stretch].value);
+  const double truth = analyze(fine, start.x)->reductions[stretch].value;
+  const double missed = std::abs(truth - start.analysis->reductions[stretch].value);
   ASSERT_TRUE(trust.errors[stretch]);
   // The run with short steps has twenty of them a period: it sees all but 1 %.
   EXPECT_GE(trust.errors[stretch]->step.bound, 0.97 * missed);
   EXPECT_GT(missed, 0.3 * force / stiffness) << "the swing doubles the stretch of 8 kN";
+}
+
+// Peaks that the start decides.
+
+/// A cantilever of 1 m whose tip is pushed: its first period is 62 ms.
+ProblemFile pushed_cantilever(const std::string& push,
+                              const std::vector<std::string>& changes = {}) {
+  return read_scene(
+      fmt::format(
+          R"({{"scene": {{"bodies": {{"beam": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0],
+              "material": "steel", "section": {{"type": "rectangle", "width": 0.03, "height": 0.02}},
+              "elements": 4, "frame": "tangent"}}}},
+              "joints": {{"clamp": {{"type": "fixed", "bodies": ["ground", "beam"], "at": [0, 0, 0]}}}},
+              "loads": {{"push": {{"type": "force", "body": "beam", "at": [1, 0, 0],
+                                   "direction": [0, -1, 0], "value": {}}}}}}},
+              "effects": {{"geometric_stiffening": "off"}},
+              "simulation": {{"end_time": 0.2, "step": 0.0002}},
+              "responses": {{
+                "tip": {{"type": "deflection", "body": "beam", "at": 1, "over_time": "max-abs"}},
+                "pull": {{"type": "section-force", "body": "beam", "part": "axial",
+                          "at": 0.5, "over_time": "max-abs"}},
+                "end": {{"type": "deflection", "body": "beam", "at": 1, "over_time": "final"}}}}}})",
+          push),
+      changes);
+}
+
+std::vector<Finding> startup_findings(const ProblemFile& problem) {
+  return findings_of(problem, check_startup_transient);
+}
+
+/// Without damping a load that is there at once deflects twice as far as at rest (the second and
+/// further modes, 3 % of the deflection, take their share at other times).
+TEST(SuddenStart, OfAConstantLoadIsToldByHowMuch) {
+  const Finding found = only(startup_findings(pushed_cantilever("20")));
+  EXPECT_FALSE(found.is_serious);
+  EXPECT_THAT(found.responses, ElementsAre("tip"));
+  EXPECT_THAT(found.text, HasSubstr("the start decides \"tip\": "));
+  EXPECT_THAT(found.text, HasSubstr("it would be 0.50"));
+}
+
+/// Laws that begin with a jump say so themselves; such that begin at zero shake nothing.
+TEST(SuddenStart, IsNotToldOfLawsThatJumpOrBeginAtZero) {
+  EXPECT_THAT(startup_findings(pushed_cantilever(
+                  R"({"type": "step", "from": 0, "to": 20, "time": 0, "rise": 0})")),
+              IsEmpty());
+  EXPECT_THAT(startup_findings(pushed_cantilever(
+                  R"({"type": "table", "times": [0, 0.1, 1], "values": [0, 20, 20]})")),
+              IsEmpty());
+}
+
+TEST(SuddenStart, IsNoneFromEquilibriumOrWithDeflectionsThatAreGiven) {
+  EXPECT_THAT(
+      startup_findings(pushed_cantilever("20", {"/simulation/initial_state=\"quasi-static\""})),
+      IsEmpty());
+  EXPECT_THAT(startup_findings(pushed_cantilever(
+                  "20", {R"(/scene/bodies/beam/initial_deflections=[{"at": [1, 0, 0],
+                         "direction": [0, 1, 0], "displacement": 0.001}])"})),
+              IsEmpty());
+}
+
+/// No comparison run where the file asks for none.
+TEST(SuddenStart, IsNotLookedForWithoutChecks) {
+  EXPECT_THAT(startup_findings(pushed_cantilever("20", {"/simulation/resolution_check=false"})),
+              IsEmpty());
+}
+
+/// What has come to rest before the window begins is not of the start.
+TEST(SuddenStart, ThatHasDiedOutIsNotTold) {
+  const std::vector<std::string> damped = {R"(/scene/bodies/beam/damping={"mass": 80})",
+                                           "/responses/tip/from=0.15"};
+  EXPECT_THAT(startup_findings(pushed_cantilever("20", damped)), IsEmpty());
+  EXPECT_THAT(startup_findings(pushed_cantilever("20", {damped[0]})), SizeIs(1));
+}
+
+/// A crank that turns at full speed from the first instant, with and without a run-up.
+TEST(SuddenStart, OfADriveIsToldAndNotOfARunUp) {
+  const auto crank = [](const std::string& drive) {
+    return read_scene(fmt::format(
+        R"({{"scene": {{"bodies": {{"arm": {{"type": "beam", "from": [0, 0, 0], "to": [0.5, 0, 0],
+            "material": "steel", "section": {{"type": "rectangle", "width": 0.01, "height": 0.004}},
+            "elements": 4}}, "block": {{"type": "point-mass", "at": [0.5, 0, 0], "mass": 0.1}}}},
+            "joints": {{"shaft": {{"type": "revolute", "bodies": ["ground", "arm"], "at": [0, 0, 0],
+                                   "drive": {}}},
+                        "end": {{"type": "fixed", "bodies": ["arm", "block"], "at": [0.5, 0, 0]}}}}}},
+            "simulation": {{"end_time": 0.4, "step": 0.0005}},
+            "responses": {{"bend": {{"type": "stress", "body": "arm", "over_time": "max"}}}}}})",
+        drive));
+  };
+  EXPECT_THAT(startup_findings(crank(R"({"type": "constant-speed", "speed": 60})")), SizeIs(1));
+  EXPECT_THAT(startup_findings(crank(R"({"type": "ramp-to-speed", "speed": 60, "ramp": 0.2})")),
+              IsEmpty());
 }
 
 }  // namespace

@@ -1,0 +1,170 @@
+#include "core/response/effect_measurement.hpp"
+#include "core/trust/neglected_effects.hpp"
+#include "tests/core/trust/findings_of.hpp"
+#include "tests/support/test.hpp"
+
+namespace pleuel::test::model_variants_test {
+namespace {
+
+// Stress that the file leaves out with axial elasticity.
+
+/// A clamped bar of 20 mm × 20 mm, drawn by 4 kN and bent by a force across its end.
+ProblemFile bar(double across, const std::string& axial) {
+  return read_scene(fmt::format(
+      R"j({{"scene": {{"gravity": [0, 0, 0],
+        "materials": {{"m": {{"young": 2.1e11, "poisson": 0.3, "density": 7850}}}},
+        "bodies": {{"bar": {{"type": "beam", "from": [0, 0, 0], "to": [0.5, 0, 0], "elements": 4,
+                            "material": "m",
+                            "section": {{"type": "rectangle", "width": 0.02, "height": 0.02}}}}}},
+        "joints": {{"wall": {{"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}}}},
+        "loads": {{"pull": {{"type": "force", "body": "bar", "at": [0.5, 0, 0],
+                            "direction": [1, 0, 0], "value": 4000}},
+                  "across": {{"type": "force", "body": "bar", "at": [0.5, 0, 0],
+                              "direction": [0, -1, 0], "value": {}}}}}}},
+      "effects": {{"axial_elasticity": "{}", "geometric_stiffening": "off"}},
+      "simulation": {{"end_time": 0.01, "step": 0.005, "initial_state": "quasi-static"}},
+      "responses": {{"s": {{"type": "stress", "body": "bar", "over_time": "max"}}}}}})j",
+      across, axial));
+}
+
+/// N/A = 10 MPa beside the bending stress F L/W = 3.75 MPa for 10 N.
+TEST(AxialElasticity, IsMissedWhereStressComesFromIt) {
+  const StartRun run(bar(10.0, "off"));
+  EXPECT_NEAR(run.analysis->reductions[0].value, 3.75e6, 1e-3 * 3.75e6);
+  const LeftOut found = compare_variants(run.run());
+  ASSERT_EQ(found.changes.size(), 1u);
+  EXPECT_EQ(found.changes[0].name, "axial_elasticity");
+  EXPECT_NEAR(found.changes[0].change(0), 10e6, 1e-3 * 10e6);
+  ASSERT_EQ(found.findings.size(), 1u);
+  EXPECT_TRUE(found.findings[0].is_serious);
+  EXPECT_THAT(found.findings[0].responses, ElementsAre("s"));
+  EXPECT_THAT(found.findings[0].text, HasSubstr("would change \"s\" by 73 %"));
+}
+
+TEST(AxialElasticity, IsNotMissedWhereItIsThere) {
+  EXPECT_THAT(findings_of(bar(10.0, "on"), check_variants), IsEmpty());
+}
+
+using testing::Contains;
+using testing::Field;
+
+/// The first angular frequency of a steel cantilever of 400 × 20 × 8 mm, which a force at its tip
+/// has.
+constexpr double frequency = 262.48526926, ratio = 0.02;
+
+ProblemFile shaken(double force, const std::string& damping) {
+  return read_scene(fmt::format(
+      R"({{"scene": {{"gravity": [0, 0, 0], "bodies": {{
+            "beam": {{"type": "beam", "from": [0, 0, 0], "to": [0.4, 0, 0], "material": "steel",
+              "elements": 8, "section": {{"type": "rectangle", "width": 0.02, "height": 0.008}},
+              "reduction": {{"modes": 4}}, "damping": {}}}}},
+          "joints": {{"wall": {{"type": "fixed", "bodies": ["ground", "beam"], "at": [0, 0, 0]}}}},
+          "loads": {{"push": {{"type": "force", "body": "beam", "at": [0.4, 0, 0],
+            "direction": [0, 1, 0],
+            "value": {{"type": "harmonic", "amplitude": {}, "frequency": {}}}}}}}}},
+          "simulation": {{"end_time": {}, "step": {}, "initial_state": "periodic"}},
+          "responses": {{"tip": {{"type": "deflection", "body": "beam", "at": 1,
+                                  "over_time": "max-abs"}}}}}})",
+      damping, force, frequency, 2.0 * std::numbers::pi / frequency,
+      2.0 * std::numbers::pi / frequency / 400.0));
+}
+
+double tip(const ProblemFile& problem) {
+  return analyze(problem, start_design(problem))->reductions.front().value;
+}
+
+const std::string by_modes = fmt::format(R"({{"modal": {}}})", ratio);
+/// The same ratio of the first mode: ζ = ω β/2.
+const std::string by_stiffness = fmt::format(R"({{"stiffness": {}}})", 2.0 * ratio / frequency);
+
+/// At its resonance the tip goes as far as damping lets it: by what the two differ, damping by
+/// modes is too much. With a force of a tenth both are the same, and nothing is said.
+TEST(ModalDamping, OfABeamThatBendsFarIsTold) {
+  const Finding found = only(findings_of(shaken(8.0, by_modes), check_modal_damping));
+  EXPECT_THAT(found.text, HasSubstr("some 8 % too much"));
+  EXPECT_THAT(findings_of(shaken(8.0, by_modes)),
+              Contains(Field(&Finding::text, HasSubstr("some 8 % too much"))));
+  EXPECT_NEAR(tip(shaken(8.0, by_stiffness)) / tip(shaken(8.0, by_modes)), 1.08, 0.01);
+  EXPECT_THAT(findings_of(shaken(8.0, by_stiffness), check_modal_damping), IsEmpty());
+  EXPECT_THAT(findings_of(shaken(0.8, by_modes), check_modal_damping), IsEmpty());
+  EXPECT_NEAR(tip(shaken(0.8, by_stiffness)) / tip(shaken(0.8, by_modes)), 1.0, 2e-3);
+}
+
+// Stiffening that goes with axial elasticity, and buckling of what a tolerance makes rigid.
+
+/// A pull of 200 N on a rod of 5 mm, 0.3 m long: of its Euler load π² E I/L² = 706 N, 28 %.
+TEST(LostStiffening, IsADoubtWhereAxialForcesAreLarge) {
+  const auto problem_with = [](double force) {
+    return read_scene(fmt::format(
+        R"({{"scene": {{"materials": {{"m": {{"young": 2.1e11, "poisson": 0.3, "density": 7850}}}},
+          "bodies": {{"rod": {{"type": "beam", "from": [0, 0, 0], "to": [0.3, 0, 0], "material": "m",
+              "section": {{"type": "circle", "diameter": 0.005}}, "elements": 2, "frame": "chord"}}}},
+          "joints": {{"a": {{"type": "revolute", "bodies": ["ground", "rod"], "at": [0, 0, 0]}},
+                      "b": {{"type": "point-on-line", "bodies": ["ground", "rod"], "at": [0.3, 0, 0], "axis": [1, 0, 0]}}}},
+          "loads": {{"pull": {{"type": "force", "body": "rod", "at": [0.3, 0, 0], "direction": [1, 0, 0], "value": {}}}}}}},
+          "effects": {{"axial_elasticity": "off"}},
+          "simulation": {{"end_time": 0.01, "step": 0.001}}}})",
+        force));
+  };
+  EXPECT_THAT(findings_of(problem_with(1.0), check_lost_stiffening), IsEmpty());
+  // From one percent on.
+  const double pi = 3.14159265358979, radius = 0.0025;
+  const double euler = pi * pi * 2.1e11 * pi / 4 * std::pow(radius, 4) / (0.3 * 0.3);
+  EXPECT_THAT(findings_of(problem_with(0.0098 * euler), check_lost_stiffening), IsEmpty());
+  EXPECT_THAT(findings_of(problem_with(0.0102 * euler), check_lost_stiffening), SizeIs(1));
+  const Finding finding = only(findings_of(problem_with(200.0), check_lost_stiffening));
+  EXPECT_TRUE(finding.is_serious);
+  EXPECT_THAT(finding.text, HasSubstr("0.28 of its Euler load"));
+}
+
+/// A square column of 1 m × 10 mm, clamped, pressed slowly at its tip, which moves by less than 1e-3 of
+/// its length: no response calls for its elasticity.
+ProblemFile pressed_column(double force, const char* spatial_motion, double tolerance) {
+  ProblemFile problem = read_scene(fmt::format(
+      R"j({{"scene": {{
+        "materials": {{"light": {{"young": 2.1e11, "poisson": 0.3, "density": 1}}}},
+        "bodies": {{"bar": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "elements": 6,
+                            "material": "light", "damping": {{"stiffness": 1e-4}},
+                            "section": {{"type": "rectangle", "width": 0.01, "height": 0.01}}}}}},
+        "joints": {{"wall": {{"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}}}},
+        "loads": {{"press": {{"type": "force", "body": "bar", "at": [1, 0, 0],
+                             "direction": [-1, 0, 0],
+                             "value": {{"type": "ramp", "to": {}, "end": 0.05}}}}}}}},
+      "effects": {{"spatial_motion": "{}", "tolerance": {}}},
+      "simulation": {{"end_time": 0.05, "step": 0.0025}},
+      "responses": {{"tip": {{"type": "position", "body": "bar", "at": 1, "direction": "x",
+                             "over_time": "final"}}}}}})j",
+      force, spatial_motion, tolerance));
+  decide_effects(problem);
+  return problem;
+}
+
+/// What is said of buckling, without how far disturbances grow: what is left out is looked for at twice
+/// the step, which damps them less.
+std::vector<std::string> buckling_of(const std::vector<Finding>& findings) {
+  std::vector<std::string> texts = texts_of(findings);
+  std::erase_if(texts,
+                [](const std::string& text) { return text.find("buckle") == std::string::npos; });
+  for (std::string& text : texts) text.resize(std::min(text.size(), text.find(" In this motion")));
+  return texts;
+}
+
+/// A cantilever buckles at π² EI/4L².
+TEST(BucklingOfWhatIsLeftOut, IsThatOfTheCompleteMechanism) {
+  const double critical = std::pow(std::numbers::pi / 2, 2) * 2.1e11 * 1e-8 / 12;
+  for (const char* spatial_motion : {"auto", "on"}) {
+    for (double share : {0.6, 1.02}) {
+      const ProblemFile lean = pressed_column(share * critical, spatial_motion, 1e-2);
+      const auto analysis = analyze(lean, start_design(lean));
+      EXPECT_FALSE(analysis->model.bodies[0].is_elastic);
+      const std::vector<std::string> told =
+          buckling_of(check_run(lean, start_design(lean), *analysis));
+      EXPECT_EQ(told,
+                buckling_of(findings_of(pressed_column(share * critical, spatial_motion, 0.0))));
+      EXPECT_EQ(told.empty(), share < 1.0) << spatial_motion << " " << share;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pleuel::test::model_variants_test

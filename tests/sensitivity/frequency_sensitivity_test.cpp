@@ -1,0 +1,272 @@
+#include "core/base/eager_matrices.hpp"
+#include "core/base/error.hpp"
+#include "core/response/analysis.hpp"
+#include "sensitivity/finite_difference.hpp"
+#include "sensitivity/gradients.hpp"
+#include "tests/support/problem_runs.hpp"
+#include "tests/support/test.hpp"
+
+namespace pleuel::test::frequency_sensitivity_test {
+namespace {
+
+// Frequencies of modes along an axis, where those of two modes coincide.
+
+/// A square cantilever that is fixed to the ground, turned by 30° about its axis z = global z: local y
+/// stays in the global plane x y. Both planes of bending have one frequency.
+ProblemFile square_cantilever(const std::string& joints = "", const std::string& bodies = "") {
+  return problem_from(
+      fmt::format(R"j({{"scene": {{"bodies": {{"mast": {{"type": "beam", "from": [0, 0, 0],
+    "to": [0.4330127018922193, 0.25, 0], "material": "steel", "elements": 4,
+    "section": {{"type": "rectangle", "width": "= w", "height": "= h"}}}}{}}},
+    "joints": {{"root": {{"type": "fixed", "bodies": ["ground", "mast"], "at": [0, 0, 0]}}{}}}}},
+  "simulation": {{"end_time": "2 ms", "step": "1 ms", "resolution_check": false}},
+  "variables": {{"w": {{"start": "16 mm", "lower": "5 mm", "upper": "60 mm"}},
+                "h": {{"start": "16 mm", "lower": "5 mm", "upper": "60 mm"}}}},
+  "responses": {{
+    "body_y": {{"type": "frequency", "body": "mast", "direction": "y"}},
+    "body_z": {{"type": "frequency", "body": "mast", "direction": "z"}},
+    "second_z": {{"type": "frequency", "body": "mast", "direction": "z", "mode": 2}},
+    "across": {{"type": "frequency", "direction": "z"}},
+    "second_across": {{"type": "frequency", "direction": "z", "mode": 2}},
+    "in_plane": {{"type": "frequency", "direction": "y"}},
+    "first": {{"type": "frequency"}}}}}})j",
+                  bodies, joints));
+}
+
+/// ω is proportional to the thickness in the direction of bending, but for rotary inertia, (βr)² = 3e-4
+/// for the first mode and 7 times that for the second: its derivative by that thickness is ω/h, and
+/// by the other one zero. The mean of both is what modes in the order of frequencies have.
+TEST(FrequencyDirection, HasTheGradientOfItsPlaneWherePlanesCoincide) {
+  const ProblemFile problem = square_cantilever();
+  const Eigen::VectorXd x = start_design(problem);
+  const auto analysis = analyze(problem, x);
+  const Eigen::VectorXd values = values_of(*analysis);
+  const Eigen::MatrixXd gradients = direct_gradients(*analysis) * x.asDiagonal();
+  for (int i = 0; i < 7; ++i) {
+    const bool is_second = i == 2 || i == 4;
+    EXPECT_NEAR(values(i) / values(is_second ? 2 : 0), 1.0, 1e-7) << problem.responses[i].name;
+    const bool is_of_width = i >= 1 && i <= 4;
+    const double of_width = i == 6 ? 0.5 : is_of_width ? 1.0 : 0.0;
+    const double allowed = is_second ? 1e-2 : 1e-3;
+    EXPECT_NEAR(gradients(i, 0) / values(i), of_width, allowed) << problem.responses[i].name;
+    EXPECT_NEAR(gradients(i, 1) / values(i), 1.0 - of_width, allowed) << problem.responses[i].name;
+  }
+}
+
+/// Along vectors, as of a beam whose section stands obliquely: those of its own axes.
+TEST(FrequencyDirection, MayBeAVector) {
+  ProblemFile problem = square_cantilever();
+  for (ResponseSettings& response : problem.responses) {
+    if (response.name == "in_plane") response.mode.axis = {{-0.5, 0.8660254037844386, 0.0}};
+  }
+  problem.variables[0].start = 0.012;  // so that planes do not coincide
+  const Eigen::VectorXd x = start_design(problem);
+  const Eigen::VectorXd values = values_of(*analyze(problem, x));
+  EXPECT_NEAR(values(5) / values(0), 1.0, 1e-7);
+}
+
+/// They are smooth there: central differences of designs on both sides have one limit. 1e-6: what
+/// differences of fourth order with steps of 1e-3 leave of frequencies that are exact to 1e-12.
+TEST(FrequencyDirection, IsSmoothWherePlanesCoincide) {
+  const ProblemFile problem = square_cantilever();
+  const Eigen::VectorXd x = start_design(problem);
+  const auto analysis = analyze(problem, x);
+  const Eigen::VectorXd values = values_of(*analysis);
+  const Eigen::MatrixXd direct = direct_gradients(*analysis) * x.asDiagonal();
+  const Eigen::MatrixXd wide = central_differences(problem, x, 2e-3) * x.asDiagonal();
+  const Eigen::MatrixXd narrow = central_differences(problem, x, 1e-3) * x.asDiagonal();
+  const Eigen::MatrixXd error = (4.0 * narrow - wide) / 3.0 - direct;
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_LE(error.row(i).lpNorm<Eigen::Infinity>(), 1e-6 * values(i))
+        << problem.responses[i].name;
+  }
+}
+
+/// Of two masts without a joint between them, whose frequencies all coincide in fours.
+TEST(FrequencyDirection, IsFoundAmongFourModesThatCoincide) {
+  const ProblemFile problem = square_cantilever(
+      R"j(, "second_root": {"type": "fixed", "bodies": ["ground", "other"], "at": [1, 0, 0]})j",
+      R"j(, "other": {"type": "beam", "from": [1, 0, 0], "to": [1.4330127018922193, 0.25, 0],
+    "material": "steel", "elements": 4,
+    "section": {"type": "rectangle", "width": "= w", "height": "= h"}})j");
+  const Eigen::VectorXd x = start_design(problem);
+  const auto analysis = analyze(problem, x);
+  const Eigen::VectorXd values = values_of(*analysis);
+  const Eigen::MatrixXd gradients = direct_gradients(*analysis) * x.asDiagonal();
+  const int across = 3, second_across = 4, in_plane = 5;
+  EXPECT_NEAR(values(second_across) / values(across), 1.0, 1e-7);
+  EXPECT_NEAR(gradients(across, 0) / values(across), 1.0, 1e-3);
+  EXPECT_NEAR(gradients(second_across, 0) / values(across), 1.0, 1e-3);
+  EXPECT_NEAR(gradients(in_plane, 1) / values(in_plane), 1.0, 1e-3);
+}
+
+// Damping ratios and growth rates of small vibrations.
+
+struct Found {
+  Eigen::VectorXd values;
+  Eigen::MatrixXd gradients;  ///< a row each response
+};
+
+Found found_of(const std::string& text) {
+  const ProblemFile problem = problem_from(text, {});
+  const auto analysis = analyze(problem, start_design(problem));
+  return {values_of(*analysis), direct_gradients(*analysis)};
+}
+
+/// A mass on a spring and a damper, m = 2 kg, k = 800 N/m: ω = 20 rad/s.
+Found oscillator(double damping) {
+  return found_of(fmt::format(R"({{"scene": {{"gravity": [0, 0, 0],
+      "bodies": {{"m": {{"type": "point-mass", "at": [1, 0, 0], "mass": {{"variable": "m"}}}}}},
+      "joints": {{"rail": {{"type": "point-on-line", "bodies": ["ground", "m"], "at": [1, 0, 0],
+                           "axis": [1, 0, 0]}}}},
+      "loads": {{"s": {{"type": "spring", "bodies": ["ground", "m"], "at": [[0, 0, 0], [1, 0, 0]],
+                       "stiffness": {{"variable": "k"}}, "damping": {{"variable": "c"}}}}}}}},
+    "simulation": {{"end_time": 0.01, "step": 0.01}},
+    "variables": {{"m": {{"start": 2, "lower": 1, "upper": 9}},
+                   "k": {{"start": 800, "lower": 1, "upper": 9999}},
+                   "c": {{"start": {}, "lower": 0, "upper": 999}}}},
+    "responses": {{"zeta": {{"type": "damping-ratio"}}, "first": {{"type": "damping-ratio", "mode": 1}},
+                   "rate": {{"type": "growth-rate"}}}}}})",
+                              damping));
+}
+
+/// ζ = c/(2√(km)), and the motion decays as exp(−c t/(2m)).
+TEST(DampedMode, OfAMassOnASpringIsTheClosedForm) {
+  const double m = 2.0, k = 800.0, c = 8.0, zeta = c / (2.0 * std::sqrt(k * m));
+  const Found found = oscillator(c);
+  EXPECT_NEAR(found.values(0), zeta, 1e-9);
+  EXPECT_NEAR(found.values(1), zeta, 1e-9);
+  EXPECT_NEAR(found.values(2), -c / (2.0 * m), 1e-8);
+  const Eigen::RowVector3d of_ratio(-zeta / (2.0 * m), -zeta / (2.0 * k), zeta / c);
+  const Eigen::RowVector3d of_rate(c / (2.0 * m * m), 0.0, -1.0 / (2.0 * m));
+  EXPECT_LT((found.gradients.row(0) - of_ratio).norm(), 1e-7);
+  EXPECT_LT((found.gradients.row(2) - of_rate).norm(), 1e-6);
+}
+
+/// Beyond c = 2√(km) = 80 N s/m nothing vibrates: s = −(c ∓ √(c² − 4 k m))/(2m).
+TEST(DampedMode, WithoutVibrationHasARateAndNoRatio) {
+  EXPECT_THROW(oscillator(100.0), SimulationError);
+}
+
+/// A cantilever whose damping goes with its stiffness, C = β K: ζ = β ω/2 of each mode, and the first
+/// decays most slowly, with β ω²/2; so do their derivatives follow from those of the frequency.
+TEST(DampedMode, OfACantileverWithDampingByStiffnessFollowsFromItsFrequencies) {
+  constexpr double beta = 1e-4;
+  const Found found = found_of(R"({"scene": {"gravity": [0, 0, 0],
+      "bodies": {"b": {"type": "beam", "from": [0, 0, 0], "to": [0.8, 0, 0], "material": "steel",
+        "section": {"type": "rectangle", "width": {"variable": "w"}, "height": {"variable": "h"}},
+        "elements": 4, "damping": {"stiffness": 1e-4}}},
+      "joints": {"c": {"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]}}},
+    "simulation": {"end_time": 1e-3, "step": 1e-3},
+    "variables": {"w": {"start": 0.012, "lower": 0.001, "upper": 0.1},
+                  "h": {"start": 0.02, "lower": 0.001, "upper": 0.1}},
+    "responses": {"f2": {"type": "frequency", "mode": 2}, "z2": {"type": "damping-ratio", "mode": 2},
+                  "fz": {"type": "frequency", "direction": "z"},
+                  "rate": {"type": "growth-rate", "direction": "z"}}})");
+  const double second = found.values(0), lowest = found.values(2);
+  // ζ of the damped frequency: ω_d = ω √(1 − ζ²) changes no order.
+  EXPECT_NEAR(found.values(1) / (0.5 * beta * second), 1.0, 1e-7);
+  EXPECT_NEAR(found.values(3) / (-0.5 * beta * lowest * lowest), 1.0, 1e-7);
+  EXPECT_LT((found.gradients.row(1) / (0.5 * beta) - found.gradients.row(0)).norm(),
+            1e-5 * found.gradients.row(0).norm());
+  EXPECT_LT((found.gradients.row(3) / (-beta * lowest) - found.gradients.row(2)).norm(),
+            1e-5 * found.gradients.row(2).norm());
+}
+
+/// Beck's column with damping by stiffness, pressed along its tip by p EI/L²: without damping it
+/// flutters from p = 20.05 on, with a little from 10.94 (Bolotin, Nonconservative Problems of the Theory
+/// of Elastic Stability, 1963).
+double growth_of_column(double p, double damping) {
+  constexpr double stiffness = 7e10 * 0.03 * 1e-6 / 12;
+  return found_of(fmt::format(R"({{"scene": {{"gravity": [0, 0, 0],
+      "materials": {{"m": {{"young": 7e10, "poisson": 0.3, "density": 2700}}}},
+      "bodies": {{"c": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "m",
+        "section": {{"type": "rectangle", "width": 0.03, "height": 0.01}}, "elements": 10,
+        "damping": {{"stiffness": {}}}}}}},
+      "joints": {{"wall": {{"type": "fixed", "bodies": ["ground", "c"], "at": [0, 0, 0]}}}},
+      "loads": {{"P": {{"type": "force", "body": "c", "at": [1, 0, 0], "direction": [-1, 0, 0],
+        "follows": true, "value": {{"type": "table", "times": [-1, 0], "values": [{}, {}]}}}}}}}},
+    "simulation": {{"end_time": 1e-3, "step": 1e-3}},
+    "responses": {{"rate": {{"type": "growth-rate", "direction": "y"}}}}}})",
+                              damping, p * stiffness, p * stiffness))
+      .values(0);
+}
+
+TEST(DampedMode, OfBecksColumnGrowsBeyondItsCriticalLoads) {
+  EXPECT_LT(growth_of_column(19.9, 0.0), 1e-3);
+  EXPECT_GT(growth_of_column(20.2, 0.0), 1.0);
+  EXPECT_LT(growth_of_column(10.8, 1e-5), 0.0);
+  EXPECT_GT(growth_of_column(11.1, 1e-5), 0.0);
+}
+
+// Elements much shorter than others have stiffnesses whose round-off drowns small differences.
+
+/// The first frequency of a bar on two supports, with the inertia of its turning sections
+///     f ∝ h/√(1 + π² h²/(12 L²))
+/// has nothing to do with where two loads bend it a little; the element between them is a
+/// three-hundredth, or a thousandth, of the bar.
+TEST(FrequencyBesideShortElements, HasTheDerivativesOfABar) {
+  for (const double gap : {3.0, 1.0}) {
+    const ProblemFile problem = problem_from(fmt::format(R"j({{"scene": {{
+          "bodies": {{"bar": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
+            "elements": 6, "section": {{"type": "rectangle", "width": "40 mm", "height": {{"variable": "h"}}}}}}}},
+          "joints": {{
+            "left": {{"type": "revolute", "bodies": ["ground", "bar"], "at": [0, 0, 0]}},
+            "right": {{"type": "point-on-line", "bodies": ["ground", "bar"], "at": [1, 0, 0], "axis": [1, 0, 0]}}}},
+          "loads": {{
+            "P": {{"type": "force", "body": "bar", "at": [0.5, 0, 0], "direction": [0, -1, 0], "value": 10}},
+            "Q": {{"type": "force", "body": "bar", "at": [{{"variable": "a"}}, 0, 0], "direction": [0, -1, 0],
+                   "value": 10}}}}}},
+        "simulation": {{"end_time": "2 ms", "step": "1 ms", "initial_state": "quasi-static"}},
+        "variables": {{"h": {{"start": "20 mm", "lower": "5 mm", "upper": "90 mm"}},
+                       "a": {{"start": "{} mm", "lower": "500.5 mm", "upper": "900 mm"}}}},
+        "responses": {{"f": {{"type": "frequency"}}}}}})j",
+                                                         500.0 + gap));
+    const auto analysis = analyze(problem, start_design(problem));
+    const double f = values_of(*analysis)(0);
+    const Eigen::MatrixXd slopes = direct_gradients(*analysis);
+    const double turning = std::pow(std::numbers::pi * 0.02, 2) / 12;
+    EXPECT_NEAR(slopes(0, 0) * 0.02, f / (1 + turning), 1e-5 * f) << gap;
+    EXPECT_NEAR(slopes(0, 1), 0.0, 1e-3 * f) << gap;
+  }
+}
+
+// Frequencies of mechanisms with bodies that spin, and their derivatives.
+
+/// A top of 2 kg that hangs at a length below a ball joint and spins about the vertical.
+const char* const hanging_top = R"j({"scene": {"gravity": [0, -9.81, 0],
+    "bodies": {"top": {"type": "rigid", "at": [0, "= -1 * length", 0], "mass": "= mass",
+      "inertia": [0.012, 0.02, 0.012, 0, 0, 0], "angular_velocity": [0, "= spin", 0]}},
+    "joints": {"pivot": {"type": "spherical", "bodies": ["ground", "top"], "at": [0, 0, 0]}}},
+  "effects": {"spatial_motion": "on"},
+  "simulation": {"end_time": 1e-4, "step": 1e-4},
+  "variables": {"length": {"start": "150 mm", "lower": "100 mm", "upper": "200 mm"},
+                "mass": {"start": "2 kg", "lower": "1 kg", "upper": "3 kg"},
+                "spin": {"start": "60 rad/s", "lower": "1 rad/s", "upper": "100 rad/s"}},
+  "responses": {"slow": {"type": "frequency", "mode": 1}, "fast": {"type": "frequency", "mode": 2}}})j";
+
+/// (I_d + m l²) ω² ∓ I_p Ω ω − m g l = 0, in axes that stand still
+double whirl(const Eigen::Vector3d& x, double side) {
+  const double l = x(0), m = x(1), momentum = 0.02 * x(2), inertia = 0.012 + m * l * l;
+  return (side * momentum + std::sqrt(momentum * momentum + 4 * inertia * m * 9.81 * l)) /
+         (2 * inertia);
+}
+
+TEST(Whirl, OfATopIsTheClosedFormWithItsDerivatives) {
+  const ProblemFile problem = problem_from(hanging_top);
+  const Eigen::Vector3d x = start_design(problem);
+  const auto analysis = analyze(problem, x);
+  const Eigen::MatrixXd gradients = direct_gradients(*analysis);
+  for (int i = 0; i < 2; ++i) {
+    const double side = i == 0 ? -1.0 : 1.0;
+    EXPECT_NEAR(analysis->reductions[i].value, whirl(x, side), 1e-9 * whirl(x, side));
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d step = 1e-4 * x(k) * Eigen::Vector3d::Unit(k);
+      const double slope = (whirl(x + step, side) - whirl(x - step, side)) / 2e-4;
+      EXPECT_NEAR(gradients(i, k) * x(k), slope, 1e-6 * whirl(x, side)) << i << " " << k;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace pleuel::test::frequency_sensitivity_test
