@@ -23,9 +23,6 @@ namespace pleuel {
 
 namespace {
 
-/// A disturbance that grows more makes another motion than the one that is shown.
-constexpr double harmful_growth = 10.0;
-
 constexpr const char* remedy = " Make it stiffer, or hold it.";
 
 Finding not_judged(const std::string& reason) {
@@ -99,11 +96,11 @@ Finding unfollowed(const GrowingMode& grows, double time, double step) {
 }
 
 /// The first of some instants at which disturbances may grow in the coordinates of a model.
-std::optional<int> first_doubtful(const std::set<int>& instants, const Analysis& analysis) {
+std::optional<int> first_doubtful(const CriticalInstants& instants, const Analysis& analysis) {
   State state;
-  for (const int i : instants) {
+  for (const int i : instants.all) {
     analysis.trajectory.states->load(i, state);
-    if (may_grow(analysis.model.mechanism, state)) return i;
+    if (may_grow(analysis.model.mechanism, state, instants.harmless)) return i;
   }
   return std::nullopt;
 }
@@ -111,7 +108,7 @@ std::optional<int> first_doubtful(const std::set<int>& instants, const Analysis&
 /// Of a mechanism whose model shows buckling.
 /// @param step  of the motion that is judged, of which this may be a coarser run [s]
 /// @throws SimulationError where the steps have no derivatives
-std::vector<Finding> judge_motion(const std::set<int>& instants, const Analysis& analysis,
+std::vector<Finding> judge_motion(const CriticalInstants& instants, const Analysis& analysis,
                                   double step) {
   const Mechanism& mechanism = analysis.model.mechanism;
   const Trajectory& trajectory = analysis.trajectory;
@@ -119,7 +116,7 @@ std::vector<Finding> judge_motion(const std::set<int>& instants, const Analysis&
   if (!first) return {};
   ElasticStability frozen;
   State state;
-  for (const int i : instants) {
+  for (const int i : instants.all) {
     trajectory.states->load(i, state);
     frozen = elastic_stability(mechanism, state);
     if (!frozen.is_stable) break;
@@ -146,7 +143,7 @@ double step_of(const TrustedRun& run) {
 }
 
 /// @param instants  at which it is worth while to look
-std::vector<Finding> judge_in_space(const TrustedRun& run, const std::set<int>& instants) {
+std::vector<Finding> judge_in_space(const TrustedRun& run, const CriticalInstants& instants) {
   const ProblemFile space = problem_in_space(run);
   if (is_firm_in_space(space, run, instants)) return {};
   std::string failure;
@@ -155,7 +152,7 @@ std::vector<Finding> judge_in_space(const TrustedRun& run, const std::set<int>& 
     const ProblemFile coarse = refined(space, {.step = step});
     try {
       const std::unique_ptr<Analysis> analysis = analyze(coarse, run.x);
-      return judge_motion(critical_instants(space.scene, *analysis).all, *analysis, step_of(run));
+      return judge_motion(critical_instants(space.scene, *analysis), *analysis, step_of(run));
     } catch (const UnstableEquilibrium& error) {
       return {{fmt::format("In space and with geometric stiffening {}.{}", error.what(), remedy),
                true}};
@@ -173,13 +170,13 @@ std::vector<Finding> judge_members(const TrustedRun& run, const CriticalInstants
   const Analysis& analysis = run.analysis;
   if (shows_buckling(run.problem.scene, analysis.model)) {
     try {
-      return judge_motion(instants.all, analysis, step_of(run));
+      return judge_motion(instants, analysis, step_of(run));
     } catch (const SimulationError& error) {
       return {not_judged(error.what())};
     }
   }
-  if (!instants.may_buckle && !first_doubtful(instants.all, analysis)) return {};
-  return judge_in_space(run, instants.all);
+  if (!instants.may_buckle && !first_doubtful(instants, analysis)) return {};
+  return judge_in_space(run, instants);
 }
 
 /// Of the mechanism in space.

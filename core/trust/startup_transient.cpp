@@ -7,7 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/number_text.hpp"
-#include "core/trust/model_variants.hpp"
+#include "core/trust/coarse_runs.hpp"
 #include "core/trust/round_off.hpp"
 #include "core/trust/trusted_run.hpp"
 
@@ -53,10 +53,9 @@ bool begins_with_a_shock(const Analysis& analysis) {
 
 /// The peaks of a start in equilibrium; none where there is no stable one.
 std::unique_ptr<Analysis> from_equilibrium(const TrustedRun& run) {
-  ProblemFile problem = problem_of_variants(run);
-  problem.simulation.quasi_static_start = true;
   try {
-    return analyze_variant(run, problem);
+    return analyze_variant(
+        run, [](ProblemFile& problem) { problem.simulation.quasi_static_start = true; });
   } catch (const SimulationError&) {
     return nullptr;
   } catch (const InputError&) {  // of what does not go with such a start
