@@ -357,7 +357,8 @@ ElasticStability elastic_stability(const Mechanism& mechanism, const State& stat
 bool may_grow(const Mechanism& mechanism, const State& state, double harmless) {
   const Eigen::MatrixXd z = free_deformations(mechanism, state);
   if (z.cols() == 0) return false;
-  const Eigen::MatrixXd least = (1.0 - harmless) * (z.transpose() * elastic_stiffness(mechanism, state) * z);
+  const Eigen::MatrixXd least =
+      (1.0 - harmless) * (z.transpose() * elastic_stiffness(mechanism, state) * z);
   const auto is_firm = [&](const Eigen::MatrixXd& stiffness) {
     return Cholesky(symmetric_part(stiffness) - least).is_positive_definite();
   };

@@ -17,9 +17,8 @@ bool says_the_same(const TrustedRun& run, const NestedRun& coarse) {
   if (!coarse.analysis) return false;
   const std::vector<ResponseChange> changes =
       response_changes(run.problem, run.analysis, *coarse.analysis);
-  return std::ranges::all_of(asked_parts(run.problem), [&](std::size_t i) {
-    return changes[i].of_value <= same_values;
-  });
+  return std::ranges::all_of(asked_parts(run.problem),
+                             [&](std::size_t i) { return changes[i].of_value <= same_values; });
 }
 
 }  // namespace
@@ -50,6 +49,11 @@ const NestedRun* basis_of(const TrustedRun& run) {
 const Analysis& basis_of_variants(const TrustedRun& run) {
   const NestedRun* basis = basis_of(run);
   return basis != nullptr ? *basis->analysis : run.analysis;
+}
+
+TrustedRun in_larger_steps(const TrustedRun& run) {
+  const Analysis& analysis = run.shared->coarse ? basis_of_variants(run) : run.analysis;
+  return {run.problem, run.x, analysis, run.monitors};
 }
 
 std::unique_ptr<Analysis> analyze_variant(const TrustedRun& run,

@@ -8,7 +8,8 @@
 namespace pleuel {
 
 RefinementSet::RefinementSet(const ProblemFile& problem, const Eigen::VectorXd& x,
-                             const Analysis& analysis, Divisions divisions, const CoarseRuns* coarse)
+                             const Analysis& analysis, Divisions divisions,
+                             const CoarseRuns* coarse)
     : problem_(problem), x_(x), similar_(&analysis.trajectory) {
   const std::optional<int> fewest = fewest_elements(analysis.model, problem);
   const bool has_few = fewest.value_or(1) <= 2 || !can_be_halved(analysis.model, problem);

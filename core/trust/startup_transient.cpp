@@ -95,8 +95,8 @@ bool may_decide(const TrustedRun& run) {
       for (const WeightedResponse& part : linearized(sudden, response).parts) {
         if (!changes_at_once(run.problem.responses[part.response].type)) return false;
         if (sudden.histories[part.response].size() == 0) continue;
-        const Eigen::VectorXd change = settled->histories[part.response].col(0) -
-                                       sudden.histories[part.response].col(0);
+        const Eigen::VectorXd change =
+            settled->histories[part.response].col(0) - sudden.histories[part.response].col(0);
         sum += std::abs(part.weight) * change.lpNorm<Eigen::Infinity>();
       }
       return sum <= small_addition * std::abs(sudden.reductions[response].value);
