@@ -16,6 +16,9 @@ const CoarseRuns& coarse_runs(const TrustedRun& run);
 /// that is asked, by half a percent; else that with twice; the one that is judged where neither is there.
 const Analysis& basis_of_variants(const TrustedRun& run);
 
+/// From now on four times the step is not enough, as where disturbances are followed along a variant.
+void compare_at_twice(const TrustedRun& run);
+
 /// The basis as a run that is judged itself, if coarser runs are there already: what is looked for at each
 /// instant is looked for at fewer. Else the run.
 TrustedRun in_larger_steps(const TrustedRun& run);

@@ -32,6 +32,7 @@ bool leaves_out_by_measurement(const Model& model) {
 
 std::optional<CompleteRun> simulate_completely(const TrustedRun& run) {
   if (!leaves_out_by_measurement(run.analysis.model)) return {};
+  compare_at_twice(run);  // whether its members buckle is looked for, too
   CompleteRun complete;
   try {
     complete.analysis = analyze_variant(run, [&](ProblemFile& variant) {

@@ -172,11 +172,14 @@ std::vector<Finding> judge_members(const TrustedRun& run) {
       return {not_judged(error.what())};
     }
   }
-  const TrustedRun coarse = in_larger_steps(run);
-  const CriticalInstants instants = critical_instants(run.problem.scene, coarse.analysis);
-  if (!instants.may_buckle && !first_doubtful(instants, coarse.analysis)) return {};
   const ProblemFile space = problem_in_space(run);
-  if (is_firm_in_space(space, coarse, instants)) return {};
+  const TrustedRun coarse = in_larger_steps(run);
+  for (const TrustedRun* looked_at : {&coarse, &run}) {
+    const CriticalInstants instants = critical_instants(run.problem.scene, looked_at->analysis);
+    if (!instants.may_buckle && !first_doubtful(instants, looked_at->analysis)) return {};
+    if (is_firm_in_space(space, *looked_at, instants)) return {};
+    if (&looked_at->analysis == &analysis) break;
+  }
   return judge_in_space(run, space);
 }
 
