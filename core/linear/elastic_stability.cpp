@@ -354,11 +354,11 @@ ElasticStability elastic_stability(const Mechanism& mechanism, const State& stat
   return stability_of_turning(mechanism, state, turn, parts.standing);
 }
 
-bool may_grow(const Mechanism& mechanism, const State& state) {
-  constexpr double kept = 0.8;
+bool may_grow(const Mechanism& mechanism, const State& state, double harmless) {
   const Eigen::MatrixXd z = free_deformations(mechanism, state);
   if (z.cols() == 0) return false;
-  const Eigen::MatrixXd least = kept * (z.transpose() * elastic_stiffness(mechanism, state) * z);
+  const Eigen::MatrixXd least =
+      (1.0 - harmless) * (z.transpose() * elastic_stiffness(mechanism, state) * z);
   const auto is_firm = [&](const Eigen::MatrixXd& stiffness) {
     return Cholesky(symmetric_part(stiffness) - least).is_positive_definite();
   };

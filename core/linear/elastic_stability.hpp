@@ -23,11 +23,14 @@ struct ElasticStability {
 /// stable: Floquet's theory would have to tell.
 ElasticStability elastic_stability(const Mechanism& mechanism, const State& state);
 
+/// Of the loads that make the stiffness singular: below this share nothing is looked for.
+inline constexpr double harmless_share = 0.2;
+
 /// Whether small disturbances of the members may grow: unless the stiffness, in axes that stand still and
-/// in those that turn with the bodies, would stay positive under five times what loads and motion
-/// take from it. That leaves room for what frozen coefficients do not show: forces that follow, damping
-/// that turns, coefficients that change.
-bool may_grow(const Mechanism& mechanism, const State& state);
+/// in those that turn with the bodies, would stay positive if loads and motion took from it all the same
+/// again, and again, up to 1/harmless times what they take. That leaves room for what frozen coefficients do
+/// not show: forces that follow, damping that turns, coefficients that change.
+bool may_grow(const Mechanism& mechanism, const State& state, double harmless = harmless_share);
 
 /// The stiffness S R_q S of members and springs alone: undeformed, without loads, weight and motion.
 Eigen::MatrixXd elastic_stiffness(const Mechanism& mechanism, const State& state);

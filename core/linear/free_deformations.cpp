@@ -1,9 +1,12 @@
 #include "core/linear/free_deformations.hpp"
 
 #include <cmath>
+#include <map>
 #include <utility>
+#include <vector>
 
 #include "core/base/dense_solvers.hpp"
+#include "core/base/disjoint_sets.hpp"
 #include "core/base/eager_matrices.hpp"
 
 namespace pleuel {
@@ -13,10 +16,48 @@ namespace {
 /// Rows that depend on others by less than this, relative to the largest, are no constraints.
 constexpr double row_rank_tolerance = 1e-10;
 
-/// An orthonormal basis of {x : rows x = 0}.
+/// Rows and columns of a matrix that no entry connects with others.
+struct Block {
+  std::vector<Eigen::Index> rows, columns;
+};
+
+std::vector<Block> blocks_of(const Eigen::MatrixXd& matrix, Eigen::Index columns) {
+  DisjointSets sets(static_cast<std::size_t>(columns));
+  std::vector<Eigen::Index> first(matrix.rows(), -1);  // entry of each row
+  for (Eigen::Index col = 0; col < columns; ++col) {
+    for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
+      if (matrix(row, col) == 0.0) continue;
+      if (first[row] < 0) first[row] = col;
+      sets.join(static_cast<int>(first[row]), static_cast<int>(col));
+    }
+  }
+  std::map<int, Block> blocks;
+  for (Eigen::Index col = 0; col < columns; ++col) {
+    blocks[sets.find(static_cast<int>(col))].columns.push_back(col);
+  }
+  for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
+    if (first[row] >= 0) blocks[sets.find(static_cast<int>(first[row]))].rows.push_back(row);
+  }
+  std::vector<Block> all;
+  for (auto& [set, block] : blocks) all.push_back(std::move(block));
+  return all;
+}
+
+/// An orthonormal basis of {x : rows x = 0}, of each block by itself.
 Eigen::MatrixXd null_space(const Eigen::MatrixXd& rows, Eigen::Index columns) {
-  if (rows.rows() == 0) return Eigen::MatrixXd::Identity(columns, columns);
-  return PivotedQr(rows.transpose(), row_rank_tolerance).normal_space();
+  Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(columns, columns);
+  Eigen::Index count = 0;
+  for (const Block& block : blocks_of(rows, columns)) {
+    const Eigen::Index size = static_cast<Eigen::Index>(block.columns.size());
+    Eigen::MatrixXd own = Eigen::MatrixXd::Identity(size, size);
+    if (!block.rows.empty()) {
+      const Eigen::MatrixXd transposed = rows(block.rows, block.columns).transpose();
+      own = PivotedQr(transposed, row_rank_tolerance).normal_space();
+    }
+    basis(block.columns, Eigen::seqN(count, own.cols())) = own;
+    count += own.cols();
+  }
+  return basis.leftCols(count);
 }
 
 /// S R_q S of one term.

@@ -6,6 +6,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/response_parts.hpp"
+#include "core/trust/coarse_runs.hpp"
 #include "core/trust/far_bending.hpp"
 #include "core/trust/fast_laws.hpp"
 #include "core/trust/finding.hpp"
@@ -125,7 +126,7 @@ void add_left_out(const LeftOut& left_out, std::vector<std::optional<ErrorBar>>&
 std::vector<Finding> check_buckling(const TrustedRun& run,
                                     const std::optional<CompleteRun>& complete) {
   const auto findings_of = [](const TrustedRun& pressed) {
-    std::vector<Finding> findings = check_sideways_buckling(pressed);
+    std::vector<Finding> findings = check_sideways_buckling(in_larger_steps(pressed));
     const std::vector<Finding> others = check_stability(pressed);
     findings.insert(findings.end(), others.begin(), others.end());
     return findings;
@@ -190,9 +191,9 @@ Trust judge_run(const TrustedRun& run) {
   too_fast.insert(too_fast.end(), fast_motion.begin(), fast_motion.end());
   const std::optional<CompleteRun> complete = simulate_completely(run);
   if (complete) add(Cause::left_out, check_neglected_effects(run, *complete));
-  add(Cause::unstable, check_buckling(run, complete));
   Resolution resolution = judge_resolution(run);
   add(Cause::not_converged, check_resolution(run, resolution));
+  add(Cause::unstable, check_buckling(run, complete));  // in the larger steps of the resolution
   trust.errors = std::move(resolution.bars);
   trust.evidence = std::move(resolution.evidence);
   trust.bands = std::move(resolution.bands);

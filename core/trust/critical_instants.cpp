@@ -1,6 +1,7 @@
 #include "core/trust/critical_instants.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -22,6 +23,8 @@ namespace {
 
 /// Of the Euler load of two pins at the ends of a column as long as all elastic beams together.
 constexpr double harmless_press = 0.05;
+/// A free end takes a quarter of the load of two pins.
+constexpr double of_free_end = 4.0;
 /// Of two pins at the ends of the beam with its fittings, about the weakest axis of the weakest
 /// element.
 double euler_load(const LateralMember& member) {
@@ -40,14 +43,20 @@ struct PressedBeam {
   LateralMember member;
   double euler;
   std::vector<double> shares = {};  ///< of its Euler load, one an instant
+  double falls = 0.0;               ///< by how much the share falls in the motion, pulls included
 
   PressedBeam(const std::string& name, const Model& model)
       : member(name, model, BendingPlane::xy), euler(euler_load(member)) {}
 
   void see(const State& state) {
-    const double press = std::max(0.0, -member.observe(state).topRows<2>().minCoeff());
-    shares.push_back(press / euler);
+    const double share = -member.observe(state).topRows<2>().minCoeff() / euler;
+    if (!shares.empty()) falls += std::max(0.0, last_ - share);
+    last_ = share;
+    shares.push_back(std::max(0.0, share));
   }
+
+ private:
+  double last_ = 0.0;
 };
 
 /// All elastic beams of a mechanism, and when they were pressed most, alone and together.
@@ -89,6 +98,18 @@ class PressedBeams {
     });
   }
 
+  /// What the stiffness gains in the motion while at most such a share of it is taken: of a beam no more than
+  /// that share is, or than of a column as long as all beams together with a free end.
+  double gain(double most) const {
+    double sum = 0.0;
+    for (const PressedBeam& beam : beams_) {
+      const double longer = length_ / beam.member.full_length();
+      const double of_press = most / std::max(std::ranges::max(beam.shares), 1e-300);
+      sum += beam.falls * std::min(of_press, of_free_end * longer * longer);
+    }
+    return sum;
+  }
+
  private:
   /// Where the largest is reached, but for little: what grows has the rest of the motion.
   static int peak(const std::vector<double>& shares) {
@@ -105,25 +126,47 @@ class PressedBeams {
   std::vector<double> sums_;  ///< of shares of Euler loads, one an instant
 };
 
+/// The largest share at which  ½ ∫ max(−ṡ, 0)/(1 − s) dt  leaves disturbances below harmful growth, as
+/// their elastic energy is at most 1/(1 − s) of that with loads.
+/// @param slowed  by how much the square of the fastest turn falls, of its largest
+double harmless_share_of(const PressedBeams& beams, double slowed) {
+  constexpr double most = 0.5, less = 0.02;
+  for (double share = most; share > harmless_share; share -= less) {
+    const double exponent = 0.5 * (beams.gain(share) + share * slowed) / (1.0 - share);
+    if (exponent < std::log(harmful_growth * std::sqrt(1.0 - share))) return share;
+  }
+  return harmless_share;
+}
+
 }  // namespace
 
 CriticalInstants critical_instants(const Scene& scene, const Analysis& analysis) {
   PressedBeams beams(scene, analysis.model);
   if (beams.is_empty()) return {};
-  double fastest = 0.0;
+  const Mechanism& mechanism = analysis.model.mechanism;
+  double fastest = 0.0, last = 0.0, falls = 0.0;
   int when = -1;
   State state;
   for (int i = 0; i < int_size(analysis.trajectory.time); ++i) {
     constexpr double more = 1.0 + 1e-6;
     analysis.trajectory.states->load(i, state);
     beams.see(state);
-    const double speed = fastest_turn(analysis.model.mechanism, state).omega.norm();
+    const double speed = fastest_turn(mechanism, state).omega.norm();
+    falls += std::max(0.0, last * last - speed * speed);
+    last = speed;
     if (speed <= more * fastest) continue;
     fastest = speed;
     when = i;
   }
-  CriticalInstants found{beams.instants(), beams.may_buckle()};
-  if (when >= 0) found.all.insert(when);
+  CriticalInstants found{beams.instants(), beams.may_buckle(), harmless_share};
+  if (when < 0) return found;
+  found.all.insert(when);
+  const bool is_any_imported = std::ranges::any_of(
+      analysis.model.bodies, [](const BodyModel& body) { return body.is_imported(); });
+  if (!mechanism.loads.empty() || !mechanism.springs.empty() || is_any_imported) return found;
+  analysis.trajectory.states->load(when, state);
+  if (is_rotor(mechanism, state)) return found;
+  found.harmless = harmless_share_of(beams, falls / (fastest * fastest));
   return found;
 }
 
@@ -219,17 +262,17 @@ ProblemFile problem_in_space(const TrustedRun& run) {
 }
 
 bool is_firm_in_space(const ProblemFile& space, const TrustedRun& run,
-                      const std::set<int>& instants) {
+                      const CriticalInstants& instants) {
   const Eigen::VectorXd start_values = start_design(space);
   const Design<double> start(start_values.begin(), start_values.end());
   const Design<double> design(run.x.begin(), run.x.end());
   try {
     Model model = build_model(space.scene, space.effects, start, design);
-    return std::ranges::none_of(instants, [&](int instant) {
+    return std::ranges::none_of(instants.all, [&](int instant) {
       State state;
       run.analysis.trajectory.states->load(instant, state);
       const std::optional<State> here = state_in_space(run.analysis.model, state, model);
-      return !here || may_grow(model.mechanism, *here);
+      return !here || may_grow(model.mechanism, *here, instants.harmless);
     });
   } catch (const SimulationError&) {  // the run in space says why
   } catch (const InputError&) {

@@ -7,6 +7,9 @@
 
 namespace pleuel {
 
+/// A disturbance that grows more makes another motion than the one that is shown.
+constexpr double harmful_growth = 10.0;
+
 /// Instants at which it is worth while to ask whether the members of a mechanism are stable: where each elastic
 /// beam is pressed most, and all of them together, and of the fastest turn.
 struct CriticalInstants {
@@ -14,6 +17,11 @@ struct CriticalInstants {
   /// By what presses alone: whether a beam is pressed beyond a twentieth of the Euler load of a column as
   /// long as all beams together, or at all beside springs.
   bool may_buckle = false;
+  /// The share of the loads that make the stiffness singular up to which no disturbance grows tenfold in
+  /// this motion. Where inertia is the only load, its energy grows by what the stiffness gains:
+  ///     Ė = ½ xᵀ K̇ x ≤ max(−ṡ, 0)/(1 − s) E,   s(t): the share that presses and turning take
+  /// Elsewhere, and of rotors, whose coefficients may change otherwise, harmless_share.
+  double harmless = 0.0;
 };
 
 CriticalInstants critical_instants(const Scene& scene, const Analysis& analysis);
@@ -31,8 +39,8 @@ bool shows_buckling(const Scene& scene, const Model& model);
 /// beams from outside holds them.
 ProblemFile problem_in_space(const TrustedRun& run);
 
-/// Whether nothing may grow in space at these instants of a motion in the plane, which is one in space.
+/// Whether nothing may grow in space at such instants of a motion in the plane, which is one in space.
 bool is_firm_in_space(const ProblemFile& space, const TrustedRun& run,
-                      const std::set<int>& instants);
+                      const CriticalInstants& instants);
 
 }  // namespace pleuel

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <memory>
 #include <utility>
 
@@ -12,14 +11,12 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/base/find_named.hpp"
-#include "core/base/int_size.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/quoted.hpp"
-#include "core/jobs/parallel.hpp"
 #include "core/scene/body_groups.hpp"
+#include "core/trust/coarse_runs.hpp"
 #include "core/trust/far_bending.hpp"
 #include "core/trust/low_slenderness.hpp"
-#include "core/trust/refined_runs.hpp"
 #include "core/trust/response_changes.hpp"
 #include "core/trust/round_off.hpp"
 
@@ -30,9 +27,7 @@ namespace {
 /// Changes that are as good as none, and those from which on numbers are those of another
 /// mechanism, relative. Between them what is missing is a property of the theory that is used.
 constexpr double tolerable_change = 0.01, alarming_change = 0.1;
-/// So many beams are told apart, each of which is simulated alone.
-constexpr std::size_t most_told_apart = 8;
-/// Beams that make less of a change, or have less of an indicator than others, are not named.
+/// Beams whose indicator is less of a change, and of the largest, are not named.
 constexpr double told_part = 0.1;
 
 using Names = std::vector<std::string>;
@@ -141,9 +136,12 @@ class VariantRun {
 
   void find(LeftOut& found) {
     std::unique_ptr<Analysis> changed;
-    const ProblemFile problem = with(beams_);
+    ProblemFile problem;
     try {
-      changed = analyze_variant(run_, problem);
+      changed = analyze_variant(run_, [&](ProblemFile& variant) {
+        for (const std::string& beam : beams_) variant_.put_in(variant, beam);
+        problem = variant;
+      });
     } catch (const SimulationError& error) {
       found.findings.push_back(failed(error.what()));
       return;
@@ -158,13 +156,6 @@ class VariantRun {
   }
 
  private:
-  /// The problem with these beams changed.
-  ProblemFile with(const Names& beams) const {
-    ProblemFile problem = problem_of_variants(run_);
-    for (const std::string& beam : beams) variant_.put_in(problem, beam);
-    return problem;
-  }
-
   Finding failed(const std::string& why) const {
     return {fmt::format("{} {} might change anything: this design cannot be simulated then: {}",
                         quoted(beams_), words(beams_), why),
@@ -186,51 +177,21 @@ class VariantRun {
   }
 
   void measure(const TrustedRun& changed) {
-    changes_ = changes_of(changed.analysis);
-    if (!is_any_told()) return;
-    const std::vector<bool> was_nothing = find_round_off(run_),
-                            is_nothing = find_round_off(changed);
+    changes_ = response_changes(run_.problem, changed.analysis, basis_of_variants(run_));
+    std::vector<std::size_t> told;
     for (std::size_t i = 0; i < changes_.size(); ++i) {
-      if (was_nothing[i] && is_nothing[i]) changes_[i] = {};
+      changes_[i].of_value *= variant_.missing;
+      changes_[i].beside_limits *= variant_.missing;
+      if (changes_[i].of_value > tolerable_change) told.push_back(i);
     }
-    share_out();
-  }
-
-  bool is_any_told() const {
-    return std::ranges::any_of(
-        changes_, [](const ResponseChange& change) { return change.of_value > tolerable_change; });
-  }
-
-  /// Which beams the changes are due to: by a simulation with each alone; of very many those whose
-  /// own indicator is not far below the largest.
-  void share_out() {
-    by_beam_.assign(beams_.size(), changes_);
-    if (beams_.size() == 1 || !variant_.is_by_beam || !is_any_told()) return;
-    if (beams_.size() > most_told_apart) {
-      for (std::size_t k = 0; k < beams_.size(); ++k) {
-        if (indicators_[k] <= told_part * indicators_.front())
-          by_beam_[k].assign(changes_.size(), {});
-      }
-      return;
+    if (told.empty()) return;
+    const std::vector<bool> was_nothing = find_round_off(run_);
+    std::erase_if(told, [&](std::size_t i) { return !was_nothing[i]; });
+    if (told.empty()) return;
+    const std::vector<bool> is_nothing = find_round_off(changed);
+    for (const std::size_t i : told) {
+      if (is_nothing[i]) changes_[i] = {};
     }
-    for_each_in_parallel(int_size(beams_), available_threads(), [&](int i) {
-      try {
-        by_beam_[i] = changes_of(*analyze_variant(run_, with({beams_[i]})));
-      } catch (const SimulationError&) {
-        by_beam_[i] = changes_;  // this one has a part in all
-      }
-    });
-  }
-
-  /// What is missing of each response.
-  std::vector<ResponseChange> changes_of(const Analysis& changed) const {
-    std::vector<ResponseChange> changes =
-        response_changes(run_.problem, changed, basis_of_variants(run_));
-    for (ResponseChange& change : changes) {
-      change.of_value *= variant_.missing;
-      change.beside_limits *= variant_.missing;
-    }
-    return changes;
   }
 
   /// Of the responses whose change is alarming, or of the others that are worth a word.
@@ -247,8 +208,7 @@ class VariantRun {
       changed.push_back(fmt::format("\"{}\" by {}", response.name, rough_percent(change)));
       largest = std::max(largest, change);
       for (std::size_t k = 0; k < beams_.size(); ++k) {
-        const bool is_told = by_beam_[k][i].of_value > told_part * change;
-        if (is_told && depends_on(response, beams_[k])) has_part[k] = true;
+        if (has_part_in(change, response, k)) has_part[k] = true;
       }
     }
     if (names.empty()) return;
@@ -268,6 +228,21 @@ class VariantRun {
                         variant_.cause});
   }
 
+  /// Whether a beam may have a part in a change, by its indicator. What a beam deflects against its own
+  /// frame is due to itself, where its indicator is as large as that.
+  bool has_part_in(double change, const ResponseSettings& response, std::size_t beam) const {
+    constexpr double as_large = 0.5;
+    if (!variant_.is_by_beam) return true;
+    if (response.type == ResponseType::deflection) {
+      const auto own = std::ranges::find(beams_, response.bodies.front());
+      const bool is_due_to_it =
+          own != beams_.end() && indicators_[own - beams_.begin()] > as_large * change;
+      if (is_due_to_it) return beams_[beam] == *own;
+    }
+    const double least = told_part * std::min(change, indicators_.front());
+    return indicators_[beam] > least && depends_on(response, beams_[beam]);
+  }
+
   /// Whether a beam is tied to what a response is about.
   bool depends_on(const ResponseSettings& response, const std::string& beam) const {
     Names about = response.bodies;
@@ -284,8 +259,7 @@ class VariantRun {
   Names beams_;                     ///< that get what they leave out
   std::vector<double> indicators_;  ///< of each
   BodyGroups groups_;
-  std::vector<ResponseChange> changes_;               ///< one a response
-  std::vector<std::vector<ResponseChange>> by_beam_;  ///< by each beam alone
+  std::vector<ResponseChange> changes_;  ///< one a response
 };
 
 }  // namespace
@@ -298,31 +272,6 @@ LeftOut compare_variants(const TrustedRun& run) {
     if (!beams.empty()) VariantRun(run, variant, beams).find(found);
   }
   return found;
-}
-
-const ProblemFile& problem_of_variants(const TrustedRun& run) {
-  SharedFindings& basis = *run.shared;
-  if (basis.problem) return *basis.problem;
-  basis.problem = refined(run.problem, {2.0, 1.0});
-  basis.problem->simulation.moves_by_bending = true;  // whether it moves at all was asked before
-  try {
-    basis.analysis = analyze(*basis.problem, run.x, &run.analysis.trajectory);
-  } catch (const SimulationError&) {
-    basis.problem = run.problem;
-  } catch (const InputError&) {  // a window without steps
-    basis.problem = run.problem;
-  }
-  return *basis.problem;
-}
-
-const Analysis& basis_of_variants(const TrustedRun& run) {
-  problem_of_variants(run);
-  return run.shared->analysis ? *run.shared->analysis : run.analysis;
-}
-
-std::unique_ptr<Analysis> analyze_variant(const TrustedRun& run, const ProblemFile& variant) {
-  return analyze(with_steps_of(basis_of_variants(run).trajectory, variant), run.x,
-                 &run.analysis.trajectory);
 }
 
 }  // namespace pleuel

@@ -13,7 +13,7 @@
 #include "core/model/effect_estimates.hpp"
 #include "core/response/effect_measurement.hpp"
 #include "core/trust/beam_state.hpp"
-#include "core/trust/model_variants.hpp"
+#include "core/trust/coarse_runs.hpp"
 
 namespace pleuel {
 
@@ -32,9 +32,13 @@ bool leaves_out_by_measurement(const Model& model) {
 
 std::optional<CompleteRun> simulate_completely(const TrustedRun& run) {
   if (!leaves_out_by_measurement(run.analysis.model)) return {};
-  CompleteRun complete{with_all_effects(problem_of_variants(run)), nullptr, ""};
+  compare_at_twice(run);  // whether its members buckle is looked for, too
+  CompleteRun complete;
   try {
-    complete.analysis = analyze_variant(run, complete.problem);
+    complete.analysis = analyze_variant(run, [&](ProblemFile& variant) {
+      variant = with_all_effects(variant);
+      complete.problem = variant;
+    });
   } catch (const SimulationError& error) {
     complete.failure = error.what();
   }

@@ -93,23 +93,30 @@ int beam_elements(const ProblemFile& problem) {
   return count;
 }
 
-RefinedRun refined_run_of(const Analysis& analysis) {
-  return {{}, values_of(analysis), analysis.trajectory.time, analysis.histories};
-}
-
-RefinedRun make_refined_run(const ProblemFile& problem, const Eigen::VectorXd& x,
-                            const Refinement& refinement, const Trajectory* similar) {
-  RefinedRun run;
+NestedRun simulate_refined(const ProblemFile& problem, const Eigen::VectorXd& x,
+                           const Refinement& refinement, const Trajectory* similar) {
+  NestedRun run;
   try {
-    ProblemFile finer = refined(problem, refinement);
-    finer.simulation.moves_by_bending = true;  // whether it moves at all was asked before
-    run = refined_run_of(*analyze(finer, x, similar));
+    run.problem = refined(problem, refinement);
+    run.problem.simulation.moves_by_bending = true;  // whether it moves at all was asked before
+    run.analysis = analyze(run.problem, x, similar);
   } catch (const SimulationError& error) {
     run.failure = error.what();
   } catch (const InputError& error) {  // a window without steps, more modes than coordinates …
     run.failure = error.what();
   }
   return run;
+}
+
+RefinedRun refined_run_of(const NestedRun& nested) {
+  if (!nested.analysis) return {nested.failure, {}, {}, {}};
+  const Analysis& analysis = *nested.analysis;
+  return {{}, values_of(analysis), analysis.trajectory.time, analysis.histories};
+}
+
+RefinedRun make_refined_run(const ProblemFile& problem, const Eigen::VectorXd& x,
+                            const Refinement& refinement, const Trajectory* similar) {
+  return refined_run_of(simulate_refined(problem, x, refinement, similar));
 }
 
 std::vector<RefinedRun> make_refined_runs(const ProblemFile& problem, const Eigen::VectorXd& x,

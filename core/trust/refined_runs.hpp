@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,12 +42,23 @@ struct RefinedRun {
 /// Half of an odd number of elements is rounded up.
 ProblemFile refined(ProblemFile problem, const Refinement& refinement);
 
+/// A nested run with all that it found.
+struct NestedRun {
+  ProblemFile problem;
+  std::unique_ptr<Analysis> analysis;  ///< null: it failed
+  std::string failure;
+};
+
 /// @param similar  see analyze()
+NestedRun simulate_refined(const ProblemFile& problem, const Eigen::VectorXd& x,
+                           const Refinement& refinement, const Trajectory* similar = nullptr);
+
+/// The same without its model and states.
 RefinedRun make_refined_run(const ProblemFile& problem, const Eigen::VectorXd& x,
                             const Refinement& refinement, const Trajectory* similar = nullptr);
 
 /// What was simulated already.
-RefinedRun refined_run_of(const Analysis& analysis);
+RefinedRun refined_run_of(const NestedRun& nested);
 
 /// The same of several refinements, on the threads of the machine.
 std::vector<RefinedRun> make_refined_runs(const ProblemFile& problem, const Eigen::VectorXd& x,

@@ -8,7 +8,8 @@
 namespace pleuel {
 
 RefinementSet::RefinementSet(const ProblemFile& problem, const Eigen::VectorXd& x,
-                             const Analysis& analysis, Divisions divisions, const Analysis* twice)
+                             const Analysis& analysis, Divisions divisions,
+                             const CoarseRuns* coarse)
     : problem_(problem), x_(x), similar_(&analysis.trajectory) {
   const std::optional<int> fewest = fewest_elements(analysis.model, problem);
   const bool has_few = fewest.value_or(1) <= 2 || !can_be_halved(analysis.model, problem);
@@ -20,25 +21,32 @@ RefinementSet::RefinementSet(const ProblemFile& problem, const Eigen::VectorXd& 
     refinements.push_back(refinement);
     return refinements.size() - 1;
   };
-  std::size_t divided = 0;  // beside which modes are judged
-  Refinement modes{2.0, 1.0, judging_modes};
+  const std::size_t basis = coarse != nullptr && coarse->is_four_enough ? 1 : 0;
+  const double step = refinements[basis].step;
+  std::size_t divided = basis;  // beside which modes are judged
+  Refinement modes{step, 1.0, judging_modes};
   if (fewest && (has_few || divisions != Divisions::coarser)) {
     // One element may have no more modes, and more elements change nothing without them.
-    divided = compare(&JudgingRuns::more_elements, 0, {.step = 2.0, .pieces = 2});
+    divided = compare(&JudgingRuns::more_elements, basis, {.step = step, .pieces = 2});
     modes.pieces = 2;
   }
   if (fewest && !has_few && divisions != Divisions::finer) {
-    compare(&JudgingRuns::fewer_elements, 0, {.step = 2.0, .elements = 0.5});
+    compare(&JudgingRuns::fewer_elements, basis, {.step = step, .elements = 0.5});
   }
   if (has_reduced_beams(analysis.model, problem)) compare(&JudgingRuns::modes, divided, modes);
   if (problem.simulation.newton_tolerance > small_newton_tolerance) {
     compare(&JudgingRuns::newton, 1, {4.0, 1.0, 0, judging_newton});
   }
-  if (twice != nullptr) refinements.erase(refinements.begin());
-  std::vector<RefinedRun> runs = make_refined_runs(problem, x, refinements, similar_);
-  if (twice != nullptr) runs.insert(runs.begin(), refined_run_of(*twice));
   std::vector<const RefinedRun*> kept;
-  for (RefinedRun& run : runs) kept.push_back(&made_.emplace_back(std::move(run)));
+  if (coarse != nullptr) {
+    refinements.erase(refinements.begin(), refinements.begin() + 2);
+    for (const NestedRun* run : {&coarse->twice, &coarse->four}) {
+      kept.push_back(&made_.emplace_back(refined_run_of(*run)));
+    }
+  }
+  for (RefinedRun& run : make_refined_runs(problem, x, refinements, similar_)) {
+    kept.push_back(&made_.emplace_back(std::move(run)));
+  }
   for (std::size_t i = 0; i < comparisons.size(); ++i) {
     runs_.*comparisons[i].first = {kept[i + 2], kept[comparisons[i].second]};
   }

@@ -3,7 +3,7 @@
 #include <list>
 
 #include "core/trust/error_bars.hpp"
-#include "core/trust/refined_runs.hpp"
+#include "core/trust/trusted_run.hpp"
 
 namespace pleuel {
 
@@ -15,15 +15,15 @@ enum class Divisions {
 };
 
 /// The runs that judge a simulation, each kept for all that is asked of it. Always there are two and
-/// four times the step. At twice the step elements are fewer or more, and reduced beams have more
-/// modes; at four times the step the tolerance of Newton's method is smaller, if it is not small
-/// already. Half and a quarter of the step are made when they are asked for.
+/// four times the step. At twice the step, or four times where that is enough, elements are fewer or
+/// more, and reduced beams have more modes; at four times the step the tolerance of Newton's method is
+/// smaller, if it is not small already. Half and a quarter of the step are made when they are asked for.
 class RefinementSet {
  public:
   /// @param analysis  that is judged
-  /// @param twice     with twice its step, if that is there already
+  /// @param coarse    with larger steps, if they are there already
   RefinementSet(const ProblemFile& problem, const Eigen::VectorXd& x, const Analysis& analysis,
-                Divisions divisions, const Analysis* twice = nullptr);
+                Divisions divisions, const CoarseRuns* coarse = nullptr);
 
   /// Makes the run with half the step; of one that is there already, with a quarter.
   void refine_steps();

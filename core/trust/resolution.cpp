@@ -14,6 +14,7 @@
 #include "core/base/number_text.hpp"
 #include "core/base/relative_error.hpp"
 #include "core/scene/response_parts.hpp"
+#include "core/trust/coarse_runs.hpp"
 #include "core/trust/error_bars.hpp"
 #include "core/trust/refinement_set.hpp"
 #include "core/trust/round_off.hpp"
@@ -74,7 +75,7 @@ class Judgement {
       : run_(run),
         problem_(run.problem),
         set_(run.problem, run.x, run.analysis, is_close() ? Divisions::finer : Divisions::coarser,
-             run.shared->analysis.get()),
+             &coarse_runs(run)),
         judged_(judged_responses(run.problem)),
         asked_(asked_responses(run.problem)) {}
 

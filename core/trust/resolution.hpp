@@ -20,7 +20,7 @@ struct Resolution {
 };
 
 /// Bars of all responses from runs of the same design (refinement_set.hpp), as few as it needs: those
-/// with larger steps, and with other elements at twice the step, together cost about as much as the
+/// with larger steps, and with other elements in one of them, together cost about as much as the
 /// simulation. Half the step, and a quarter where that does not do, is run where these say nothing of
 /// a response that counts, or where the balance of energy says that all of them may agree on having
 /// seen nothing. Under close scrutiny half the step is always run, with twice the elements, and a

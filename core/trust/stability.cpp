@@ -5,7 +5,6 @@
 #include <complex>
 #include <numbers>
 #include <optional>
-#include <set>
 
 #include <fmt/format.h>
 
@@ -15,6 +14,7 @@
 #include "core/linear/turning.hpp"
 #include "core/response/full_mechanism.hpp"
 #include "core/start/equilibrium.hpp"
+#include "core/trust/coarse_runs.hpp"
 #include "core/trust/critical_instants.hpp"
 #include "core/trust/disturbance_growth.hpp"
 #include "core/trust/refined_runs.hpp"
@@ -22,9 +22,6 @@
 namespace pleuel {
 
 namespace {
-
-/// A disturbance that grows more makes another motion than the one that is shown.
-constexpr double harmful_growth = 10.0;
 
 constexpr const char* remedy = " Make it stiffer, or hold it.";
 
@@ -99,11 +96,11 @@ Finding unfollowed(const GrowingMode& grows, double time, double step) {
 }
 
 /// The first of some instants at which disturbances may grow in the coordinates of a model.
-std::optional<int> first_doubtful(const std::set<int>& instants, const Analysis& analysis) {
+std::optional<int> first_doubtful(const CriticalInstants& instants, const Analysis& analysis) {
   State state;
-  for (const int i : instants) {
+  for (const int i : instants.all) {
     analysis.trajectory.states->load(i, state);
-    if (may_grow(analysis.model.mechanism, state)) return i;
+    if (may_grow(analysis.model.mechanism, state, instants.harmless)) return i;
   }
   return std::nullopt;
 }
@@ -111,15 +108,15 @@ std::optional<int> first_doubtful(const std::set<int>& instants, const Analysis&
 /// Of a mechanism whose model shows buckling.
 /// @param step  of the motion that is judged, of which this may be a coarser run [s]
 /// @throws SimulationError where the steps have no derivatives
-std::vector<Finding> judge_motion(const std::set<int>& instants, const Analysis& analysis,
-                                  double step) {
+std::vector<Finding> judge_motion(const Scene& scene, const Analysis& analysis, double step) {
+  const CriticalInstants instants = critical_instants(scene, analysis);
   const Mechanism& mechanism = analysis.model.mechanism;
   const Trajectory& trajectory = analysis.trajectory;
   const std::optional<int> first = first_doubtful(instants, analysis);
   if (!first) return {};
   ElasticStability frozen;
   State state;
-  for (const int i : instants) {
+  for (const int i : instants.all) {
     trajectory.states->load(i, state);
     frozen = elastic_stability(mechanism, state);
     if (!frozen.is_stable) break;
@@ -145,17 +142,14 @@ double step_of(const TrustedRun& run) {
   return run.analysis.trajectory.scheme.step;
 }
 
-/// @param instants  at which it is worth while to look
-std::vector<Finding> judge_in_space(const TrustedRun& run, const std::set<int>& instants) {
-  const ProblemFile space = problem_in_space(run);
-  if (is_firm_in_space(space, run, instants)) return {};
+std::vector<Finding> judge_in_space(const TrustedRun& run, const ProblemFile& space) {
   std::string failure;
   // Disturbances need no fine steps; where twice the step is too long, that of the file is not.
   for (const double step : {2.0, 1.0}) {
     const ProblemFile coarse = refined(space, {.step = step});
     try {
       const std::unique_ptr<Analysis> analysis = analyze(coarse, run.x);
-      return judge_motion(critical_instants(space.scene, *analysis).all, *analysis, step_of(run));
+      return judge_motion(space.scene, *analysis, step_of(run));
     } catch (const UnstableEquilibrium& error) {
       return {{fmt::format("In space and with geometric stiffening {}.{}", error.what(), remedy),
                true}};
@@ -169,17 +163,24 @@ std::vector<Finding> judge_in_space(const TrustedRun& run, const std::set<int>& 
 }
 
 /// Of the motion, as it is or in space.
-std::vector<Finding> judge_members(const TrustedRun& run, const CriticalInstants& instants) {
+std::vector<Finding> judge_members(const TrustedRun& run) {
   const Analysis& analysis = run.analysis;
   if (shows_buckling(run.problem.scene, analysis.model)) {
     try {
-      return judge_motion(instants.all, analysis, step_of(run));
+      return judge_motion(run.problem.scene, analysis, step_of(run));
     } catch (const SimulationError& error) {
       return {not_judged(error.what())};
     }
   }
-  if (!instants.may_buckle && !first_doubtful(instants.all, analysis)) return {};
-  return judge_in_space(run, instants.all);
+  const ProblemFile space = problem_in_space(run);
+  const TrustedRun coarse = in_larger_steps(run);
+  for (const TrustedRun* looked_at : {&coarse, &run}) {
+    const CriticalInstants instants = critical_instants(run.problem.scene, looked_at->analysis);
+    if (!instants.may_buckle && !first_doubtful(instants, looked_at->analysis)) return {};
+    if (is_firm_in_space(space, *looked_at, instants)) return {};
+    if (&looked_at->analysis == &analysis) break;
+  }
+  return judge_in_space(run, space);
 }
 
 /// Of the mechanism in space.
@@ -245,11 +246,10 @@ std::vector<Finding> check_stability(const TrustedRun& run) {
   const Model& model = run.analysis.model;
   std::vector<Finding> findings = judge_start(run);
   if (!findings.empty() && findings.front().is_serious) return findings;
-  const CriticalInstants instants = critical_instants(run.problem.scene, run.analysis);
   if (coordinates_in_space(model) <= most_judged_coordinates) {
-    const std::vector<Finding> of_motion = judge_members(run, instants);
+    const std::vector<Finding> of_motion = judge_members(run);
     findings.insert(findings.end(), of_motion.begin(), of_motion.end());
-  } else if (instants.may_buckle) {
+  } else if (critical_instants(run.problem.scene, in_larger_steps(run).analysis).may_buckle) {
     findings.push_back(
         not_judged(fmt::format("it has more than {} coordinates.", most_judged_coordinates)));
   }

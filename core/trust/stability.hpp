@@ -16,8 +16,9 @@ constexpr int most_judged_coordinates = 600;
 ///
 /// At an equilibrium that the motion starts from the eigenvalues decide, rigid motions included. Along
 /// a motion frozen eigenvalues only say whether to look: where the loads are more than a fifth of those that
-/// make the stiffness singular (may_grow()), at the instants at which beams are pressed most, each of
-/// them and all together, and of the fastest turn. Then small disturbances are propagated through all
+/// make the stiffness singular (may_grow()), or more than what nothing grows tenfold below
+/// (CriticalInstants::harmless), at the instants at which beams are pressed most, each of them and all
+/// together, and of the fastest turn. Then small disturbances are propagated through all
 /// of it (disturbance_growth.hpp). Serious where one grows more than tenfold; mentioned where an
 /// instant is not stable, but does not last. Forces that follow, springs, rigid parts and turning
 /// damping count as they are. Not seen is what moments do to a beam that they bend

@@ -10,6 +10,7 @@
 #include "core/response/analysis.hpp"
 #include "core/response/monitors.hpp"
 #include "core/scene/problem_file.hpp"
+#include "core/trust/refined_runs.hpp"
 
 namespace pleuel {
 
@@ -35,11 +36,15 @@ enum class Scrutiny {
   close   ///< three times as much more: with half the step and twice the elements
 };
 
+/// The same design in larger steps (coarse_runs.hpp).
+struct CoarseRuns {
+  NestedRun twice, four;
+  bool is_four_enough = false;  ///< to compare variants with
+};
+
 /// What several findings ask for, each made when the first of them does.
 struct SharedFindings {
-  /// What variants are compared with (model_variants.hpp): null is the run that is judged.
-  std::optional<ProblemFile> problem{};
-  std::unique_ptr<Analysis> analysis{};
+  std::optional<CoarseRuns> coarse{};
   std::optional<std::vector<bool>> is_round_off{};  ///< round_off.hpp
   /// Values of a run with short steps behind jumps, one a response; of one that was needed (unresolved_transients.hpp).
   std::optional<Eigen::VectorXd> with_short_steps{};
