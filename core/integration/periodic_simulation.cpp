@@ -125,13 +125,16 @@ class PeriodicSearch {
     }
     complaint_ = complaint_about_repetition(mechanism_, attempt.trajectory, one_.period);
     if (!complaint_.empty()) throw SimulationError(complaint_ + advice_);
-    // The map may be that of a motion on the way, whose disturbances grow otherwise.
-    if (map_->growth() > unstable) make_map(attempt.trajectory);
     return attempt;
   }
 
-  PeriodicStart found(const Attempt& attempt) const {
-    const double growth = map_->growth();
+  PeriodicStart found(const Attempt& attempt) {
+    double growth = map_->growth();
+    if (growth > unstable) {
+      // The map may be that of a motion on the way, whose disturbances grow otherwise.
+      make_map(attempt.trajectory);
+      growth = map_->growth();
+    }
     if (growth > unstable) {
       throw UnstableEquilibrium(
           fmt::format("/simulation/initial_state: the motion that repeats itself after {:.6g} s is "

@@ -27,7 +27,9 @@ namespace {
 /// Changes that are as good as none, and those from which on numbers are those of another
 /// mechanism, relative. Between them what is missing is a property of the theory that is used.
 constexpr double tolerable_change = 0.01, alarming_change = 0.1;
-/// Beams whose indicator is less of a change, and of the largest, are not named.
+/// So many beams are told apart, each of which is simulated alone.
+constexpr std::size_t most_told_apart = 8;
+/// Beams that make less of a change, or have less of an indicator than others, are not named.
 constexpr double told_part = 0.1;
 
 using Names = std::vector<std::string>;
@@ -177,21 +179,52 @@ class VariantRun {
   }
 
   void measure(const TrustedRun& changed) {
-    changes_ = response_changes(run_.problem, changed.analysis, basis_of_variants(run_));
+    changes_ = changes_of(changed.analysis);
     std::vector<std::size_t> told;
     for (std::size_t i = 0; i < changes_.size(); ++i) {
-      changes_[i].of_value *= variant_.missing;
-      changes_[i].beside_limits *= variant_.missing;
       if (changes_[i].of_value > tolerable_change) told.push_back(i);
     }
     if (told.empty()) return;
     const std::vector<bool> was_nothing = find_round_off(run_);
-    std::erase_if(told, [&](std::size_t i) { return !was_nothing[i]; });
-    if (told.empty()) return;
-    const std::vector<bool> is_nothing = find_round_off(changed);
-    for (const std::size_t i : told) {
-      if (is_nothing[i]) changes_[i] = {};
+    if (std::ranges::any_of(told, [&](std::size_t i) { return was_nothing[i]; })) {
+      const std::vector<bool> is_nothing = find_round_off(changed);
+      std::erase_if(told, [&](std::size_t i) {
+        if (!was_nothing[i] || !is_nothing[i]) return false;
+        changes_[i] = {};
+        return true;
+      });
     }
+    if (!told.empty()) share_out();
+  }
+
+  /// Which beams the changes are due to: by a simulation with each alone; of very many those whose
+  /// own indicator is not far below the largest.
+  void share_out() {
+    by_beam_.assign(beams_.size(), changes_);
+    if (beams_.size() == 1 || !variant_.is_by_beam) return;
+    for (std::size_t k = 0; k < beams_.size(); ++k) {
+      if (beams_.size() > most_told_apart) {
+        if (indicators_[k] <= told_part * indicators_.front())
+          by_beam_[k].assign(changes_.size(), {});
+        continue;
+      }
+      try {
+        by_beam_[k] = changes_of(*analyze_variant(
+            run_, [&](ProblemFile& variant) { variant_.put_in(variant, beams_[k]); }));
+      } catch (const SimulationError&) {  // this one has a part in all
+      }
+    }
+  }
+
+  /// What is missing of each response.
+  std::vector<ResponseChange> changes_of(const Analysis& changed) const {
+    std::vector<ResponseChange> changes =
+        response_changes(run_.problem, changed, basis_of_variants(run_));
+    for (ResponseChange& change : changes) {
+      change.of_value *= variant_.missing;
+      change.beside_limits *= variant_.missing;
+    }
+    return changes;
   }
 
   /// Of the responses whose change is alarming, or of the others that are worth a word.
@@ -208,7 +241,8 @@ class VariantRun {
       changed.push_back(fmt::format("\"{}\" by {}", response.name, rough_percent(change)));
       largest = std::max(largest, change);
       for (std::size_t k = 0; k < beams_.size(); ++k) {
-        if (has_part_in(change, response, k)) has_part[k] = true;
+        const bool is_told = by_beam_[k][i].of_value > told_part * change;
+        if (is_told && depends_on(response, beams_[k])) has_part[k] = true;
       }
     }
     if (names.empty()) return;
@@ -228,21 +262,6 @@ class VariantRun {
                         variant_.cause});
   }
 
-  /// Whether a beam may have a part in a change, by its indicator. What a beam deflects against its own
-  /// frame is due to itself, where its indicator is as large as that.
-  bool has_part_in(double change, const ResponseSettings& response, std::size_t beam) const {
-    constexpr double as_large = 0.5;
-    if (!variant_.is_by_beam) return true;
-    if (response.type == ResponseType::deflection) {
-      const auto own = std::ranges::find(beams_, response.bodies.front());
-      const bool is_due_to_it =
-          own != beams_.end() && indicators_[own - beams_.begin()] > as_large * change;
-      if (is_due_to_it) return beams_[beam] == *own;
-    }
-    const double least = told_part * std::min(change, indicators_.front());
-    return indicators_[beam] > least && depends_on(response, beams_[beam]);
-  }
-
   /// Whether a beam is tied to what a response is about.
   bool depends_on(const ResponseSettings& response, const std::string& beam) const {
     Names about = response.bodies;
@@ -259,7 +278,8 @@ class VariantRun {
   Names beams_;                     ///< that get what they leave out
   std::vector<double> indicators_;  ///< of each
   BodyGroups groups_;
-  std::vector<ResponseChange> changes_;  ///< one a response
+  std::vector<ResponseChange> changes_;               ///< one a response
+  std::vector<std::vector<ResponseChange>> by_beam_;  ///< by each beam alone
 };
 
 }  // namespace
