@@ -197,23 +197,38 @@ class VariantRun {
     if (!told.empty()) share_out();
   }
 
-  /// Which beams the changes are due to: by a simulation with each alone; of very many those whose
-  /// own indicator is not far below the largest.
+  /// Which beams the changes are due to: by a simulation with each alone, until one makes all of them;
+  /// of very many those whose own indicator is not far below the largest.
   void share_out() {
     by_beam_.assign(beams_.size(), changes_);
     if (beams_.size() == 1 || !variant_.is_by_beam) return;
+    const std::vector<ResponseChange> none(changes_.size());
     for (std::size_t k = 0; k < beams_.size(); ++k) {
       if (beams_.size() > most_told_apart) {
-        if (indicators_[k] <= told_part * indicators_.front())
-          by_beam_[k].assign(changes_.size(), {});
+        if (indicators_[k] <= told_part * indicators_.front()) by_beam_[k] = none;
         continue;
       }
       try {
         by_beam_[k] = changes_of(*analyze_variant(
             run_, [&](ProblemFile& variant) { variant_.put_in(variant, beams_[k]); }));
       } catch (const SimulationError&) {  // this one has a part in all
+        continue;
       }
+      if (!makes_all(by_beam_[k])) continue;
+      for (std::size_t other = 0; other < beams_.size(); ++other) {
+        if (other != k) by_beam_[other] = none;
+      }
+      return;
     }
+  }
+
+  bool makes_all(const std::vector<ResponseChange>& alone) const {
+    for (std::size_t i = 0; i < changes_.size(); ++i) {
+      const double change = changes_[i].of_value;
+      if (change <= tolerable_change) continue;
+      if (std::abs(alone[i].of_value - change) > told_part * change) return false;
+    }
+    return true;
   }
 
   /// What is missing of each response.
