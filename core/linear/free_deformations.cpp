@@ -1,63 +1,22 @@
 #include "core/linear/free_deformations.hpp"
 
 #include <cmath>
-#include <map>
 #include <utility>
-#include <vector>
 
 #include "core/base/dense_solvers.hpp"
-#include "core/base/disjoint_sets.hpp"
 #include "core/base/eager_matrices.hpp"
+#include "core/base/sparse_rows.hpp"
 
 namespace pleuel {
 
 namespace {
 
-/// Rows that depend on others by less than this, relative to the largest, are no constraints.
+/// Rows of which less than this is left across others are no constraints.
 constexpr double row_rank_tolerance = 1e-10;
 
-/// Rows and columns of a matrix that no entry connects with others.
-struct Block {
-  std::vector<Eigen::Index> rows, columns;
-};
-
-std::vector<Block> blocks_of(const Eigen::MatrixXd& matrix, Eigen::Index columns) {
-  DisjointSets sets(static_cast<std::size_t>(columns));
-  std::vector<Eigen::Index> first(matrix.rows(), -1);  // entry of each row
-  for (Eigen::Index col = 0; col < columns; ++col) {
-    for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
-      if (matrix(row, col) == 0.0) continue;
-      if (first[row] < 0) first[row] = col;
-      sets.join(static_cast<int>(first[row]), static_cast<int>(col));
-    }
-  }
-  std::map<int, Block> blocks;
-  for (Eigen::Index col = 0; col < columns; ++col) {
-    blocks[sets.find(static_cast<int>(col))].columns.push_back(col);
-  }
-  for (Eigen::Index row = 0; row < matrix.rows(); ++row) {
-    if (first[row] >= 0) blocks[sets.find(static_cast<int>(first[row]))].rows.push_back(row);
-  }
-  std::vector<Block> all;
-  for (auto& [set, block] : blocks) all.push_back(std::move(block));
-  return all;
-}
-
-/// An orthonormal basis of {x : rows x = 0}, of each block by itself.
-Eigen::MatrixXd null_space(const Eigen::MatrixXd& rows, Eigen::Index columns) {
-  Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(columns, columns);
-  Eigen::Index count = 0;
-  for (const Block& block : blocks_of(rows, columns)) {
-    const Eigen::Index size = static_cast<Eigen::Index>(block.columns.size());
-    Eigen::MatrixXd own = Eigen::MatrixXd::Identity(size, size);
-    if (!block.rows.empty()) {
-      const Eigen::MatrixXd transposed = rows(block.rows, block.columns).transpose();
-      own = PivotedQr(transposed, row_rank_tolerance).normal_space();
-    }
-    basis(block.columns, Eigen::seqN(count, own.cols())) = own;
-    count += own.cols();
-  }
-  return basis.leftCols(count);
+/// An orthonormal basis of {x : rows x = 0}.
+Eigen::MatrixXd null_space(const Eigen::MatrixXd& rows) {
+  return null_space_of_rows(rows.sparseView(), row_rank_tolerance);
 }
 
 /// S R_q S of one term.
@@ -180,7 +139,7 @@ Eigen::MatrixXd rigid_motions(const Mechanism& mechanism, const Eigen::MatrixXd&
   for (Eigen::Index i = 0; i < phi.cols(); ++i) {
     if (!is_elastic[i]) rigid.push_back(i);
   }
-  const Eigen::MatrixXd of_frames = null_space(phi(Eigen::all, rigid), rigid.size());
+  const Eigen::MatrixXd of_frames = null_space(phi(Eigen::all, rigid));
   Eigen::MatrixXd motions = Eigen::MatrixXd::Zero(phi.cols(), of_frames.cols());
   motions(rigid, Eigen::all) = of_frames;
   return motions;
@@ -189,7 +148,7 @@ Eigen::MatrixXd rigid_motions(const Mechanism& mechanism, const Eigen::MatrixXd&
 Eigen::MatrixXd deformations_beside(const Eigen::MatrixXd& phi, const Eigen::MatrixXd& motions) {
   Eigen::MatrixXd rows(phi.rows() + motions.cols(), phi.cols());
   rows << phi, motions.transpose();
-  return null_space(rows, phi.cols());
+  return null_space(rows);
 }
 
 Eigen::MatrixXd resistance_of_springs(const Mechanism& mechanism, const State& state) {
