@@ -15,6 +15,8 @@ namespace {
 
 /// Columns of a block.
 constexpr int width = 4;
+/// Up to so many blocks of a row are taken one by one, which is faster than runs of a few.
+constexpr int most_single = 12;
 
 std::vector<int> inverse_of(const std::vector<int>& order) {
   std::vector<int> inverse(order.size());
@@ -128,32 +130,38 @@ void PivotedFactors::place_factors(const RowLists& rows, const Layout& layout) {
   const int size = int_size(rows);
   of_lower_ = Columns(rows, [](int row, int column) { return column < row; });
   of_upper_ = Columns(rows, [](int row, int column) { return column > row; });
-  upper_start_ = {0};
-  std::vector<int> first_block, next_target, block_in_row(block_of(size) + 1);
-  int targets = 0;
+  upper_start_ = run_start_ = {0};
+  std::vector<int> first_blocks;  // of the runs
   for (int k = 0; k < size; ++k) {
     diagonal_.push_back(layout.place(k, k));
     const int first = diagonal_.back() / width, end = layout.start[k + 1];
-    first_block.push_back(first);
+    for (int b = first; b < end; ++b) {
+      if (end - first <= most_single || b == first || layout.block[b] > layout.block[b - 1] + 1) {
+        first_blocks.push_back(layout.block[b]);
+        run_length_.push_back(0);
+      }
+      run_length_.back() += width;
+    }
     upper_start_.push_back(upper_start_.back() + end - first);
-    is_whole_.push_back(layout.block[end - 1] - layout.block[first] == end - 1 - first);
-    next_target.push_back(targets);
-    targets += (is_whole_.back() ? 1 : end - first) * (of_lower_.start[k + 1] - of_lower_.start[k]);
+    run_start_.push_back(int_size(run_length_));
   }
-  targets_.resize(targets);
+  std::vector<int> next_target(size), block_in_row(block_of(size) + 1);
+  for (int k = 1; k < size; ++k) {
+    const int runs = run_start_[k] - run_start_[k - 1];
+    next_target[k] = next_target[k - 1] + runs * (of_lower_.start[k] - of_lower_.start[k - 1]);
+  }
+  targets_.resize(next_target.empty() ? 0 : next_target.back());  // nothing is below the last row
   std::vector<int> next_lower = of_lower_.start, next_upper = of_upper_.start;
   for (int i = 0; i < size; ++i) {
     for (int b = layout.start[i]; b < layout.start[i + 1]; ++b) block_in_row[layout.block[b]] = b;
+    const int to_upper = width * upper_start_[i] - diagonal_[i] / width * width;
     for (const int k : rows[i]) {
       const int place = width * block_in_row[block_of(k)] + k % width;
-      if (k > i) {
-        of_upper_.add(next_upper[k]++, i, place + width * (upper_start_[i] - first_block[i]));
-      } else if (k < i) {
-        of_lower_.add(next_lower[k]++, i, place);
-        const int end = is_whole_[k] ? first_block[k] + 1 : layout.start[k + 1];
-        for (int b = first_block[k]; b < end; ++b) {
-          targets_[next_target[k]++] = width * block_in_row[layout.block[b]];
-        }
+      if (k > i) of_upper_.add(next_upper[k]++, i, place + to_upper);
+      if (k >= i) continue;
+      of_lower_.add(next_lower[k]++, i, place);
+      for (int run = run_start_[k]; run < run_start_[k + 1]; ++run) {
+        targets_[next_target[k]++] = width * block_in_row[first_blocks[run]];
       }
     }
   }
@@ -176,6 +184,7 @@ PivotedFactors::Columns::Columns(const RowLists& rows, const Has& has) : start(r
 void PivotedFactors::factorize(const Matrix& matrix) {
   using Numbers = Eigen::Array<double, width, 1>;
   using Place = Eigen::Map<Numbers>;
+  using ConstPlace = Eigen::Map<const Numbers>;
   const std::array<Numbers, width> behind_pivot = {
       {{0.0, 1.0, 1.0, 1.0}, {0.0, 0.0, 1.0, 1.0}, {0.0, 0.0, 0.0, 1.0}, {0.0, 0.0, 0.0, 0.0}}};
   double* const rows = rows_.data();
@@ -192,13 +201,18 @@ void PivotedFactors::factorize(const Matrix& matrix) {
     for (int i = of_lower_.start[k]; i < of_lower_.start[k + 1]; ++i) {
       // Not back to its place: vectors are not read fast from where a number has just been written.
       const double factor = lower_(i) = rows[of_lower_.place[i]] * inverse;
-      if (is_whole_[k]) {
-        double* const to = rows + *target++;
-        for (int b = 0; b < width * blocks; b += width) Place(to + b) -= factor * Place(upper + b);
-      } else {
-        for (int b = 0; b < width * blocks; b += width) {
-          Place(rows + *target++) -= factor * Place(upper + b);
+      if (blocks <= most_single) {
+        for (int j = 0; j < width * blocks; j += width) {
+          Place(rows + *target++) -= factor * ConstPlace(upper + j);
         }
+        continue;
+      }
+      const double* from = upper;
+      for (int run = run_start_[k]; run < run_start_[k + 1]; ++run) {
+        double* const to = rows + *target++;
+        const int length = run_length_[run];
+        for (int j = 0; j < length; j += width) Place(to + j) -= factor * ConstPlace(from + j);
+        from += length;
       }
     }
   }

@@ -69,9 +69,10 @@ class PivotedFactors {
   std::vector<int> upper_start_;  ///< the first block of each row of U, in upper_
   Eigen::VectorXd upper_;         ///< blocks of U, with zeros at and before the pivot
   Eigen::VectorXd inverse_;       ///< 1 / u_kk
-  std::vector<int> targets_;  ///< where rows of U are subtracted: of each block, or of a whole row
-  std::vector<char> is_whole_;  ///< rows of U without gaps: one target for all of their blocks
-  std::vector<double> rhs_;     ///< permuted
+  std::vector<int> run_start_;    ///< the first run of blocks of each row of U, in:
+  std::vector<int> run_length_;   ///< in numbers
+  std::vector<int> targets_;      ///< where runs are subtracted from the rows below, in order
+  std::vector<double> rhs_;       ///< permuted
 };
 
 }  // namespace pleuel

@@ -1,4 +1,5 @@
 #include <fstream>
+#include <limits>
 
 #include "tests/cli/program.hpp"
 #include "tests/cli/readback.hpp"
@@ -21,12 +22,16 @@ TEST_F(Show, SaysWhatJointsLeaveFreeAndHowLongItTakes) {
   EXPECT_THAT(run.out, HasSubstr("Time: one simulation takes about "));
 }
 
-/// Some seven periods in place of one: more than times of the same work ever differ.
+/// Some seven periods in place of one: more than the least of some times of the same work ever differ.
 TEST_F(Show, ExpectsTheSearchForAMotionThatRepeatsItself) {
   const auto expected = [&](const std::string& start) {
-    const ProgramRun run = folder_.run({"show", problem("running_press"), "-o", start + ".html",
-                                        "--json", "--set", "/simulation/initial_state=" + start});
-    return run.document().at("seconds").at("simulate").get<double>();
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 4; ++i) {
+      const ProgramRun run = folder_.run({"show", problem("running_press"), "-o", start + ".html",
+                                          "--json", "--set", "/simulation/initial_state=" + start});
+      least = std::min(least, run.document().at("seconds").at("simulate").get<double>());
+    }
+    return least;
   };
   EXPECT_GT(expected("periodic"), 2.0 * expected("consistent"));
 }
