@@ -22,14 +22,15 @@ Eigen::MatrixXd random_matrix(const std::vector<int>& rows, const std::vector<in
   const auto size = static_cast<Eigen::Index>(rows.size());
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Random(size, size);
   matrix = matrix.unaryExpr([&](double entry) { return random() % 4 == 0 ? entry : 0.0; });
-  for (std::size_t k = 0; k < rows.size(); ++k) matrix(rows[k], columns[k]) = 10.0;
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    matrix(rows[k], columns[k]) = 10.0 + 0.5 * static_cast<double>(size);
   return matrix;
 }
 
-/// Sizes around those of blocks, and numbers of columns around those of groups.
+/// Sizes around those of blocks, long rows with gaps, and numbers of columns around those of groups.
 TEST(PivotedFactors, SolveWhatTheMatrixMultiplies) {
   std::mt19937 random(3);
-  for (const int size : {1, 2, 3, 4, 5, 7, 8, 9, 31, 64}) {
+  for (const int size : {1, 2, 3, 4, 5, 7, 8, 9, 31, 64, 150}) {
     const std::vector<int> rows = random_order(size, random), columns = random_order(size, random);
     const Eigen::MatrixXd first = random_matrix(rows, columns, random);
     PivotedFactors factors(first.sparseView(), rows, columns);
