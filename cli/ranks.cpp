@@ -13,7 +13,7 @@
 #include "core/base/error.hpp"
 #include "core/jobs/rank_place.hpp"
 #include "optimization/design/multi_start.hpp"
-#include "optimization/design/size_trials.hpp"
+#include "optimization/design/size_lists.hpp"
 #include "studies/front_ends.hpp"
 #include "studies/pareto.hpp"
 #include "studies/uncertainty.hpp"

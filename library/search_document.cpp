@@ -4,7 +4,7 @@
 #include "cli/reports/starts_report.hpp"
 #include "core/base/stop.hpp"
 #include "library/call_error.hpp"
-#include "optimization/design/whole_search.hpp"
+#include "optimization/design/multi_start.hpp"
 
 namespace pleuel {
 

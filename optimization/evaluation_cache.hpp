@@ -7,8 +7,8 @@
 
 #include "core/base/int_size.hpp"
 #include "core/base/stopwatch.hpp"
-#include "optimization/history.hpp"
 #include "optimization/problem.hpp"
+#include "optimization/result.hpp"
 
 namespace pleuel {
 

@@ -1,5 +1,3 @@
-#include "optimization/find_optimum.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -9,10 +7,11 @@
 #include <fmt/format.h>
 
 #include "core/base/eager_matrices.hpp"
+#include "core/base/stopwatch.hpp"
 #include "optimization/backends.hpp"
-#include "optimization/prices.hpp"
-#include "optimization/problem_decorator.hpp"
+#include "optimization/kkt_audit.hpp"
 #include "optimization/scaling.hpp"
+#include "optimization/solve.hpp"
 
 namespace pleuel {
 
@@ -32,6 +31,59 @@ constexpr double part_of_reference = 1e-3;
 constexpr int most_restorations = 2;
 /// Iterations of each optimization that looks for the least violation.
 constexpr int least_violation_iterations = 60;
+
+/// A problem that begins at another design.
+class StartedProblem : public ProblemDecorator {
+ public:
+  StartedProblem(Problem& problem, const Eigen::VectorXd& start)
+      : ProblemDecorator(problem), variables_(problem.variables()) {
+    set_start(variables_, start);
+  }
+
+  const std::vector<Variable>& variables() const override { return variables_; }
+
+ private:
+  std::vector<Variable> variables_;
+};
+
+/// A problem all of whose evaluations count as those of a restoration, whoever asks for them: they are added
+/// to a run.
+class RecordedProblem : public ProblemDecorator {
+ public:
+  using Completed = std::function<EvaluationRecord(EvaluationRecord)>;
+
+  /// @param problem    must outlive this, and so must the observer
+  /// @param run        gets effort and history
+  /// @param completed  fills in what is not known here of a record, such as violations
+  RecordedProblem(Problem& problem, Result& run, Completed completed, const Observer& observer)
+      : ProblemDecorator(problem),
+        run_(run),
+        seconds_before_(run.seconds),
+        completed_(std::move(completed)),
+        observer_(observer) {}
+
+  Evaluation evaluate(const Eigen::VectorXd& x, Request request) override {
+    Attempt attempt = attempt_evaluation(problem(), x, request);
+    const int gradients = request == Request::values_and_gradients ? 1 : 0;
+    run_.gradient_evaluations += gradients;
+    EvaluationRecord record = record_of(x, request, attempt);
+    record.purpose = Purpose::restoration;
+    record.evaluation = ++run_.evaluations;
+    record.iteration = run_.iterations += gradients;
+    record.seconds = run_.seconds = seconds_before_ + watch_.seconds();
+    run_.history.push_back(record.has_failed() ? record : completed_(record));
+    show(observer_, run_.history.back());
+    if (record.has_failed()) throw EvaluationFailure(attempt.failure);
+    return std::move(*attempt.evaluation);
+  }
+
+ private:
+  Result& run_;
+  double seconds_before_;
+  Completed completed_;
+  const Observer& observer_;
+  Stopwatch watch_;
+};
 
 /// A backend, and the size of its first steps.
 struct BackendSetup {

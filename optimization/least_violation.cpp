@@ -6,7 +6,6 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "optimization/phase_one.hpp"
-#include "optimization/phase_one_problem.hpp"
 #include "optimization/scaling.hpp"
 #include "optimization/solve.hpp"
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -113,6 +114,33 @@ class FunctionProblem : public Problem {
   Function function_;
 };
 
+/// Another problem, whose answers derived classes change or follow: the base of all that makes one problem of
+/// another with the same variables.
+class ProblemDecorator : public Problem {
+ public:
+  /// @param problem  must outlive this
+  explicit ProblemDecorator(Problem& problem) : problem_(problem) {}
+
+  const std::vector<Variable>& variables() const override { return problem_.variables(); }
+  const std::vector<Constraint>& constraints() const override { return problem_.constraints(); }
+  std::string objective_name() const override { return problem_.objective_name(); }
+  std::string variable_text(std::size_t variable, double value) const override {
+    return problem_.variable_text(variable, value);
+  }
+  std::string constraint_text(std::size_t constraint, double value) const override {
+    return problem_.constraint_text(constraint, value);
+  }
+  Evaluation evaluate(const Eigen::VectorXd& x, Request request) override {
+    return problem_.evaluate(x, request);
+  }
+
+ protected:
+  Problem& problem() { return problem_; }
+
+ private:
+  Problem& problem_;
+};
+
 /// The outcome of an evaluation that may fail: the evaluation, or why there is none.
 struct Attempt {
   std::optional<Evaluation> evaluation;
@@ -139,5 +167,32 @@ Eigen::VectorXd within_bounds(const Problem& problem, Eigen::VectorXd x);
 
 /// "width = 20 mm, height = 30 mm": a design for messages.
 std::string describe_design(const Problem& problem, const Eigen::VectorXd& x);
+
+/// Designs that fill the space between the bounds evenly: a Latin hypercube (McKay, Beckman &
+/// Conover 1979), each variable once in each of `count` equal parts of its range. Where a bound is
+/// missing (or beyond 1e19), the range reaches ten times the larger of |start| and the magnitude of
+/// the variable away from the start. The same on every machine.
+/// @param seed  other designs for other seeds
+/// @throws InputError names a variable without bounds, start and magnitude
+std::vector<Eigen::VectorXd> latin_hypercube(const std::vector<Variable>& variables, int count,
+                                             unsigned seed);
+
+/// Numbers of generic size, the same in every run. The engine's raw numbers are prescribed by the
+/// standard, unlike those of its distributions.
+class GenericNumbers {
+ public:
+  /// In [0, 1].
+  double part() { return static_cast<double>(engine_()) / std::mt19937::max(); }
+  /// In [1/2, 1].
+  double size() { return 0.5 + 0.5 * part(); }
+  /// In [1/2, 1] or [−1, −1/2].
+  double signed_size() {
+    const double magnitude = size();
+    return engine_() % 2 == 0 ? magnitude : -magnitude;
+  }
+
+ private:
+  std::mt19937 engine_;
+};
 
 }  // namespace pleuel

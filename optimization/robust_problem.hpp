@@ -1,6 +1,6 @@
 #pragma once
 
-#include "optimization/problem_decorator.hpp"
+#include "optimization/problem.hpp"
 
 namespace pleuel {
 

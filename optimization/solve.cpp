@@ -11,8 +11,7 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "optimization/backends.hpp"
-#include "optimization/polish.hpp"
-#include "optimization/prices.hpp"
+#include "optimization/kkt_audit.hpp"
 #include "optimization/scaling.hpp"
 
 namespace pleuel {
@@ -53,6 +52,55 @@ EvaluationCache make_cache(Problem& problem, const EvaluatedDesign& start,
   const Eigen::VectorXd variables = variable_scales(problem, start.x);
   const Eigen::VectorXd constraints = constraint_scales(problem, start.evaluation, variables);
   return EvaluationCache(problem, start, {variables, constraints}, std::move(watch));
+}
+
+/// The backend that polishes. Its steps near an optimum are those of Newton's method on the KKT
+/// conditions, with the Hessian that it learns.
+constexpr const char* polisher = "nlopt-slsqp";
+
+/// Iterations and evaluations of the whole run.
+struct PolishBudget {
+  int iterations = 0;
+  int evaluations = 0;
+};
+
+constexpr double near_optimum = 0.1;        ///< KKT residual
+constexpr double near_limits = 1e-2;        ///< relative violation
+constexpr double part_of_gain = 0.1;        ///< that is left of Tolerances::gain without a polish
+constexpr double polish_tolerance = 1e-10;  ///< a small part changes the objective by little
+constexpr double least_terms = 1e-6;        ///< of T_max: balanced up to here
+constexpr int consecutive_failures = 3;
+/// Evaluations without gradients: near an optimum a full step does, or noise is all there is.
+constexpr int line_search = 10;
+
+Eigen::VectorXd balance(const KktAudit& audit) {
+  const double largest = audit.terms.maxCoeff();
+  if (!(largest > 0.0)) return Eigen::VectorXd::Ones(audit.terms.size());
+  return (audit.terms / largest).cwiseMax(least_terms).cwiseInverse().cwiseSqrt();
+}
+
+/// Whether a design is so near an optimum that a few steps are likely to prove or improve it:
+/// limits nearly kept, KKT residual below 0.1, and either unproven, or proven with more than a
+/// tenth of Tolerances::gain left.
+bool is_worth_polishing(const Verdict& verdict, const Tolerances& tolerances) {
+  if (verdict.status == Status::verified) {
+    return verdict.gain_left > part_of_gain * tolerances.gain;
+  }
+  return !verdict.gradients_are_disproved && !verdict.better_neighbour &&
+         verdict.design.max_violation <= near_limits && verdict.audit.residual <= near_optimum;
+}
+
+/// Goes on from a design with the polisher and a tight tolerance, in variables that are balanced:
+/// with the terms T of the audit, each s_i is multiplied with √(T_max / T_i), since a part of the
+/// objective has a curvature of about its terms. A Hessian near 1 is what the polisher begins with;
+/// small parts would come after many steps only.
+/// @returns the design where it ends, within its bounds
+Eigen::VectorXd polish(EvaluationCache& cache, const EvaluatedDesign& from, const KktAudit& audit,
+                       const PolishBudget& budget) {
+  return run_backend(cache, from, polisher, polish_tolerance,
+                     {budget.iterations, budget.evaluations, consecutive_failures, line_search, 0},
+                     balance(audit))
+      .x;
 }
 
 /// One optimization from a start that could be evaluated.

@@ -12,7 +12,7 @@
 #include "core/base/error.hpp"
 #include "core/base/relative_error.hpp"
 #include "core/jobs/parallel.hpp"
-#include "optimization/generic_numbers.hpp"
+#include "optimization/problem.hpp"
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/kinks.hpp"
 #include "sensitivity/sampled_gradients.hpp"

@@ -9,7 +9,7 @@
 #include "core/base/error.hpp"
 #include "core/jobs/parallel.hpp"
 #include "core/response/analysis.hpp"
-#include "optimization/generic_numbers.hpp"
+#include "optimization/problem.hpp"
 #include "sensitivity/finite_difference.hpp"
 
 namespace pleuel {

@@ -18,11 +18,10 @@
 #include "optimization/design/design_problem.hpp"
 #include "optimization/design/size_choice.hpp"
 #include "optimization/design/size_lists.hpp"
-#include "optimization/design/size_trials.hpp"
 #include "optimization/scaling.hpp"
 #include "studies/front_ends.hpp"
 #include "studies/missing_settings.hpp"
-#include "studies/varied_limit.hpp"
+#include "studies/pareto_point.hpp"
 
 namespace pleuel {
 

@@ -6,10 +6,24 @@
 #include "core/scene/problem_file.hpp"
 #include "optimization/evaluation_store.hpp"
 #include "optimization/solve.hpp"
-#include "studies/pareto_front.hpp"
+#include "studies/front_gaps.hpp"
+#include "studies/pareto_point.hpp"
 #include "studies/point_searches.hpp"
 
 namespace pleuel {
+
+/// Of sizes from lists, where all choices were simulated.
+struct ChoiceCounts {
+  int all = 0, failed = 0;  ///< failed: could not be simulated
+  int feasible = 0;         ///< keep the limits other than the one that is varied
+};
+
+struct ParetoFront {
+  std::vector<ParetoPoint> points;  ///< in the order of limits
+  FrontGaps gaps;                   ///< of a front that was asked for a gap
+  std::optional<ChoiceCounts> choices;
+  bool is_whole = true;  ///< no stop was asked for before its end
+};
 
 /// The order in which points are found, and the one that each begins at: ends first, then the
 /// middle of each gap from the nearer end of it.

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
-#include "optimization/prices.hpp"
+#include <Eigen/Core>
+
+#include "core/scene/problem_file.hpp"
 #include "optimization/result.hpp"
 #include "studies/front_ends.hpp"
 #include "studies/sized_search.hpp"
@@ -53,5 +56,31 @@ void mark_dominated(std::vector<ParetoPoint>& points, GoodSide side);
 /// @returns the index of the point; none where less than three count, or where all are within 5 % of
 ///          the line: such a front is traded at one price
 std::optional<std::size_t> find_knee(const std::vector<ParetoPoint>& points, GoodSide side);
+
+// The limit that a front varies (ParetoSettings::constraint).
+
+/// Of a limit that holds in several load cases all its constraints, else one.
+/// @throws InputError if there is none
+std::vector<std::size_t> varied_rows(const ProblemFile& problem);
+
+/// Which of its values are good.
+GoodSide good_side(const ProblemFile& problem);
+
+/// @param limit  [SI]
+void set_limit(ProblemFile& problem, double limit);
+
+/// The value that is the nearest to the limit, or the furthest beyond [SI].
+double limited_value(const ProblemFile& problem, const Eigen::VectorXd& constraints);
+
+/// Of all constraints of the limit together, which moves in all of them.
+double multiplier_of_limit(const ProblemFile& problem, const Eigen::VectorXd& multipliers);
+
+/// Whether the goals can be exchanged: between two responses, or of one problem without load cases
+/// whose limit is on a response, not on a sum of variables, and is kept free of no deviations.
+bool can_exchange_goals(const ProblemFile& problem);
+
+/// The problem that improves what is limited, with a limit on the objective.
+/// @param objective_limit  [SI], of what is maximized the negative
+ProblemFile with_exchanged_goals(ProblemFile problem, double objective_limit);
 
 }  // namespace pleuel

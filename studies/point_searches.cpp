@@ -10,13 +10,13 @@
 #include "optimization/design/design_problem.hpp"
 #include "optimization/design/design_solve.hpp"
 #include "optimization/design/size_choice.hpp"
-#include "optimization/design/size_trials.hpp"
+#include "optimization/design/size_lists.hpp"
 #include "optimization/evaluation_store.hpp"
 #include "optimization/result.hpp"
 #include "optimization/solve.hpp"
 #include "studies/front_ends.hpp"
+#include "studies/pareto_point.hpp"
 #include "studies/sized_search.hpp"
-#include "studies/varied_limit.hpp"
 
 namespace pleuel {
 

@@ -8,7 +8,6 @@
 #include "core/base/error.hpp"
 #include "optimization/design/peak_windows.hpp"
 #include "optimization/kkt_audit.hpp"
-#include "optimization/prices.hpp"
 #include "optimization/scaling.hpp"
 
 namespace pleuel {

@@ -13,7 +13,7 @@
 #include "core/scene/packed_problem.hpp"
 #include "core/scene/sample_extent.hpp"
 #include "core/trust/checks.hpp"
-#include "optimization/design/setting_text.hpp"
+#include "optimization/design/design_case.hpp"
 #include "optimization/evaluation_store.hpp"
 #include "optimization/verdict.hpp"
 #include "sensitivity/history_gradients.hpp"

@@ -22,7 +22,7 @@
 #include "core/scene/shown_unit.hpp"
 #include "core/trust/checks.hpp"
 #include "core/trust/refined_runs.hpp"
-#include "optimization/prices.hpp"
+#include "optimization/result.hpp"
 #include "picture/companions.hpp"
 
 namespace pleuel {

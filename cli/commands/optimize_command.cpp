@@ -12,9 +12,9 @@
 #include "core/scene/body_rules.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/trust/lint.hpp"
-#include "optimization/design/optimum_error.hpp"
+#include "optimization/design/multi_start.hpp"
+#include "optimization/design/number_judgement.hpp"
 #include "optimization/design/staged_solve.hpp"
-#include "optimization/design/whole_search.hpp"
 
 namespace pleuel {
 

@@ -13,7 +13,7 @@
 #include "core/response/divided_deflection.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "optimization/verdict.hpp"
-#include "studies/varied_limit.hpp"
+#include "studies/pareto_point.hpp"
 
 namespace pleuel {
 

@@ -4,7 +4,7 @@
 #include "cli/reports/warnings.hpp"
 #include "core/response/analysis.hpp"
 #include "sensitivity/kinks.hpp"
-#include "studies/pareto_front.hpp"
+#include "studies/pareto.hpp"
 
 /// How one simulated design stands to the limits of its problem, without the margins that
 /// `deviations` ask for.

@@ -11,7 +11,7 @@
 #include "core/base/number_text.hpp"
 #include "core/scene/case_goals.hpp"
 #include "core/scene/response_quantity.hpp"
-#include "optimization/prices.hpp"
+#include "optimization/result.hpp"
 
 namespace pleuel {
 

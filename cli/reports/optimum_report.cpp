@@ -13,7 +13,7 @@
 #include "core/base/find_named.hpp"
 #include "core/base/number_text.hpp"
 #include "core/scene/case_goals.hpp"
-#include "optimization/prices.hpp"
+#include "optimization/result.hpp"
 
 namespace pleuel {
 

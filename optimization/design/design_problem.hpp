@@ -9,7 +9,6 @@
 
 #include "core/scene/shown_unit.hpp"
 #include "optimization/design/design_case.hpp"
-#include "optimization/design/rows_over_cases.hpp"
 #include "optimization/problem.hpp"
 
 namespace pleuel {

@@ -11,10 +11,9 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/stopwatch.hpp"
-#include "optimization/broken_limits.hpp"
 #include "optimization/design/size_lists.hpp"
-#include "optimization/design/size_trials.hpp"
 #include "optimization/linear_choice.hpp"
+#include "optimization/result.hpp"
 #include "optimization/scaling.hpp"
 
 namespace pleuel {

@@ -201,87 +201,20 @@ class StagedSolve {
   StagedSolution solution_;
 };
 
-/// Bodies that are made anew for each design are made for few. The verdict is over a design that they were
-/// made for: where the audited search ends elsewhere, they are made there, and it begins again.
-class MadeSolve {
- public:
-  MadeSolve(const ProblemFile& file, const SolveOptions& options, const Execution& execution,
-            const Observer& observer, const Notice& notice)
-      : bodies_(file),
-        options_(options),
-        execution_(execution),
-        observer_(observer),
-        notice_(notice) {
-    options_.takes_verified_start = true;
-  }
-
-  StagedSolution run(const Eigen::VectorXd& x) {
-    if (!make_at(x)) return solve(bodies_.original(), x);
-    made_for_ = search_between_calls(bodies_, x, options_, execution_, before_, observer_, notice_);
-    StagedSolution solution = solve(bodies_.continued(), made_for_);
-    bool can_go_on = true;
-    for (int round = 1; round < most_judgements && can_go_on && has_left(solution); ++round) {
-      can_go_on = make_at(solution.result.x);
-      notify(notice_, can_go_on
-                          ? "bodies were made for the design that was found, which is judged again"
-                          : "the last design that bodies were made for is judged in its place");
-      if (!can_go_on) options_.max_iterations = 1;
-      ProblemFile next = solution.problem->file();
-      next.accuracy.chooses_setting = false;  // that is done
-      std::vector<Stage> stages = std::move(solution.stages);
-      solution = solve(bodies_.continued(std::move(next)), made_for_);
-      stages.insert(stages.end(), solution.stages.begin(), solution.stages.end());
-      solution.stages = std::move(stages);
-    }
-    return solution;
-  }
-
- private:
-  static constexpr int most_judgements = 5;
-
-  /// @returns whether there are bodies
-  bool make_at(const Eigen::VectorXd& x) {
-    try {
-      bodies_.make_at(x);
-      made_for_ = x;
-      return true;
-    } catch (const SimulationError& failure) {
-      notify(notice_, failure.what());
-      return false;
-    }
-  }
-
-  bool has_left(const StagedSolution& solution) const {
-    return solution.result.evaluation.has_gradients() && !bodies_.are_made_at(solution.result.x);
-  }
-
-  StagedSolution solve(const ProblemFile& file, const Eigen::VectorXd& x) {
-    StagedSolution solution;
-    before_ = run_after(before_, observer_, [&](const Observer& observer) {
-      solution = StagedSolve(file, options_, execution_, observer, notice_).run(x);
-      return std::move(solution.result);
-    });
-    solution.result = before_;
-    return solution;
-  }
-
-  MadeBodies bodies_;
-  SolveOptions options_;
-  const Execution& execution_;
-  Result before_;             ///< effort and history so far
-  Eigen::VectorXd made_for_;  ///< the last design with bodies
-  const Observer& observer_;
-  const Notice& notice_;
-};
-
 }  // namespace
 
 StagedSolution solve_in_stages(const ProblemFile& file, const Eigen::VectorXd& start,
                                const SolveOptions& options, const Execution& execution,
                                const Observer& observer, const Notice& notice) {
   if (has_made_bodies(file)) {
-    return MadeSolve(file, options, execution, observer, notice).run(start);
+    return solve_with_made_bodies(file, start, options, execution, observer, notice);
   }
+  return solve_stages(file, start, options, execution, observer, notice);
+}
+
+StagedSolution solve_stages(const ProblemFile& file, const Eigen::VectorXd& start,
+                            const SolveOptions& options, const Execution& execution,
+                            const Observer& observer, const Notice& notice) {
   return StagedSolve(file, options, execution, observer, notice).run(start);
 }
 

@@ -45,4 +45,9 @@ StagedSolution solve_in_stages(const ProblemFile& file, const Eigen::VectorXd& s
                                const SolveOptions& options, const Execution& execution,
                                const Observer& observer = {}, const Notice& notice = {});
 
+/// The same with bodies that are made anew for each design as they are.
+StagedSolution solve_stages(const ProblemFile& file, const Eigen::VectorXd& start,
+                            const SolveOptions& options, const Execution& execution,
+                            const Observer& observer, const Notice& notice);
+
 }  // namespace pleuel

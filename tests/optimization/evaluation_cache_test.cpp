@@ -1,7 +1,7 @@
 #include "optimization/evaluation_cache.hpp"
 
 #include "core/base/eager_matrices.hpp"
-#include "optimization/history.hpp"
+#include "optimization/result.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::evaluation_cache_test {

@@ -5,7 +5,6 @@
 #include "core/base/eager_matrices.hpp"
 #include "known_problems.hpp"
 #include "optimization/backends.hpp"
-#include "optimization/find_optimum.hpp"
 #include "optimization/scaling.hpp"
 #include "optimization/solve.hpp"
 #include "tests/support/test.hpp"

@@ -1,5 +1,3 @@
-#include "optimization/find_optimum.hpp"
-
 #include <cctype>
 #include <random>
 #include <set>
@@ -10,8 +8,8 @@
 #include "core/base/eager_matrices.hpp"
 #include "known_problems.hpp"
 #include "optimization/backends.hpp"
+#include "optimization/problem.hpp"
 #include "optimization/solve.hpp"
-#include "optimization/starts.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::find_optimum_test {

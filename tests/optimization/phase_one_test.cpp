@@ -6,9 +6,6 @@
 #include "core/base/eager_matrices.hpp"
 #include "known_problems.hpp"
 #include "optimization/kkt_audit.hpp"
-#include "optimization/phase_one_problem.hpp"
-#include "optimization/restoration.hpp"
-#include "optimization/violation_step.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::phase_one_test {

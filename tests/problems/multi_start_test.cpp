@@ -2,7 +2,7 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "optimization/backends.hpp"
-#include "optimization/design/setting_text.hpp"
+#include "optimization/design/design_case.hpp"
 #include "tests/optimization/backend_names.hpp"
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"

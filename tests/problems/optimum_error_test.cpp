@@ -1,8 +1,7 @@
-#include "optimization/design/optimum_error.hpp"
-
 #include "core/base/eager_matrices.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "optimization/design/design_solve.hpp"
+#include "optimization/design/number_judgement.hpp"
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/source_folder.hpp"
 #include "tests/support/test.hpp"

@@ -6,7 +6,6 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "optimization/design/design_solve.hpp"
-#include "studies/priced_numbers.hpp"
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/source_folder.hpp"
 #include "tests/support/test.hpp"
