@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "core/base/int_size.hpp"
-#include "studies/front_ends.hpp"
 
 namespace pleuel {
 

@@ -21,7 +21,6 @@
 #include "optimization/scaling.hpp"
 #include "studies/front_ends.hpp"
 #include "studies/missing_settings.hpp"
-#include "studies/pareto_point.hpp"
 
 namespace pleuel {
 
@@ -75,20 +74,6 @@ ProblemFile trade_off_problem(ProblemFile problem) {
 
 namespace {
 
-/// An end as a point of the front.
-FoundPoint point_of(const FrontEnd& end, const ProblemFile& problem, const Execution& execution) {
-  FoundPoint found;
-  found.start = end.result.x;
-  ParetoPoint& point = found.point;
-  point.is_end = true;
-  point.is_choice = has_choices(problem);
-  point.result = end.result;
-  point.sizes = end.sizes;
-  point.limit = point.limited_value = end.values[1];
-  take_as_point(point, problem, execution.store);
-  return found;
-}
-
 /// The front as it grows.
 class Front {
  public:
@@ -136,7 +121,10 @@ class Front {
     for (const FrontProbe& probe : probes) {
       PointSearch search{probe.limit, std::nullopt, found_[probe.from].next_start()};
       if (probe.other != probe.from) search.other = found_[probe.other].next_start();
-      search.objective_limit = probe.objective_limit;
+      if (probe.objective_limit) {
+        search.objective_limit = probe.objective_limit;
+        search.other_problem = with_exchanged_goals(problem_, *probe.objective_limit);
+      }
       searches.push_back(std::move(search));
     }
     return searches;
@@ -184,18 +172,14 @@ ParetoFront front_of_ends(std::vector<FoundPoint> ends, const ParetoObserver& ob
 /// Between two responses; one point if there is nothing to trade.
 ParetoFront front_between(ProblemFile problem, const SolveOptions& options,
                           const Execution& execution, const ParetoObserver& observer) {
-  ProblemFile file = problem;
-  remove_limit(file, file.pareto->constraint);
-  std::vector<FoundPoint> ends;
-  const std::vector<FrontEnd> found = find_front_ends(file, options, execution);
-  for (const FrontEnd& end : found) ends.push_back(point_of(end, problem, execution));
+  auto [ends, scales] = find_front_ends(problem, options, execution);
   ParetoSettings& settings = *problem.pareto;
   settings.from = ends[0].point.limit;
   settings.to = ends[1].point.limit;
   const bool has_ends = ends[0].point.has_design() && ends[1].point.has_design();
   if (!has_ends) return front_of_ends(std::move(ends), observer);
-  const bool trades_limited = end_scale(found, 1).is_traded();
-  if (!trades_limited || !end_scale(found, 0).is_traded()) {
+  const bool trades_limited = scales[1].is_traded();
+  if (!trades_limited || !scales[0].is_traded()) {
     // The end that is better in what the other one is as good as.
     ends.erase(ends.begin() + (trades_limited ? 0 : 1));
     return front_of_ends(std::move(ends), observer);

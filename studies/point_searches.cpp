@@ -1,5 +1,6 @@
 #include "studies/point_searches.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/base/eager_matrices.hpp"
@@ -14,21 +15,42 @@
 #include "optimization/evaluation_store.hpp"
 #include "optimization/result.hpp"
 #include "optimization/solve.hpp"
-#include "studies/front_ends.hpp"
-#include "studies/pareto_point.hpp"
-#include "studies/sized_search.hpp"
 
 namespace pleuel {
 
 namespace {
 
+/// See PointSearch::other_problem.
+void take_as_point(ParetoPoint& point, const ProblemFile& problem, EvaluationStore* store) {
+  DesignProblem design(problem, available_threads(), store);
+  Result& result = point.result;
+  result.evaluation = design.evaluate(result.x, Request::values_and_gradients);
+  design.confirm([&](const Eigen::VectorXd& x) { return x == result.x; });
+  result.constraint_multipliers = Eigen::VectorXd::Zero(result.evaluation.constraints.size());
+  result.error.reset();  // of the response that it is best for
+  point.limit = point.limited_value = limited_value(problem, result.evaluation.constraints);
+}
+
 /// A point a task.
 struct PointData {
   static constexpr const char* kind = point_work_name;
+  using Answer = FoundPoint;
 
   ProblemFile problem;
   std::vector<PointSearch> searches;
   SolveOptions options;
+
+  int count() const { return int_size(searches); }
+
+  std::optional<int> needed_by(int task) const { return searches[task].from; }
+
+  FoundPoint lost(int task, const std::string& failure) const {
+    FoundPoint found;
+    found.start = found.point.result.x = start_of(searches[task], "");
+    found.point.limit = searches[task].limit;
+    found.point.result.message = "the search was lost: " + failure;
+    return found;
+  }
 
   std::string run(int task, const std::string& needed, TaskCaller& /*caller*/,
                   EvaluationStore* known) const {
@@ -47,42 +69,33 @@ struct PointData {
     return packed(found);
   }
 
+ private:
   FoundPoint point_from(const Eigen::VectorXd& start, const PointSearch& search,
                         EvaluationStore* known) const {
-    if (search.objective_limit) return exchanged(start, search, known);
     FoundPoint found;
     found.start = start;
-    ProblemFile varied = problem;
-    set_limit(varied, search.limit);
     ParetoPoint& point = found.point;
     point.limit = search.limit;
+    point.objective_limit = search.objective_limit;
     point.is_choice = has_choices(problem);
+    ProblemFile file = search.other_problem.value_or(problem);
+    if (!search.other_problem) set_limit(file, search.limit);
     if (search.keeps_sizes) {
-      point.result = judged(varied, start, known);
+      point.result = judged(file, start, known);
     } else {
-      start_from(start, varied.variables);
-      SizedDesign best = search_with_sizes(varied, options, known);
-      found.between = std::move(best.between);
+      start_from(start, file.variables);
+      SizedDesign best = search_with_sizes(file, options, known);
+      if (!search.other_problem) found.between = std::move(best.between);
       point.sizes = best.sizes;
       point.result = std::move(best.result);
     }
     if (!point.has_design()) return found;
-    point.limited_value = limited_value(varied, point.result.evaluation.constraints);
-    point.multiplier = multiplier_of_limit(varied, point.result.constraint_multipliers);
-    return found;
-  }
-
-  /// With the limit on the objective.
-  FoundPoint exchanged(const Eigen::VectorXd& start, const PointSearch& search,
-                       EvaluationStore* known) const {
-    FoundPoint found;
-    found.start = start;
-    found.point.limit = search.limit;
-    found.point.objective_limit = search.objective_limit;
-    ProblemFile file = with_exchanged_goals(problem, *search.objective_limit);
-    start_from(start, file.variables);
-    found.point.result = search_with_sizes(file, options, known).result;
-    take_as_point(found.point, problem, known);
+    if (search.other_problem) {
+      take_as_point(point, problem, known);
+    } else {
+      point.limited_value = limited_value(file, point.result.evaluation.constraints);
+      point.multiplier = multiplier_of_limit(file, point.result.constraint_multipliers);
+    }
     return found;
   }
 
@@ -99,49 +112,30 @@ struct PointData {
   }
 };
 
-class PointSearches : public StoredTasks<PointData> {
- public:
-  PointSearches(PointData data, EvaluationStore* store, const ParetoObserver& observer)
-      : StoredTasks(std::move(data), store), observer_(observer) {}
-
-  int count() const override { return int_size(data().searches); }
-
-  std::optional<int> needed_by(int task) const override { return data().searches[task].from; }
-
-  void take(int /*task*/, const std::string& answer) override { add(unpacked<FoundPoint>(answer)); }
-
-  void fail(int task, const std::string& failure) override {
-    FoundPoint found;
-    found.start = data().start_of(data().searches[task], "");
-    found.point.limit = data().searches[task].limit;
-    found.point.result.message = "the search was lost: " + failure;
-    found.point.result.x = found.start;
-    add(std::move(found));
-  }
-
-  std::vector<FoundPoint> take_points() { return std::move(points_); }
-
- private:
-  void add(FoundPoint found) {
-    if (observer_) observer_(found.point);
-    points_.push_back(std::move(found));
-  }
-
-  const ParetoObserver& observer_;
-  std::vector<FoundPoint> points_;
-};
-
 }  // namespace
 
-void take_as_point(ParetoPoint& point, const ProblemFile& problem, EvaluationStore* store) {
-  if (!point.has_design()) return;
-  DesignProblem design(problem, available_threads(), store);
-  Result& result = point.result;
-  result.evaluation = design.evaluate(result.x, Request::values_and_gradients);
-  design.confirm([&](const Eigen::VectorXd& x) { return x == result.x; });
-  result.constraint_multipliers = Eigen::VectorXd::Zero(result.evaluation.constraints.size());
-  result.error.reset();  // of the response that it is best for
-  point.limit = point.limited_value = limited_value(problem, result.evaluation.constraints);
+SizedDesign search_with_sizes(const ProblemFile& file, const SolveOptions& options,
+                              EvaluationStore* store) {
+  StagedSolution solution;
+  solution.problem = std::make_unique<DesignProblem>(file, available_threads(), store);
+  solution.result = solve_design(*solution.problem, options);
+  if (!has_choices(file)) return {std::move(solution.result), std::move(solution.problem), {}, {}};
+  const Execution here = {{.jobs = available_threads()}, store};
+  const SizeChoiceReport report = choose_sizes(solution, options, here);
+  if (!report.is_choice && solution.result.evaluation.has_gradients()) {
+    solution.result.status = Status::failed;
+    solution.result.message = "no choice of sizes could be simulated";
+    solution.result.evaluation = {};
+  }
+  const TriedSizes sizes = {report.combinations, report.tried, report.is_exhaustive,
+                            report.penalty(solution.result.evaluation.objective)};
+  return {std::move(solution.result), std::move(solution.problem), report.relaxed_x, sizes};
+}
+
+void start_from(const Eigen::VectorXd& x, std::vector<DesignVariable>& variables) {
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    variables[i].start = std::clamp(x(i), variables[i].lower, variables[i].upper);
+  }
 }
 
 std::unique_ptr<TaskWork> make_point_work(const std::string& content) {
@@ -151,14 +145,17 @@ std::unique_ptr<TaskWork> make_point_work(const std::string& content) {
 FoundPoints search_points(const ProblemFile& problem, const std::vector<PointSearch>& searches,
                           const SolveOptions& options, const Execution& execution,
                           const ParetoObserver& observer) {
-  PointSearches tasks({problem, searches, options}, execution.store, observer);
+  AnsweredTasks<PointData> tasks({problem, searches, options}, execution.store,
+                                 [&](const FoundPoint& found) {
+                                   if (observer) observer(found.point);
+                                 });
   bool is_whole = true;
   try {
     run_tasks(tasks, execution.tasks);
   } catch (const Stopped&) {
     is_whole = false;
   }
-  return {tasks.take_points(), is_whole};
+  return {tasks.take_answers(), is_whole};
 }
 
 }  // namespace pleuel

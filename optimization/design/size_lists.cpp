@@ -174,11 +174,18 @@ EvaluationRecord only_record(const Eigen::VectorXd& x, const Attempt& attempt) {
 /// Choices to be tried, one a task.
 struct TrialData {
   static constexpr const char* kind = trial_work_name;
+  using Answer = SizeTrial;
 
   ProblemFile file;
   std::vector<Eigen::VectorXd> designs;
   Eigen::VectorXd scales;
   SolveOptions options;
+
+  int count() const { return int_size(designs); }
+
+  SizeTrial lost(int task, const std::string& failure) const {
+    return {.x = designs[task], .history = {only_record(designs[task], {std::nullopt, failure})}};
+  }
 
   std::string run(int task, const std::string& /*needed*/, TaskCaller& /*caller*/,
                   EvaluationStore* store) const {
@@ -222,29 +229,6 @@ struct TrialData {
   }
 };
 
-/// Hears of the trials.
-class Trials : public StoredTasks<TrialData> {
- public:
-  Trials(TrialData data, EvaluationStore* store)
-      : StoredTasks(std::move(data), store), trials_(this->data().designs.size()) {}
-
-  int count() const override { return int_size(trials_); }
-
-  void take(int task, const std::string& answer) override {
-    trials_[task] = unpacked<SizeTrial>(answer);
-  }
-
-  void fail(int task, const std::string& failure) override {
-    trials_[task].x = data().designs[task];
-    trials_[task].history = {only_record(data().designs[task], {std::nullopt, failure})};
-  }
-
-  std::vector<SizeTrial> take_trials() { return std::move(trials_); }
-
- private:
-  std::vector<SizeTrial> trials_;
-};
-
 }  // namespace
 
 bool is_better(const SizeTrial& one, const SizeTrial& other) {
@@ -274,9 +258,9 @@ std::vector<SizeTrial> try_sizes(const ProblemFile& file,
                                  const std::vector<Eigen::VectorXd>& designs,
                                  const Eigen::VectorXd& scales, const SolveOptions& options,
                                  const Execution& execution) {
-  Trials trials({file, designs, scales, options}, execution.store);
+  AnsweredTasks<TrialData> trials({file, designs, scales, options}, execution.store);
   run_tasks(trials, execution.tasks);
-  return trials.take_trials();
+  return trials.take_answers();
 }
 
 std::unique_ptr<TaskWork> make_trial_work(const std::string& content) {
