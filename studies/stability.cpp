@@ -10,6 +10,7 @@
 #include "core/scene/load_cases.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/trust/checks.hpp"
+#include "studies/accuracy_run.hpp"
 
 namespace pleuel {
 
@@ -65,13 +66,7 @@ StabilityRun try_to_measure(const std::filesystem::path& file, const Reading& re
   run.file = file;
   run.formulation = formulation.name;
   run.problem = read_with(file, reading, compared_formulations().front()).complete().name;
-  try {
-    measure(read_with(file, reading, formulation), run);
-  } catch (const SimulationError& error) {
-    run.failure = error.what();
-  } catch (const InputError& error) {
-    run.failure = error.what();
-  }
+  run.failure = failure_of([&] { measure(read_with(file, reading, formulation), run); });
   return run;
 }
 
