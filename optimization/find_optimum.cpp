@@ -46,45 +46,6 @@ class StartedProblem : public ProblemDecorator {
   std::vector<Variable> variables_;
 };
 
-/// A problem all of whose evaluations count as those of a restoration, whoever asks for them: they are added
-/// to a run.
-class RecordedProblem : public ProblemDecorator {
- public:
-  using Completed = std::function<EvaluationRecord(EvaluationRecord)>;
-
-  /// @param problem    must outlive this, and so must the observer
-  /// @param run        gets effort and history
-  /// @param completed  fills in what is not known here of a record, such as violations
-  RecordedProblem(Problem& problem, Result& run, Completed completed, const Observer& observer)
-      : ProblemDecorator(problem),
-        run_(run),
-        seconds_before_(run.seconds),
-        completed_(std::move(completed)),
-        observer_(observer) {}
-
-  Evaluation evaluate(const Eigen::VectorXd& x, Request request) override {
-    Attempt attempt = attempt_evaluation(problem(), x, request);
-    const int gradients = request == Request::values_and_gradients ? 1 : 0;
-    run_.gradient_evaluations += gradients;
-    EvaluationRecord record = record_of(x, request, attempt);
-    record.purpose = Purpose::restoration;
-    record.evaluation = ++run_.evaluations;
-    record.iteration = run_.iterations += gradients;
-    record.seconds = run_.seconds = seconds_before_ + watch_.seconds();
-    run_.history.push_back(record.has_failed() ? record : completed_(record));
-    show(observer_, run_.history.back());
-    if (record.has_failed()) throw EvaluationFailure(attempt.failure);
-    return std::move(*attempt.evaluation);
-  }
-
- private:
-  Result& run_;
-  double seconds_before_;
-  Completed completed_;
-  const Observer& observer_;
-  Stopwatch watch_;
-};
-
 /// A backend, and the size of its first steps.
 struct BackendSetup {
   std::string backend;
@@ -215,19 +176,38 @@ class Search {
   template <class Work>
   auto with_limit_rows(const std::string& method, const Work& work) {
     LimitRows rows = searched_.limit_rows();
-    const auto completed = [&](EvaluationRecord record) {
-      record.constraints =
-          worst_values(rows.constraint_of_row, record.constraints, problem_.constraints());
-      if (magnitudes_.size() > 0) {
-        record.max_violation = max_violation(problem_, record.constraints, magnitudes_);
-      }
-      return record;
-    };
-    RecordedProblem recorded(*rows.problem, total_, completed, observer_);
+    const Stopwatch watch;
+    const double seconds_before = total_.seconds;
+    ProblemDecorator recorded(*rows.problem, [&](const Eigen::VectorXd& x, Request request) {
+      Attempt attempt = attempt_evaluation(*rows.problem, x, request);
+      total_.seconds = seconds_before + watch.seconds();
+      record(rows.constraint_of_row, record_of(x, request, attempt));
+      if (!attempt.evaluation) throw EvaluationFailure(attempt.failure);
+      return std::move(*attempt.evaluation);
+    });
     const int evaluations = total_.evaluations;
     auto outcome = work(LimitRows{&recorded, rows.constraint_of_row});
     total_.parts.push_back({method, Status::stalled, total_.evaluations - evaluations});
     return outcome;
+  }
+
+  /// An evaluation of rows, whoever asked for it, as one of a restoration.
+  void record(const ConstraintOfRow& constraint_of_row, EvaluationRecord record) {
+    const int gradients = record.request == Request::values_and_gradients ? 1 : 0;
+    total_.gradient_evaluations += gradients;
+    record.purpose = Purpose::restoration;
+    record.evaluation = ++total_.evaluations;
+    record.iteration = total_.iterations += gradients;
+    record.seconds = total_.seconds;
+    if (!record.has_failed()) {
+      record.constraints =
+          worst_values(constraint_of_row, record.constraints, problem_.constraints());
+      if (magnitudes_.size() > 0) {
+        record.max_violation = max_violation(problem_, record.constraints, magnitudes_);
+      }
+    }
+    total_.history.push_back(std::move(record));
+    show(observer_, total_.history.back());
   }
 
   /// The start cannot be evaluated.
@@ -245,16 +225,12 @@ class Search {
     begun_elsewhere_ = true;
   }
 
-  void find_magnitudes() {
-    magnitudes_ =
-        constraint_scales(problem_, total_.evaluation, variable_scales(problem_, total_.x));
-  }
-
   /// A design within the limits.
   std::optional<Eigen::VectorXd> restored() {
     if (restorations_ == most_restorations) return std::nullopt;
     ++restorations_;
-    find_magnitudes();
+    magnitudes_ =
+        constraint_scales(problem_, total_.evaluation, variable_scales(problem_, total_.x));
     notify(notice_, "no design within the limits so far: the search goes on with the limits alone");
     const Eigen::VectorXd best = best_seen();
     const auto inside = with_limit_rows("restoration", [&](const LimitRows& rows) {

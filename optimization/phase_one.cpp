@@ -6,8 +6,6 @@
 #include <utility>
 
 #include "core/base/eager_matrices.hpp"
-#include "optimization/problem.hpp"
-#include "optimization/scaling.hpp"
 
 namespace pleuel {
 

@@ -1,11 +1,8 @@
 #include "optimization/problem.hpp"
 
-#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numeric>
-#include <random>
-#include <utility>
 
 #include <fmt/format.h>
 

@@ -114,12 +114,13 @@ class FunctionProblem : public Problem {
   Function function_;
 };
 
-/// Another problem, whose answers derived classes change or follow: the base of all that makes one problem of
-/// another with the same variables.
+/// Another problem made of one with the same variables: a function, or a derived class, says what it answers.
 class ProblemDecorator : public Problem {
  public:
-  /// @param problem  must outlive this
-  explicit ProblemDecorator(Problem& problem) : problem_(problem) {}
+  /// @param problem   must outlive this
+  /// @param function  by default the evaluation of the problem
+  explicit ProblemDecorator(Problem& problem, FunctionProblem::Function function = {})
+      : problem_(problem), function_(std::move(function)) {}
 
   const std::vector<Variable>& variables() const override { return problem_.variables(); }
   const std::vector<Constraint>& constraints() const override { return problem_.constraints(); }
@@ -131,7 +132,7 @@ class ProblemDecorator : public Problem {
     return problem_.constraint_text(constraint, value);
   }
   Evaluation evaluate(const Eigen::VectorXd& x, Request request) override {
-    return problem_.evaluate(x, request);
+    return function_ ? function_(x, request) : problem_.evaluate(x, request);
   }
 
  protected:
@@ -139,6 +140,7 @@ class ProblemDecorator : public Problem {
 
  private:
   Problem& problem_;
+  FunctionProblem::Function function_;
 };
 
 /// The outcome of an evaluation that may fail: the evaluation, or why there is none.

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -47,22 +45,9 @@ Result failed_start(const Problem& problem, const Eigen::VectorXd& x, const std:
   return result;
 }
 
-EvaluationCache make_cache(Problem& problem, const EvaluatedDesign& start,
-                           EvaluationCache::Watch watch) {
-  const Eigen::VectorXd variables = variable_scales(problem, start.x);
-  const Eigen::VectorXd constraints = constraint_scales(problem, start.evaluation, variables);
-  return EvaluationCache(problem, start, {variables, constraints}, std::move(watch));
-}
-
 /// The backend that polishes. Its steps near an optimum are those of Newton's method on the KKT
 /// conditions, with the Hessian that it learns.
 constexpr const char* polisher = "nlopt-slsqp";
-
-/// Iterations and evaluations of the whole run.
-struct PolishBudget {
-  int iterations = 0;
-  int evaluations = 0;
-};
 
 constexpr double near_optimum = 0.1;        ///< KKT residual
 constexpr double near_limits = 1e-2;        ///< relative violation
@@ -96,11 +81,8 @@ bool is_worth_polishing(const Verdict& verdict, const Tolerances& tolerances) {
 /// small parts would come after many steps only.
 /// @returns the design where it ends, within its bounds
 Eigen::VectorXd polish(EvaluationCache& cache, const EvaluatedDesign& from, const KktAudit& audit,
-                       const PolishBudget& budget) {
-  return run_backend(cache, from, polisher, polish_tolerance,
-                     {budget.iterations, budget.evaluations, consecutive_failures, line_search, 0},
-                     balance(audit))
-      .x;
+                       const ScaledProblem::Budget& budget) {
+  return run_backend(cache, from, polisher, polish_tolerance, budget, balance(audit)).x;
 }
 
 /// One optimization from a start that could be evaluated.
@@ -115,7 +97,11 @@ class Run {
 
   Result solve() {
     double tolerance = options_.tolerance;
-    if (options_.takes_verified_start && is_verified_start()) return make_result(judged(start_));
+    if (options_.takes_verified_start) {
+      cache_.set_purpose(Purpose::audit);
+      const Verdict at_start = judged(start_);
+      if (at_start.status == Status::verified) return make_result(at_start);
+    }
     Verdict verdict = polished(improve(start_, tolerance));
     while (may_restart(verdict)) {
       const EvaluatedDesign from = start_of_restart(verdict);
@@ -175,11 +161,6 @@ class Run {
         });
     reference.objective += std::copysign(curvature, reference.objective);
     return reference;
-  }
-
-  bool is_verified_start() {
-    cache_.set_purpose(Purpose::audit);
-    return judged(start_).status == Status::verified;
   }
 
   /// A better design beside this one, or this one itself.
@@ -282,9 +263,7 @@ class Run {
 
   /// nullopt if the design, or its gradients, cannot be evaluated.
   std::optional<Verdict> audit(const Eigen::VectorXd& x) {
-    for (const Verdict& verdict : verdicts_) {
-      if (verdict.design.x == x) return verdict;
-    }
+    if (const Verdict* verdict = verdict_at(x)) return *verdict;
     const std::optional<EvaluatedDesign> design = known(x);
     if (!design) return std::nullopt;
     return judged(*design);
@@ -301,11 +280,15 @@ class Run {
 
   /// Judges a design once.
   Verdict judged(const EvaluatedDesign& design) {
-    for (const Verdict& verdict : verdicts_) {
-      if (verdict.design.x == design.x) return verdict;
-    }
+    if (const Verdict* verdict = verdict_at(design.x)) return *verdict;
     verdicts_.push_back(judge(cache_, design, reference_, options_.verdict));
     return verdicts_.back();
+  }
+
+  const Verdict* verdict_at(const Eigen::VectorXd& x) const {
+    const auto found = std::ranges::find_if(
+        verdicts_, [&](const Verdict& verdict) { return verdict.design.x == x; });
+    return found == verdicts_.end() ? nullptr : &*found;
   }
 
   /// Proven before unproven, within the limits before outside; then the lower objective, or the
@@ -328,9 +311,9 @@ class Run {
 
   int max_evaluations() const { return evaluations_per_iteration * options_.max_iterations; }
 
-  PolishBudget polish_budget() const {
+  ScaledProblem::Budget polish_budget() const {
     const int iterations = options_.max_iterations + options_.polish_iterations;
-    return {iterations, evaluations_per_iteration * iterations};
+    return {iterations, evaluations_per_iteration * iterations, consecutive_failures, line_search};
   }
 
   bool has_failed_too_often() const {
@@ -431,7 +414,9 @@ Result run(Problem& problem, const SolveOptions& options, const Observer& observ
   if (!first.evaluation) return failed_start(problem, x, first.failure, options.backend, watch);
 
   EvaluatedDesign start{x, std::move(*first.evaluation)};
-  EvaluationCache cache = make_cache(problem, start, watch);
+  const Eigen::VectorXd variables = variable_scales(problem, start.x);
+  EvaluationCache cache(
+      problem, start, {variables, constraint_scales(problem, start.evaluation, variables)}, watch);
   start.max_violation = cache.history().front().max_violation;
   Run one(cache, start, options);
   return (one.*work)();

@@ -2,14 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <memory>
-#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/base/packed.hpp"
 #include "core/base/relative_error.hpp"
 #include "core/base/stop.hpp"
 #include "core/response/analysis.hpp"

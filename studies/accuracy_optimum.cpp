@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/base/packed.hpp"
 #include "core/base/stop.hpp"
 #include "optimization/design/design_solve.hpp"
 

@@ -8,7 +8,6 @@
 #include <variant>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/base/error.hpp"
 #include "core/base/relative_error.hpp"
 #include "core/trust/checks.hpp"
 #include "core/trust/refined_runs.hpp"

@@ -7,7 +7,6 @@
 #include "core/base/error.hpp"
 #include "core/base/relative_error.hpp"
 #include "core/base/stop.hpp"
-#include "core/base/stopwatch.hpp"
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/sampled_gradients.hpp"
 

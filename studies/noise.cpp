@@ -1,7 +1,6 @@
 #include "studies/noise.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <vector>
 

@@ -4,16 +4,13 @@
 #include <cmath>
 #include <iterator>
 #include <map>
-#include <optional>
 #include <utility>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/base/find_named.hpp"
 #include "core/base/int_size.hpp"
-#include "core/base/number_text.hpp"
 #include "core/base/stop.hpp"
-#include "core/jobs/parallel.hpp"
 #include "core/scene/case_goals.hpp"
 #include "optimization/design/design_problem.hpp"
 #include "optimization/design/size_choice.hpp"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"

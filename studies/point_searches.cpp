@@ -8,13 +8,10 @@
 #include "core/base/stop.hpp"
 #include "core/jobs/parallel.hpp"
 #include "core/scene/packed_problem.hpp"
-#include "optimization/design/design_problem.hpp"
 #include "optimization/design/design_solve.hpp"
 #include "optimization/design/size_choice.hpp"
 #include "optimization/design/size_lists.hpp"
-#include "optimization/evaluation_store.hpp"
 #include "optimization/result.hpp"
-#include "optimization/solve.hpp"
 
 namespace pleuel {
 

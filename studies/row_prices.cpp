@@ -1,7 +1,6 @@
 #include "studies/row_prices.hpp"
 
 #include <algorithm>
-#include <string>
 #include <vector>
 
 #include "core/base/eager_matrices.hpp"

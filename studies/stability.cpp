@@ -1,7 +1,6 @@
 #include "studies/stability.hpp"
 
 #include "core/base/eager_matrices.hpp"
-#include "core/base/error.hpp"
 #include "core/base/stop.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/response/analysis.hpp"

@@ -14,7 +14,6 @@
 #include "core/scene/sample_extent.hpp"
 #include "core/trust/checks.hpp"
 #include "optimization/design/design_case.hpp"
-#include "optimization/evaluation_store.hpp"
 #include "optimization/verdict.hpp"
 #include "sensitivity/history_gradients.hpp"
 #include "sensitivity/method_choice.hpp"

@@ -1,6 +1,5 @@
 #include "optimization/design/design_case.hpp"
 
-#include <utility>
 #include <variant>
 
 #include <fmt/format.h>

@@ -11,7 +11,6 @@
 #include "core/jobs/parallel.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/response_parts.hpp"
-#include "optimization/design/design_case.hpp"
 
 namespace pleuel {
 

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <optional>
 
 #include <fmt/format.h>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/base/number_text.hpp"
 #include "core/response/divided_deflection.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/response_parts.hpp"
@@ -21,7 +19,6 @@
 #include "optimization/linear_choice.hpp"
 #include "optimization/result.hpp"
 #include "optimization/scaling.hpp"
-#include "optimization/solve.hpp"
 
 namespace pleuel {
 

@@ -9,7 +9,6 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
-#include "core/base/int_size.hpp"
 #include "core/scene/body_source.hpp"
 #include "core/scene/continued_body.hpp"
 #include "core/scene/load_cases.hpp"

@@ -4,9 +4,7 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -15,11 +13,8 @@
 #include "core/base/number_text.hpp"
 #include "core/response/monitors.hpp"
 #include "core/scene/load_cases.hpp"
-#include "core/trust/checks.hpp"
 #include "core/trust/finding.hpp"
-#include "core/trust/trusted_run.hpp"
 #include "optimization/design/margin_problem.hpp"
-#include "optimization/result.hpp"
 #include "optimization/scaling.hpp"
 
 namespace pleuel {

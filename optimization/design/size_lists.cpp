@@ -1,16 +1,13 @@
 #include "optimization/design/size_lists.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/base/int_size.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/jobs/parallel.hpp"
 #include "core/scene/packed_problem.hpp"
 #include "optimization/evaluation_store.hpp"
-#include "optimization/result.hpp"
 #include "optimization/scaling.hpp"
 #include "optimization/solve.hpp"
 

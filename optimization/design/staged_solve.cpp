@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/base/error.hpp"
 #include "core/base/int_size.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/response/effect_measurement.hpp"
