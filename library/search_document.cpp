@@ -70,8 +70,8 @@ Json search_document(const ProblemFile& problem, const Eigen::VectorXd& start,
   const Observer observer = [&](const EvaluationRecord& record) { heard.hear(record); };
   try {
     const WholeSearch search =
-        search_design(problem, starts_of(problem, start, options.starts), options.solve,
-                      {{options.jobs, 0.0, nullptr}, nullptr}, observer, {});
+        search_design(problem, starts_of(problem, start, options.starts),
+                      {options.solve, {{options.jobs, 0.0, nullptr}, nullptr}, observer});
     heard.require_no_throw();
     return document_of(search);
   } catch (const Stopped&) {

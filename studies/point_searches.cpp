@@ -117,8 +117,8 @@ SizedDesign search_with_sizes(const ProblemFile& file, const SolveOptions& optio
   solution.problem = std::make_unique<DesignProblem>(file, available_threads(), store);
   solution.result = solve_design(*solution.problem, options);
   if (!has_choices(file)) return {std::move(solution.result), std::move(solution.problem), {}, {}};
-  const Execution here = {{.jobs = available_threads()}, store};
-  const SizeChoiceReport report = choose_sizes(solution, options, here);
+  const SizeChoiceReport report =
+      choose_sizes(solution, {options, {{.jobs = available_threads()}, store}});
   if (!report.is_choice && solution.result.evaluation.has_gradients()) {
     solution.result.status = Status::failed;
     solution.result.message = "no choice of sizes could be simulated";

@@ -72,8 +72,8 @@ WholeSearch solve_visibly(const ProblemInput& input, const SolveOptions& options
   const Notice notice = [out](const std::string& text) {
     show(out, wrapped("  " + text, "  ") + "\n");
   };
-  return search_design(input.problem, starts_of(input.problem, input.design, count), options,
-                       {arguments.tasks(), &store}, observer, notice);
+  return search_design(input.problem, starts_of(input.problem, input.design, count),
+                       {options, {arguments.tasks(), &store}, observer, notice});
 }
 
 /// Steps and elements of the last stage; of several load cases each has its own.

@@ -153,15 +153,13 @@ double relative_step(const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
 
 /// @returns the best design of the region, or x if nothing could be evaluated
 Eigen::VectorXd search_region(const MadeBodies& bodies, const Eigen::VectorXd& x, double radius,
-                              const SolveOptions& options, const Execution& execution,
-                              Result& before, const Observer& observer) {
-  DesignProblem problem(bodies.continued_around(x, radius), execution.tasks.jobs, execution.store);
-  problem.start_from(x);
-  SolveOptions strict = options;
+                              const SearchSetup& setup, Result& before) {
+  const auto problem = setup.problem_at(bodies.continued_around(x, radius), x);
+  SolveOptions strict = setup.options;
   strict.verdict.violation = tight_violation;
   Eigen::VectorXd found = x;
-  before = run_after(before, observer, [&](const Observer& hears) {
-    Result result = search_with_setting(problem, strict, hears);
+  before = run_after(before, setup.observer, [&](const Observer& hears) {
+    Result result = search_with_setting(*problem, strict, hears);
     if (has_moved(result)) found = result.x;
     return result;
   });
@@ -176,20 +174,17 @@ Eigen::VectorXd search_region(const MadeBodies& bodies, const Eigen::VectorXd& x
 /// @param before  effort and history of what was done before; goes on with that of the searches
 /// @returns       a design that the bodies were made for
 Eigen::VectorXd search_between_calls(MadeBodies& bodies, const Eigen::VectorXd& x,
-                                     const SolveOptions& options, const Execution& execution,
-                                     Result& before, const Observer& observer,
-                                     const Notice& notice) {
+                                     const SearchSetup& setup, Result& before) {
   double radius = first_radius;
   Eigen::VectorXd best = x;
   while (bodies.designs() < most_designs && radius > least_radius) {
-    const Eigen::VectorXd next =
-        search_region(bodies, best, radius, options, execution, before, observer);
+    const Eigen::VectorXd next = search_region(bodies, best, radius, setup, before);
     const double step = relative_step(best, next);
     if (step < small_step) break;
     try {
       const double error = bodies.make_at(next);
       notify(
-          notice,
+          setup.notice,
           fmt::format("bodies were made for design {}, {:.2g} % away; their stiffness was foretold "
                       "to {:.2g} %",
                       bodies.designs(), 100.0 * step, 100.0 * error));
@@ -198,7 +193,7 @@ Eigen::VectorXd search_between_calls(MadeBodies& bodies, const Eigen::VectorXd& 
       radius = std::min(radius, longest_next_step * step);
       best = next;
     } catch (const SimulationError& failure) {
-      notify(notice, fmt::format("{}: the next step is shorter", failure.what()));
+      notify(setup.notice, fmt::format("{}: the next step is shorter", failure.what()));
       radius *= 0.25;
     }
   }
@@ -209,27 +204,21 @@ Eigen::VectorXd search_between_calls(MadeBodies& bodies, const Eigen::VectorXd& 
 /// made for: where the audited search ends elsewhere, they are made there, and it begins again.
 class MadeSolve {
  public:
-  MadeSolve(const ProblemFile& file, const SolveOptions& options, const Execution& execution,
-            const Observer& observer, const Notice& notice)
-      : bodies_(file),
-        options_(options),
-        execution_(execution),
-        observer_(observer),
-        notice_(notice) {
-    options_.takes_verified_start = true;
+  MadeSolve(const ProblemFile& file, const SearchSetup& setup) : bodies_(file), setup_(setup) {
+    setup_.options.takes_verified_start = true;
   }
 
   StagedSolution run(const Eigen::VectorXd& x) {
     if (!make_at(x)) return solve(bodies_.original(), x);
-    made_for_ = search_between_calls(bodies_, x, options_, execution_, before_, observer_, notice_);
+    made_for_ = search_between_calls(bodies_, x, setup_, before_);
     StagedSolution solution = solve(bodies_.continued(), made_for_);
     bool can_go_on = true;
     for (int round = 1; round < most_judgements && can_go_on && has_left(solution); ++round) {
       can_go_on = make_at(solution.result.x);
-      notify(notice_, can_go_on
-                          ? "bodies were made for the design that was found, which is judged again"
-                          : "the last design that bodies were made for is judged in its place");
-      if (!can_go_on) options_.max_iterations = 1;
+      notify(setup_.notice,
+             can_go_on ? "bodies were made for the design that was found, which is judged again"
+                       : "the last design that bodies were made for is judged in its place");
+      if (!can_go_on) setup_.options.max_iterations = 1;
       ProblemFile next = solution.problem->file();
       next.accuracy.chooses_setting = false;  // that is done
       std::vector<Stage> stages = std::move(solution.stages);
@@ -250,7 +239,7 @@ class MadeSolve {
       made_for_ = x;
       return true;
     } catch (const SimulationError& failure) {
-      notify(notice_, failure.what());
+      notify(setup_.notice, failure.what());
       return false;
     }
   }
@@ -261,8 +250,8 @@ class MadeSolve {
 
   StagedSolution solve(const ProblemFile& file, const Eigen::VectorXd& x) {
     StagedSolution solution;
-    before_ = run_after(before_, observer_, [&](const Observer& observer) {
-      solution = solve_stages(file, x, options_, execution_, observer, notice_);
+    before_ = run_after(before_, setup_.observer, [&](const Observer& observer) {
+      solution = solve_stages(file, x, setup_.heard_by(observer));
       return std::move(solution.result);
     });
     solution.result = before_;
@@ -270,12 +259,9 @@ class MadeSolve {
   }
 
   MadeBodies bodies_;
-  SolveOptions options_;
-  const Execution& execution_;
+  SearchSetup setup_;
   Result before_;             ///< effort and history so far
   Eigen::VectorXd made_for_;  ///< the last design with bodies
-  const Observer& observer_;
-  const Notice& notice_;
 };
 
 }  // namespace
@@ -290,9 +276,8 @@ bool has_made_bodies(const ProblemFile& file) {
 }
 
 StagedSolution solve_with_made_bodies(const ProblemFile& file, const Eigen::VectorXd& start,
-                                      const SolveOptions& options, const Execution& execution,
-                                      const Observer& observer, const Notice& notice) {
-  return MadeSolve(file, options, execution, observer, notice).run(start);
+                                      const SearchSetup& setup) {
+  return MadeSolve(file, setup).run(start);
 }
 
 }  // namespace pleuel

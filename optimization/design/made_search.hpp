@@ -11,7 +11,6 @@ bool has_made_bodies(const ProblemFile& file);
 /// they are continued between the designs that they were made for (core/scene/continued_body.hpp).
 /// @pre has_made_bodies(file)
 StagedSolution solve_with_made_bodies(const ProblemFile& file, const Eigen::VectorXd& start,
-                                      const SolveOptions& options, const Execution& execution,
-                                      const Observer& observer, const Notice& notice);
+                                      const SearchSetup& setup);
 
 }  // namespace pleuel

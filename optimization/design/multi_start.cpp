@@ -146,26 +146,20 @@ struct SearchData {
 
   std::string run(int task, const std::string& /*needed*/, TaskCaller& caller,
                   EvaluationStore* store) const {
-    const Execution here = {{.jobs = available_threads()}, store};
-    const Observer observer = [&](const EvaluationRecord& record) {
-      caller.tell(packed(MessageKind::record, record));
-    };
-    const Notice notice = [&](const std::string& text) {
-      caller.tell(packed(MessageKind::notice, text));
-    };
-    return pack_solution(solve_in_stages(file, starts[task], options, here, observer, notice));
+    const SearchSetup setup = {
+        options,
+        {{.jobs = available_threads()}, store},
+        [&](const EvaluationRecord& record) { caller.tell(packed(MessageKind::record, record)); },
+        [&](const std::string& text) { caller.tell(packed(MessageKind::notice, text)); }};
+    return pack_solution(solve_in_stages(file, starts[task], setup));
   }
 };
 
 /// Hears of the searches.
 class Searches : public StoredTasks<SearchData> {
  public:
-  Searches(SearchData data, const Execution& execution, const Observer& observer,
-           const Notice& notice)
-      : StoredTasks(std::move(data), execution.store),
-        jobs_(execution.tasks.jobs),
-        observer_(observer),
-        notice_(notice) {}
+  Searches(SearchData data, const SearchSetup& setup)
+      : StoredTasks(std::move(data), setup.execution.store), setup_(setup) {}
 
   int count() const override { return int_size(data().starts); }
 
@@ -177,17 +171,17 @@ class Searches : public StoredTasks<SearchData> {
     if (kind == MessageKind::notice) {
       std::string text;
       unpacker(text);
-      return notify(notice_, text);
+      return notify(setup_.notice, text);
     }
     EvaluationRecord record;
     unpacker(record);
     seen_.push_back(record);
-    show(observer_, following(record, before_));
+    show(setup_.observer, following(record, before_));
   }
 
   void take(int task, const std::string& answer) override {
     announce(task);
-    add(unpack_solution(answer, data().file, jobs_));
+    add(unpack_solution(answer, data().file, setup_.execution.tasks.jobs));
   }
 
   void fail(int task, const std::string& failure) override {
@@ -199,7 +193,7 @@ class Searches : public StoredTasks<SearchData> {
     none.result.x = start(task);
     none.result.history = std::move(seen_);
     none.result.evaluations = int_size(none.result.history);
-    notify(notice_, none.result.message);
+    notify(setup_.notice, none.result.message);
     add(std::move(none));
   }
 
@@ -213,7 +207,7 @@ class Searches : public StoredTasks<SearchData> {
     if (task < announced_) return;
     count_unfinished();
     announced_ = task + 1;
-    notify(notice_, fmt::format("start {} of {}", task + 1, data().starts.size()));
+    notify(setup_.notice, fmt::format("start {} of {}", task + 1, data().starts.size()));
   }
 
   /// After a stop, others are heard after a search that did not end.
@@ -236,9 +230,7 @@ class Searches : public StoredTasks<SearchData> {
     seen_.clear();
   }
 
-  int jobs_;
-  const Observer& observer_;
-  const Notice& notice_;
+  const SearchSetup& setup_;
   std::vector<StagedSolution> solutions_;
   Result before_;  ///< the counts of all that have ended
   History seen_;   ///< of the one that has not
@@ -296,18 +288,16 @@ MultiStart combined(const std::vector<Eigen::VectorXd>& starts,
 }
 
 MultiStart solve_from_starts(const ProblemFile& file, const std::vector<Eigen::VectorXd>& starts,
-                             SolveOptions options, const Execution& execution,
-                             const Observer& observer, const Notice& notice) {
-  options.starts = int_size(starts);
+                             SearchSetup setup) {
+  setup.options.starts = int_size(starts);
   if (starts.size() == 1) {
     std::vector<StagedSolution> solutions;
-    solutions.push_back(
-        solve_in_stages(file, starts.front(), options, execution, observer, notice));
+    solutions.push_back(solve_in_stages(file, starts.front(), setup));
     return combined(starts, std::move(solutions));
   }
   const Stopwatch all_searches;
-  Searches searches({file, starts, options}, execution, observer, notice);
-  run_tasks(searches, execution.tasks);
+  Searches searches({file, starts, setup.options}, setup);
+  run_tasks(searches, setup.execution.tasks);
   MultiStart all = combined(starts, searches.take_solutions());
   all.best.result.seconds = all_searches.seconds();  // they run at the same time
   return all;
@@ -370,24 +360,21 @@ Result interrupted_result(const DesignProblem& problem, const SolveOptions& opti
 }  // namespace
 
 WholeSearch search_design(const ProblemFile& file, const std::vector<Eigen::VectorXd>& starts,
-                          const SolveOptions& options, const Execution& execution,
-                          const Observer& observer, const Notice& notice) {
-  auto first = std::make_unique<DesignProblem>(file, execution.tasks.jobs);
+                          const SearchSetup& setup) {
+  auto first = std::make_unique<DesignProblem>(file, setup.execution.tasks.jobs);
   History seen;
-  const Observer see = [&](const EvaluationRecord& record) {
+  const SearchSetup seeing = setup.heard_by([&](const EvaluationRecord& record) {
     seen.push_back(record);
-    if (observer) observer(record);
-  };
+    show(setup.observer, record);
+  });
   WholeSearch search;
   try {
-    search.all = solve_from_starts(file, starts, options, execution, see, notice);
-    if (has_choices(file)) {
-      search.sizes = choose_sizes(search.all.best, options, execution, see, notice);
-    }
+    search.all = solve_from_starts(file, starts, seeing);
+    if (has_choices(file)) search.sizes = choose_sizes(search.all.best, seeing);
   } catch (const Stopped&) {
     if (seen.empty() || seen.front().has_failed()) throw;
     search = {};
-    search.all.best.result = interrupted_result(*first, options, seen);
+    search.all.best.result = interrupted_result(*first, setup.options, seen);
     search.all.best.problem = std::move(first);
   }
   return search;

@@ -53,8 +53,7 @@ MultiStart combined(const std::vector<Eigen::VectorXd>& starts,
 /// and notice hear of them in their order. Answers do not depend on the number of jobs.
 /// @throws as solve()
 MultiStart solve_from_starts(const ProblemFile& file, const std::vector<Eigen::VectorXd>& starts,
-                             SolveOptions options, const Execution& execution,
-                             const Observer& observer = {}, const Notice& notice = {});
+                             SearchSetup setup);
 
 /// The searches of solve_from_starts(), made again on another rank (PackedWork).
 inline constexpr const char* search_work_name = "searches";
@@ -71,7 +70,6 @@ struct WholeSearch {
 /// (`interrupted`).
 /// @throws Stopped before the first design was simulated; and as solve_from_starts()
 WholeSearch search_design(const ProblemFile& file, const std::vector<Eigen::VectorXd>& starts,
-                          const SolveOptions& options, const Execution& execution,
-                          const Observer& observer, const Notice& notice);
+                          const SearchSetup& setup);
 
 }  // namespace pleuel

@@ -32,17 +32,13 @@ constexpr int reach = 2;
 
 class SizeSearch {
  public:
-  SizeSearch(StagedSolution& solution, const SolveOptions& options, const Execution& execution,
-             const Observer& observer, const Notice& notice)
+  SizeSearch(StagedSolution& solution, const SearchSetup& setup)
       : solution_(solution),
         file_(solution.problem->file()),
-        options_(options),
-        execution_(execution),
-        observer_(observer),
-        notice_(notice),
+        setup_(setup),
         lists_(file_.variables),
         is_optimized_(needs_optimization(file_)) {
-    options_.starts = 1;
+    setup_.options.starts = 1;
     const Result& relaxed = solution.result;
     report_.relaxed_status = relaxed.status;
     report_.relaxed_objective = relaxed.evaluation.objective;
@@ -57,12 +53,12 @@ class SizeSearch {
                                 variable_scales(problem, solution_.result.x));
     const double most = is_optimized_ ? most_optimized : most_simulated_choices;
     report_.is_exhaustive = report_.combinations <= most;
-    notify(notice_, fmt::format("the optimum between the sizes has {} = {} ({})",
-                                problem.file().objective->response,
-                                objective_text(report_.relaxed_objective),
-                                to_string(report_.relaxed_status)));
+    notify(setup_.notice, fmt::format("the optimum between the sizes has {} = {} ({})",
+                                      problem.file().objective->response,
+                                      objective_text(report_.relaxed_objective),
+                                      to_string(report_.relaxed_status)));
     if (report_.is_exhaustive) {
-      notify(notice_, fmt::format("all {} choices are tried", report_.combinations));
+      notify(setup_.notice, fmt::format("all {} choices are tried", report_.combinations));
       attempt(lists_.all(), report_.relaxed_x);
     } else {
       search();
@@ -84,7 +80,8 @@ class SizeSearch {
     if (news.empty()) return;
     std::vector<Eigen::VectorXd> designs;
     for (const Sizes& choice : news) designs.push_back(lists_.design(choice, from));
-    std::vector<SizeTrial> answers = try_sizes(file_, designs, scales_, options_, execution_);
+    std::vector<SizeTrial> answers =
+        try_sizes(file_, designs, scales_, setup_.options, setup_.execution);
     for (std::size_t i = 0; i < news.size(); ++i) keep(news[i], std::move(answers[i]));
   }
 
@@ -105,7 +102,7 @@ class SizeSearch {
     Result& all = solution_.result;
     for (EvaluationRecord& record : history) {
       record = following(std::move(record), all);
-      show(observer_, record);
+      show(setup_.observer, record);
     }
     for (const EvaluationRecord& record : history) {
       ++all.evaluations;
@@ -137,7 +134,7 @@ class SizeSearch {
         is_settled_ = true;
         return;
       }
-      notify(notice_,
+      notify(setup_.notice,
              fmt::format("after {} choices: {} = {}{}", report_.tried, file_.objective->response,
                          objective_text(tried_.at(*best_).objective),
                          tried_.at(*best_).keeps_limits() ? "" : ", outside the limits"));
@@ -157,11 +154,11 @@ class SizeSearch {
   /// Values and gradients at the best choice; multipliers where other variables were optimized.
   std::optional<Result> linearized(const Sizes& from) {
     const Eigen::VectorXd& x = tried_.at(from).x;
-    DesignProblem problem(file_, execution_.tasks.jobs, execution_.store);
-    keep_methods(problem);
+    const auto problem = setup_.problem_at(file_, x);
+    keep_methods(*problem);
     const double violation = tried_.at(from).max_violation;
     const Stopwatch stopwatch;
-    Attempt attempt = attempt_evaluation(problem, x, Request::values_and_gradients);
+    Attempt attempt = attempt_evaluation(*problem, x, Request::values_and_gradients);
     EvaluationRecord record = record_of(x, Request::values_and_gradients, attempt);
     record.evaluation = record.iteration = 1;
     record.purpose = Purpose::audit;
@@ -215,13 +212,11 @@ class SizeSearch {
   void conclude() {
     const SizeTrial& best = tried_.at(*best_);
     const Result before = std::move(solution_.result);
-    solution_.problem = std::make_unique<DesignProblem>(with_sizes(file_, best.x),
-                                                        execution_.tasks.jobs, execution_.store);
-    solution_.problem->start_from(best.x);
+    solution_.problem = setup_.problem_at(with_sizes(file_, best.x), best.x);
     const bool has_free = !std::ranges::all_of(solution_.problem->variables(), &Variable::is_fixed);
-    Result result = run_after(before, observer_, [&](const Observer& observer) {
-      return has_free ? solve_design(*solution_.problem, options_, observer, notice_)
-                      : judge_design(*solution_.problem, options_, observer);
+    Result result = run_after(before, setup_.observer, [&](const Observer& observer) {
+      return has_free ? solve_design(*solution_.problem, setup_.options, observer, setup_.notice)
+                      : judge_design(*solution_.problem, setup_.options, observer);
     });
     result.restarts = before.restarts;
     result.backend = before.backend;
@@ -244,8 +239,7 @@ class SizeSearch {
   void show_all_choices() {
     ProblemFile file = solution_.problem->file();
     file.variables = file_.variables;
-    auto problem =
-        std::make_unique<DesignProblem>(std::move(file), execution_.tasks.jobs, execution_.store);
+    auto problem = setup_.problem_at(std::move(file), start_design(file_));
     keep_methods(*problem);
     solution_.problem = std::move(problem);
   }
@@ -313,10 +307,7 @@ class SizeSearch {
 
   StagedSolution& solution_;
   const ProblemFile file_;
-  SolveOptions options_;
-  const Execution& execution_;
-  const Observer& observer_;
-  const Notice& notice_;
+  SearchSetup setup_;
   const SizeLists lists_;
   bool is_optimized_;
   Eigen::VectorXd scales_;
@@ -347,10 +338,8 @@ bool keeps_choices(const ProblemFile& file, const Eigen::VectorXd& x) {
   return true;
 }
 
-SizeChoiceReport choose_sizes(StagedSolution& solution, const SolveOptions& options,
-                              const Execution& execution, const Observer& observer,
-                              const Notice& notice) {
-  return SizeSearch(solution, options, execution, observer, notice).run();
+SizeChoiceReport choose_sizes(StagedSolution& solution, const SearchSetup& setup) {
+  return SizeSearch(solution, setup).run();
 }
 
 }  // namespace pleuel

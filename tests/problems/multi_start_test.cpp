@@ -29,7 +29,7 @@ ProblemFile held_arm(const std::string& optimizer) {
 MultiStart solved(const ProblemFile& file, const Execution& execution = {}) {
   const auto starts =
       starts_of(file, Eigen::VectorXd::Constant(1, file.variables[0].start), file.optimizer.starts);
-  return solve_from_starts(file, starts, {}, execution);
+  return solve_from_starts(file, starts, {{}, execution});
 }
 
 TEST(MultiStart, FindsTheBestOfTwoLocalOptima) {
@@ -91,9 +91,9 @@ TEST(MultiStart, SearchesFromEachDesignAsIfThatWereTheOnlyOne) {
   const auto starts = starts_of(file, Eigen::VectorXd::Constant(1, 0.4), 2);
   SolveOptions options;
   options.starts = 2;
-  const MultiStart all = solve_from_starts(file, starts, options, {{.jobs = 2}});
+  const MultiStart all = solve_from_starts(file, starts, {options, {{.jobs = 2}}});
   const std::size_t best = all.optima.at(0).starts.at(0);
-  const StagedSolution alone = solve_in_stages(file, starts.at(best), options, {});
+  const StagedSolution alone = solve_in_stages(file, starts.at(best), {options});
   EXPECT_EQ(all.best.result.x, alone.result.x);
   EXPECT_EQ(all.best.result.evaluation.objective_gradient,
             alone.result.evaluation.objective_gradient);

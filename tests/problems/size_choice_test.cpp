@@ -97,10 +97,10 @@ struct Answer {
 
 Answer solved(const ProblemFile& file, int jobs = 1) {
   const Execution execution{{.jobs = jobs}, nullptr};
-  MultiStart all = solve_from_starts(file, {start_design(file)}, {}, execution);
+  MultiStart all = solve_from_starts(file, {start_design(file)}, {{}, execution});
   Answer answer;
   answer.solution = std::move(all.best);
-  answer.report = choose_sizes(answer.solution, {}, execution);
+  answer.report = choose_sizes(answer.solution, {{}, execution});
   return answer;
 }
 
