@@ -93,7 +93,7 @@ Analysis& DesignCase::analysis_at(const Eigen::VectorXd& x) {
   return *analysis_;
 }
 
-std::optional<std::size_t> DesignCase::response_of(const ConstraintRows& rows) const {
+std::optional<std::size_t> DesignCase::response_of(const RowSource& rows) const {
   if (rows.part) return rows.part;
   if (!rows.constraint) return index_of_response(file_, file_.objective->response);
   const std::string& name = file_.constraints[*rows.constraint].response;
@@ -111,22 +111,21 @@ DesignCase::Row DesignCase::linear_row(std::size_t constraint) const {
   return row;
 }
 
-std::vector<ConstraintRows> DesignCase::with_objective(
-    const std::vector<ConstraintRows>& rows) const {
-  std::vector<ConstraintRows> all = rows;
-  if (has_objective()) all.insert(all.begin(), ConstraintRows());
+std::vector<RowSource> DesignCase::with_objective(const std::vector<RowSource>& rows) const {
+  std::vector<RowSource> all = rows;
+  if (has_objective()) all.insert(all.begin(), RowSource());
   return all;
 }
 
 /// One after the other.
 std::vector<DesignCase::Row> DesignCase::rows_at(const Analysis& analysis,
-                                                 const std::vector<ConstraintRows>& rows) const {
+                                                 const std::vector<RowSource>& rows) const {
   std::vector<Row> all;
-  const auto add = [&](const ConstraintRows& of, std::size_t response, const Reduction& reduction) {
+  const auto add = [&](const RowSource& of, std::size_t response, const Reduction& reduction) {
     const double sign = of.sign.value_or(of.constraint ? 1.0 : objective_sign());
     all.push_back({sign * reduction.value, SampledValue{response, reduction.samples}, sign});
   };
-  for (const ConstraintRows& of : rows) {
+  for (const RowSource& of : rows) {
     const auto response = response_of(of);
     if (!response) {
       all.push_back(linear_row(*of.constraint));
@@ -149,8 +148,7 @@ GradientMethod DesignCase::method_for(const Analysis& analysis,
   return has_more_rows ? GradientMethod::direct : choice_->method;
 }
 
-Eigen::MatrixXd DesignCase::gradients_of(Analysis& analysis,
-                                         const std::vector<ConstraintRows>& rows,
+Eigen::MatrixXd DesignCase::gradients_of(Analysis& analysis, const std::vector<RowSource>& rows,
                                          const std::vector<Row>& at_x) {
   std::vector<SampledValue> values;
   for (const Row& row : at_x) {
@@ -197,7 +195,7 @@ EvaluationKey DesignCase::key_of(const Eigen::VectorXd& x, Request request,
 
 std::optional<StoredEvaluation> DesignCase::recall(const Eigen::VectorXd& x, Request request,
                                                    const std::string& name,
-                                                   const std::vector<ConstraintRows>& rows) {
+                                                   const std::vector<RowSource>& rows) {
   if (!store_) return std::nullopt;
   asked_ = key_of(x, request, name);
   auto stored = store_->find(*asked_);
@@ -210,7 +208,7 @@ std::optional<StoredEvaluation> DesignCase::recall(const Eigen::VectorXd& x, Req
 }
 
 StoredEvaluation DesignCase::compute(const Eigen::VectorXd& x, Request request,
-                                     const std::vector<ConstraintRows>& rows) {
+                                     const std::vector<RowSource>& rows) {
   const Stopwatch stopwatch;
   StoredEvaluation answer;
   try {
@@ -233,9 +231,9 @@ void DesignCase::confirm(const std::function<bool(const Eigen::VectorXd& x)>& co
 }
 
 Evaluation DesignCase::simulated_rows(const Eigen::VectorXd& x, Request request,
-                                      const std::vector<ConstraintRows>& rows) {
+                                      const std::vector<RowSource>& rows) {
   Analysis& analysis = analysis_at(x);
-  const std::vector<ConstraintRows> asked = with_objective(rows);
+  const std::vector<RowSource> asked = with_objective(rows);
   const std::vector<Row> all = rows_at(analysis, asked);
   const Eigen::Index first = has_objective() ? 1 : 0, count = std::ssize(all) - first;
   Evaluation evaluation;

@@ -35,21 +35,10 @@ Evidence nothing_beside(const Evidence& value) {
   return nothing;
 }
 
-/// Of numbers made from several cases, by what they are made from to first order.
-void add_errors_over_cases(DesignProblem& design, const Eigen::VectorXd& x, Trust& trust) {
-  const ProblemFile& file = design.file();
-  for (std::size_t i = 0; i < file.responses.size(); ++i) {
-    if (!is_over_cases(file, i)) continue;
-    try {
-      trust.errors[i] = error_of_sum(file, trust, design.linearized_at(x, i).parts,
-                                     std::abs(design.value_at(x, i)));
-    } catch (const SimulationError&) {  // it has no derivative here
-    }
-  }
-}
-
-}  // namespace
-
+/// The error of Σ weight · response. The runs of a case are its own: errors cancel within a case only.
+/// @param parts      responses of single cases, by their places in the joined problem
+/// @param magnitude  what errors are small beside
+/// @returns nothing where no error is known
 std::optional<ErrorBar> error_of_sum(const ProblemFile& joined, const Trust& trust,
                                      const std::vector<WeightedResponse>& parts, double magnitude) {
   std::map<std::size_t, Evidence> sums;
@@ -86,6 +75,23 @@ std::optional<ErrorBar> error_of_sum(const ProblemFile& joined, const Trust& tru
   return all;
 }
 
+/// Of numbers made from several cases, by what they are made from to first order.
+void add_errors_over_cases(DesignProblem& design, const Eigen::VectorXd& x, Trust& trust) {
+  const ProblemFile& file = design.file();
+  for (std::size_t i = 0; i < file.responses.size(); ++i) {
+    if (!is_over_cases(file, i)) continue;
+    try {
+      trust.errors[i] = error_of_sum(file, trust, design.linearized_at(x, i).parts,
+                                     std::abs(design.value_at(x, i)));
+    } catch (const SimulationError&) {  // it has no derivative here
+    }
+  }
+}
+
+/// How far the numbers of a design can be trusted, of all load cases: one error, one evidence and
+/// one band a response of the joined problem. Findings say which cases they are of; one that all cases
+/// share stands once.
+/// @param x  that can be simulated
 Trust judge_cases(DesignProblem& design, const Eigen::VectorXd& x, Scrutiny scrutiny) {
   const ProblemFile& file = design.file();
   if (!file.has_cases()) return trust_of(design.load_case(0), x, scrutiny);
@@ -118,8 +124,6 @@ Trust judge_cases(DesignProblem& design, const Eigen::VectorXd& x, Scrutiny scru
   all.findings = joined_findings(file, findings);
   return all;
 }
-
-namespace {
 
 /// Steps that are proposed aim at so much of the target.
 constexpr double proposed_share = 0.7;
@@ -244,6 +248,11 @@ double optimum_change(DesignProblem& design, const Result& result, const Eigen::
   return change;
 }
 
+namespace {
+
+/// Why the optimum is not known to the accuracy that the file asks for, or to 10 % where it asks for
+/// none, and what would do; empty if it is. What counts is the error of the objective at the
+/// optimum, and that of each limit which the error could break.
 std::string inaccuracy(DesignProblem& design, const Result& result, const Trust& trust) {
   const std::optional<ErrorBar> bar = optimum_error(design, result, trust);
   if (!bar) return "";
@@ -261,6 +270,8 @@ std::string inaccuracy(DesignProblem& design, const Result& result, const Trust&
   return "";
 }
 
+/// How well it is known: "to ± 0.3 %, the limit on "sideways" to ± 1.3 %".
+/// @pre result.error, and an objective that is not zero
 std::string accuracy_text(DesignProblem& design, const Result& result, const Trust& trust) {
   const auto percent = [](double share) {
     return fmt::format("± {} %", significant(100.0 * share, 2));
@@ -274,8 +285,6 @@ std::string accuracy_text(DesignProblem& design, const Result& result, const Tru
   }
   return text;
 }
-
-namespace {
 
 /// The response of an objective over cases in each of them; empty elsewhere.
 Eigen::VectorXd objectives_in_cases(DesignProblem& design, const Eigen::VectorXd& x) {

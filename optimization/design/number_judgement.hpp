@@ -1,33 +1,16 @@
 #pragma once
 
 #include <optional>
-#include <string>
-#include <vector>
 
 #include <Eigen/Core>
 
 #include "core/base/error_bar.hpp"
-#include "core/response/linearized_expression.hpp"
 #include "core/trust/checks.hpp"
 #include "core/trust/trusted_run.hpp"
 #include "optimization/design/design_problem.hpp"
 #include "optimization/result.hpp"
-#include "optimization/solve.hpp"
 
 namespace pleuel {
-
-/// How far the numbers of a design can be trusted, of all load cases: one error, one evidence and
-/// one band a response of the joined problem. Findings say which cases they are of; one that all cases
-/// share stands once.
-/// @param x  that can be simulated
-Trust judge_cases(DesignProblem& design, const Eigen::VectorXd& x, Scrutiny scrutiny);
-
-/// The error of Σ weight · response. The runs of a case are its own: errors cancel within a case only.
-/// @param parts      responses of single cases, by their places in the joined problem
-/// @param magnitude  what errors are small beside
-/// @returns nothing where no error is known
-std::optional<ErrorBar> error_of_sum(const ProblemFile& joined, const Trust& trust,
-                                     const std::vector<WeightedResponse>& parts, double magnitude);
 
 // How far an optimum may be from that of an arbitrarily fine simulation.
 
@@ -45,15 +28,6 @@ std::optional<ErrorBar> optimum_error(DesignProblem& design, const Result& resul
 /// What changes of the responses at an optimum make of it by the same theorem.
 /// @param changes  one a response of the file [SI]
 double optimum_change(DesignProblem& design, const Result& result, const Eigen::VectorXd& changes);
-
-/// Why the optimum is not known to the accuracy that the file asks for, or to 10 % where it asks for
-/// none, and what would do; empty if it is. What counts is the error of the objective at the
-/// optimum, and that of each limit which the error could break.
-std::string inaccuracy(DesignProblem& design, const Result& result, const Trust& trust);
-
-/// How well it is known: "to ± 0.3 %, the limit on "sideways" to ± 1.3 %".
-/// @pre result.error, and an objective that is not zero
-std::string accuracy_text(DesignProblem& design, const Result& result, const Trust& trust);
 
 /// Findings about the numbers of the last design, and their errors: no optimum that rests on numbers
 /// which are not to be trusted, or not known as well as the file asks for, is verified.

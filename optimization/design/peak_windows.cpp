@@ -100,7 +100,7 @@ std::vector<std::size_t> optimized_responses(const DesignProblem& design, std::s
     add_over_cases(design.objective_response());
   }
   for (std::size_t i = 0; i < one.file().constraints.size(); ++i) {
-    if (const auto response = one.response_of({i})) add(*response);
+    if (const auto response = one.response_of({.constraint = i})) add(*response);
   }
   for (std::size_t i = 0; i < file.constraints.size(); ++i) {
     if (is_of_several(case_of_constraint(file, i))) add_over_cases(*design.response_of(i));
