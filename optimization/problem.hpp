@@ -18,7 +18,7 @@
 ///     minimize f(x)   subject to   lower ≤ c(x) ≤ upper,   lower ≤ x ≤ upper
 ///
 /// Everything is in SI units. Scaling, one-sided rows, and caching are the business of the
-/// optimizer (scaled_problem.hpp, evaluation_cache.hpp).
+/// optimizer (backends.hpp, evaluation_cache.hpp).
 namespace pleuel {
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();

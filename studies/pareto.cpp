@@ -16,7 +16,6 @@
 #include "optimization/design/size_choice.hpp"
 #include "optimization/design/size_lists.hpp"
 #include "optimization/scaling.hpp"
-#include "studies/front_ends.hpp"
 #include "studies/missing_settings.hpp"
 
 namespace pleuel {

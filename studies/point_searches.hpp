@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -77,5 +78,18 @@ void start_from(const Eigen::VectorXd& x, std::vector<DesignVariable>& variables
 /// The searches, made again on another rank (PackedWork).
 inline constexpr const char* point_work_name = "points";
 std::unique_ptr<TaskWork> make_point_work(const std::string& content);
+
+/// The ends of a front between two responses: the best design for each of them.
+struct FrontEnds {
+  std::vector<FoundPoint> points;
+  std::array<GoalScale, 2> scales;  ///< of both responses between the ends
+};
+
+/// The best designs for both responses (ParetoSettings::goals), and of equally good ones the best for
+/// the other. Each search is a task of its own.
+/// @param problem  that of trade_off_problem()
+/// @returns two, whatever became of their searches
+FrontEnds find_front_ends(const ProblemFile& problem, const SolveOptions& options,
+                          const Execution& execution);
 
 }  // namespace pleuel

@@ -1,5 +1,3 @@
-#include "optimization/scaled_problem.hpp"
-
 #include <functional>
 
 #include "complex_step.hpp"
