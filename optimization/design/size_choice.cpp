@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -29,6 +30,18 @@ constexpr int most_rounds_of_choice = 25;
 constexpr int most_batches = 6;
 /// Sizes up and down that a linear model looks at.
 constexpr int reach = 2;
+
+/// Keeps the limits and is lighter, or breaks them less.
+bool is_better(const SizeTrial& one, const SizeTrial& other) {
+  if (one.keeps_limits() != other.keeps_limits()) return one.keeps_limits();
+  return one.keeps_limits() ? one.objective < other.objective
+                            : one.max_violation < other.max_violation;
+}
+
+/// Where slopes vanish, as at an optimum between the sizes, the nearer size is the better guess.
+double distance_cost(double gap, double change, double objective) {
+  return gap == 0.0 ? 0.0 : 1e-3 * std::abs(objective) * (change / gap) * (change / gap);
+}
 
 class SizeSearch {
  public:
@@ -128,7 +141,7 @@ class SizeSearch {
         propose(x, *around, from, -reach, reach);
         if (report_.tried == before) break;
       }
-      if (*best_ == from) attempt(lists_.neighbours(from), x);
+      if (*best_ == from) attempt(lists_.exchanges(from, 1), x);
       if (*best_ == from) try_whole_lists(from, x);
       if (*best_ == from) {
         is_settled_ = true;
@@ -144,7 +157,7 @@ class SizeSearch {
   /// Lists whose sections differ in more than size, as tubes with several walls do, go up and down in
   /// stiffness on the way: the better one may be far away.
   void try_whole_lists(const Sizes& from, const Eigen::VectorXd& x) {
-    const std::vector<Sizes> exchanges = lists_.exchanges(from);
+    const std::vector<Sizes> exchanges = lists_.exchanges(from, std::numeric_limits<int>::max());
     const double most = is_optimized_ ? most_optimized : most_simulated_choices;
     if (static_cast<double>(exchanges.size()) > most) return;
     attempt(exchanges, x);
@@ -180,9 +193,7 @@ class SizeSearch {
 
   /// Tries what a linear model at x thinks best: sizes from so many below to so many above those given.
   void propose(const Eigen::VectorXd& x, const Result& at, const Sizes& around, int down, int up) {
-    const LinearChoiceModel model =
-        size_model(lists_, *solution_.problem, x, at, around, scales_,
-                   {down, up, is_optimized_, report_.relaxed_objective});
+    const LinearChoiceModel model = linear_model(x, at, around, down, up);
     const std::size_t most = is_optimized_ ? optimized_proposals : proposals;
     std::vector<Sizes> choices;
     std::set<Sizes> known;
@@ -199,6 +210,56 @@ class SizeSearch {
       if (allowed >= 0.05 && best_ && tried_.at(*best_).keeps_limits()) break;
     }
     attempt(choices, x);
+  }
+
+  /// The objective and the limits at choices of sizes around a design, from their gradients there.
+  /// Where other variables follow, limits do not count: what keeping them costs is in the slopes,
+  /// df = (∇f + Jᵀμ) · dx.
+  /// @param at      evaluation with gradients at x, and multipliers where other variables follow
+  /// @param around  the sizes that the model's own are counted from
+  LinearChoiceModel linear_model(const Eigen::VectorXd& x, const Result& at, const Sizes& around,
+                                 int down, int up) const {
+    const Evaluation& here = at.evaluation;
+    const Eigen::Index rows = is_optimized_ ? 0 : here.constraints.size();
+    LinearChoiceModel model{here.objective,        here.constraints.head(rows),
+                            Eigen::VectorXd(rows), Eigen::VectorXd(rows),
+                            scales_.head(rows),    {}};
+    for (Eigen::Index j = 0; j < rows; ++j) {
+      model.lower(j) = solution_.problem->constraints()[j].lower;
+      model.upper(j) = solution_.problem->constraints()[j].upper;
+    }
+    Eigen::VectorXd slope = here.objective_gradient;
+    if (is_optimized_ && at.constraint_multipliers.size() > 0) {
+      slope += here.constraint_jacobian.transpose() * at.constraint_multipliers;
+    }
+    for (std::size_t k = 0; k < lists_.count(); ++k) {
+      const Eigen::Index i = lists_.variable(k);
+      const double gap = is_optimized_ ? lists_.mean_gap(k) : 0.0;
+      const int first = std::max(0, around[k] + down);
+      const int last = std::min(lists_.sizes(k) - 1, around[k] + up);
+      std::vector<LinearOption>& options = model.options.emplace_back();
+      for (int size = first; size <= last; ++size) {
+        const double change = lists_.value(k, size) - x(i);
+        options.push_back(
+            {size, slope(i) * change + distance_cost(gap, change, report_.relaxed_objective),
+             changed_limits(here.constraint_jacobian.col(i).head(rows), k, x(i), size)});
+      }
+    }
+    return model;
+  }
+
+  /// What falls as a size grows, as a stress does, is taken to be linear in its reciprocal (Fleury &
+  /// Braibant 1986): c' · (y − x) · x / y.
+  /// @param slopes  of the limits by the k-th chosen variable, which is x
+  Eigen::VectorXd changed_limits(const Eigen::VectorXd& slopes, std::size_t k, double x,
+                                 int size) const {
+    const double to = lists_.value(k, size), change = to - x;
+    const double reciprocal = lists_.value(k, 0) > 0.0 && to > 0.0 ? x / to : 1.0;
+    Eigen::VectorXd changes = slopes * change;
+    for (double& one : changes) {
+      if (one * change < 0.0) one *= reciprocal;
+    }
+    return changes;
   }
 
   /// Predicted to be better than the best so far, if that keeps its limits.

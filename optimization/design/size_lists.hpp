@@ -42,10 +42,9 @@ class SizeLists {
   Sizes below(const Eigen::VectorXd& x) const;
   Sizes nearest(const Eigen::VectorXd& x) const;
 
-  /// Each size one up or down.
-  std::vector<Sizes> neighbours(const Sizes& from) const;
   /// Any other size in place of each.
-  std::vector<Sizes> exchanges(const Sizes& from) const;
+  /// @param reach  so far up or down the list
+  std::vector<Sizes> exchanges(const Sizes& from, int reach) const;
 
  private:
   struct List {
@@ -54,24 +53,6 @@ class SizeLists {
   };
   std::vector<List> lists_;
 };
-
-/// What a linear model of sizes is made of.
-struct SizeModelSettings {
-  int down = 0, up = 0;            ///< sizes below and above those given that it may take
-  bool is_reduced = false;         ///< other variables follow: the multipliers hold their share
-  double relaxed_objective = 0.0;  ///< at the optimum between the sizes [SI]
-};
-
-/// The objective and the limits at choices of sizes around a design, from their gradients there. What
-/// falls as a size grows, as a stress does, is taken to be linear in its reciprocal (Fleury & Braibant
-/// 1986): c' · (y − x) · x / y. Where other variables follow, limits do not count: what keeping them
-/// costs is in the slopes, df = (∇f + Jᵀμ) · dx.
-/// @param at      evaluation with gradients at x, and multipliers if it is reduced
-/// @param around  the sizes that the model's own are counted from
-/// @param scales  of the constraints
-LinearChoiceModel size_model(const SizeLists& lists, const Problem& problem,
-                             const Eigen::VectorXd& x, const Result& at, const Sizes& around,
-                             const Eigen::VectorXd& scales, const SizeModelSettings& settings);
 
 // Choices of sizes that are tried, each a task of its own (core/jobs/tasks.hpp).
 
@@ -86,9 +67,6 @@ struct SizeTrial {
   bool has_failed() const { return constraints.size() == 0 && !std::isfinite(max_violation); }
   bool keeps_limits() const { return max_violation <= Tolerances().violation; }
 };
-
-/// Keeps the limits and is lighter, or breaks them less.
-bool is_better(const SizeTrial& one, const SizeTrial& other);
 
 /// Whether each choice has to be optimized: there are other variables, or margins that follow from
 /// gradients.
