@@ -192,7 +192,7 @@ void check_name(const std::string& name) {
   const auto is_of_word = [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '-' || c == '_';
   };
-  if (name.empty() || !std::all_of(name.begin(), name.end(), is_of_word)) {
+  if (name.empty() || !std::ranges::all_of(name, is_of_word)) {
     throw InputError(
         fmt::format("the name of a backend must be letters, digits, '-' and '_', got \"{}\"",
                     excerpt(name, 60)));

@@ -44,7 +44,7 @@ const EvaluationCache::Entry* EvaluationCache::find(const Eigen::VectorXd& x,
     const bool enough = request == Request::values || entry.request == request || failed;
     return enough && entry.x == x;
   };
-  const auto entry = std::find_if(entries_.begin(), entries_.end(), answers);
+  const auto entry = std::ranges::find_if(entries_, answers);
   return entry == entries_.end() ? nullptr : &*entry;
 }
 

@@ -58,8 +58,7 @@ const EvaluationRecord& best_record(const History& history, double allowed_viola
 }
 
 const EvaluationRecord& first_design(const History& history) {
-  const auto first =
-      std::find_if_not(history.begin(), history.end(), std::mem_fn(&EvaluationRecord::has_failed));
+  const auto first = std::ranges::find_if_not(history, std::mem_fn(&EvaluationRecord::has_failed));
   return first == history.end() ? history.front() : *first;
 }
 
@@ -172,8 +171,8 @@ bool is_better(const Result& one, const Result& other, double violation, double 
 bool has_prices(const Result& result) {
   constexpr double nearly_optimal = 1e-2;
   if (!result.evaluation.has_gradients()) return false;
-  const bool is_optimum = result.status == Status::verified || result.status == Status::unresolved;
-  return is_optimum || (result.status == Status::stalled && result.kkt_residual <= nearly_optimal);
+  return result.is_optimum() ||
+         (result.status == Status::stalled && result.kkt_residual <= nearly_optimal);
 }
 
 void continue_from(const Result& before, Result& result) {

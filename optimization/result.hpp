@@ -172,6 +172,9 @@ struct Result {
   int restarts = 0;
   double seconds = 0.0;
   History history;
+
+  /// A local optimum by its numbers, be they trusted or not.
+  bool is_optimum() const { return status == Status::verified || status == Status::unresolved; }
 };
 
 /// Whether a result is to be preferred: verified before unresolved before unproven, within the limits before

@@ -233,7 +233,7 @@ bool has_record(const char* effect, bool is_built, const Model& model) {
 void add_gravity(const ProblemFile& problem, std::vector<Variation>& all) {
   const auto is_zero = [](const Number& number) { return number.constant == 0.0; };
   const auto& gravity = problem.scene.gravity;
-  if (std::all_of(gravity.begin(), gravity.end(), is_zero)) return;
+  if (std::ranges::all_of(gravity, is_zero)) return;
   Variation without{"gravity", "off", {}, [](ProblemFile& changed) {
                       changed.scene.gravity = {0.0, 0.0, 0.0};
                     }};

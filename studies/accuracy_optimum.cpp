@@ -19,8 +19,7 @@ constexpr std::size_t most_settings = 6;
 
 bool has_design(const Result& result) {
   const bool is_within = result.max_violation <= Tolerances().violation;
-  return result.status == Status::verified || result.status == Status::unresolved ||
-         (result.status == Status::stalled && is_within);
+  return result.is_optimum() || (result.status == Status::stalled && is_within);
 }
 
 Result solve_from(ProblemFile problem, const Eigen::VectorXd* start, const SolveOptions& options,
@@ -81,7 +80,7 @@ std::vector<std::size_t> efficient_runs(const AccuracyStudy& study) {
   for (std::size_t i = 0; i < study.runs.size(); ++i) {
     if (!study.runs[i].has_failed()) order.push_back(i);
   }
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t one, std::size_t other) {
+  std::ranges::stable_sort(order, [&](std::size_t one, std::size_t other) {
     return study.runs[one].seconds() < study.runs[other].seconds();
   });
   std::vector<std::size_t> front;
@@ -114,7 +113,7 @@ Result plain_optimum(ProblemFile problem, const SolveOptions& options, Evaluatio
 std::vector<Discretization> efficient_settings(const AccuracyStudy& study) {
   std::vector<std::size_t> chosen;
   const auto choose = [&](std::size_t i) {
-    const bool is_new = std::find(chosen.begin(), chosen.end(), i) == chosen.end();
+    const bool is_new = std::ranges::find(chosen, i) == chosen.end();
     if (is_new && chosen.size() < most_settings) chosen.push_back(i);
   };
   for (const Recommendation& one : study.recommendations) {
@@ -124,7 +123,7 @@ std::vector<Discretization> efficient_settings(const AccuracyStudy& study) {
   // Both ends, then what lies between.
   if (!front.empty()) choose(front.back());
   for (const std::size_t i : front) choose(i);
-  std::sort(chosen.begin(), chosen.end(), [&](std::size_t one, std::size_t other) {
+  std::ranges::sort(chosen, [&](std::size_t one, std::size_t other) {
     return study.runs[one].seconds() < study.runs[other].seconds();
   });
   std::vector<Discretization> settings;

@@ -138,9 +138,8 @@ PricedNumbers priced_numbers(const ProblemText& text, const ProblemFile& problem
   const Groups wanted = grouped(scene_numbers(text), plane.plane, taken);
   PricedNumbers priced{bindable(text, wanted), {}};
   for (const NumberGroup& group : wanted) {
-    const bool is_priced =
-        std::any_of(priced.groups.begin(), priced.groups.end(),
-                    [&](const NumberGroup& one) { return one.name == group.name; });
+    const bool is_priced = std::ranges::any_of(
+        priced.groups, [&](const NumberGroup& one) { return one.name == group.name; });
     if (!is_priced) priced.left_out.push_back(group.name);
   }
   return priced;
@@ -359,10 +358,9 @@ PriceList number_prices(const ProblemText& text, const ProblemFile& file, const 
   const double sign = problem.objective->sign();
   list.objective *= sign;
   for (NumberPrice& price : list.prices) price.per_unit *= sign;
-  std::stable_sort(list.prices.begin(), list.prices.end(),
-                   [](const NumberPrice& a, const NumberPrice& b) {
-                     return std::abs(a.per_percent()) > std::abs(b.per_percent());
-                   });
+  std::ranges::stable_sort(list.prices, [](const NumberPrice& a, const NumberPrice& b) {
+    return std::abs(a.per_percent()) > std::abs(b.per_percent());
+  });
   return list;
 }
 

@@ -187,7 +187,7 @@ class Front {
     FoundPoints news = search_points(problem_, searches, options_, execution_, observer_);
     for (FoundPoint& one : news.points) found_.push_back(std::move(one));
     const bool is_falling = settings_.to < settings_.from;
-    std::stable_sort(found_.begin(), found_.end(), [&](const FoundPoint& a, const FoundPoint& b) {
+    std::ranges::stable_sort(found_, [&](const FoundPoint& a, const FoundPoint& b) {
       return is_falling ? a.point.limit > b.point.limit : a.point.limit < b.point.limit;
     });
     if (found_.empty()) throw Stopped();

@@ -19,9 +19,8 @@ constexpr double near_zero = 1e-6;   ///< of the accuracy: values below are roun
 GoalScale scale_of(const std::vector<Goals>& front, std::size_t goal) {
   GoalScale scale;
   if (front.empty()) return scale;
-  const auto [low, high] = std::minmax_element(
-      front.begin(), front.end(),
-      [&](const Goals& one, const Goals& other) { return one[goal] < other[goal]; });
+  const auto [low, high] = std::ranges::minmax_element(
+      front, [&](const Goals& one, const Goals& other) { return one[goal] < other[goal]; });
   scale.low = (*low)[goal];
   scale.high = (*high)[goal];
   scale.accuracy = optimum_accuracy * std::max(std::abs(scale.low), std::abs(scale.high));
@@ -67,7 +66,7 @@ bool is_no_better(double one, double other) {
 std::vector<bool> non_dominated(const std::vector<Goals>& goals) {
   std::vector<bool> marks;
   for (const Goals& one : goals) {
-    marks.push_back(std::none_of(goals.begin(), goals.end(), [&](const Goals& other) {
+    marks.push_back(std::ranges::none_of(goals, [&](const Goals& other) {
       const bool is_nowhere_worse =
           is_no_better(one[0], other[0]) && is_no_better(one[1], other[1]);
       const bool is_somewhere_better =
@@ -84,9 +83,8 @@ Goals goals_of(const ParetoPoint& point, GoodSide side) {
 }
 
 bool ParetoPoint::keeps_limits() const {
-  if (result.max_violation > Tolerances().violation) return false;
-  return result.status == Status::verified || result.status == Status::unresolved ||
-         result.status == Status::stalled;
+  return result.max_violation <= Tolerances().violation &&
+         (result.is_optimum() || result.status == Status::stalled);
 }
 
 void mark_dominated(std::vector<ParetoPoint>& points, GoodSide side) {
@@ -97,7 +95,7 @@ void mark_dominated(std::vector<ParetoPoint>& points, GoodSide side) {
   const FrontScale scale(goals);
   for (ParetoPoint& point : points) {
     if (!point.keeps_limits()) continue;
-    point.is_dominated = std::any_of(points.begin(), points.end(), [&](const ParetoPoint& other) {
+    point.is_dominated = std::ranges::any_of(points, [&](const ParetoPoint& other) {
       const Limits limits = other.limit == point.limit ? Limits::same : Limits::different;
       return other.keeps_limits() &&
              scale.dominates(goals_of(other, side), goals_of(point, side), limits);

@@ -71,7 +71,7 @@ class MadeBodies {
 
   /// Whether they were made for this very design.
   bool are_made_at(const Eigen::VectorXd& x) const {
-    return std::all_of(bodies_.begin(), bodies_.end(), [&](const Made& made) {
+    return std::ranges::all_of(bodies_, [&](const Made& made) {
       return !made.made.empty() && continued(made)->distance(values_of(made, x)) == 0.0;
     });
   }

@@ -27,10 +27,6 @@ constexpr double same_objective = 1e-3;  ///< relative
 constexpr double same_variable = 2e-2;   ///< of its magnitude
 constexpr unsigned seed_of_starts = 1;
 
-bool is_optimum(const Result& result) {
-  return result.status == Status::verified || result.status == Status::unresolved;
-}
-
 bool is_same(const LocalOptimum& one, const Result& other, const Eigen::VectorXd& scales) {
   const double difference = std::abs(one.objective - other.evaluation.objective);
   const Eigen::VectorXd moved = (one.x - other.x).cwiseQuotient(scales);
@@ -44,10 +40,9 @@ std::vector<LocalOptimum> distinct_optima(const std::vector<StagedSolution>& sol
   std::vector<LocalOptimum> optima;
   for (std::size_t i = 0; i < solutions.size(); ++i) {
     const Result& result = solutions[i].result;
-    if (!is_optimum(result)) continue;
-    const auto known = std::find_if(optima.begin(), optima.end(), [&](const LocalOptimum& one) {
-      return is_same(one, result, scales);
-    });
+    if (!result.is_optimum()) continue;
+    const auto known = std::ranges::find_if(
+        optima, [&](const LocalOptimum& one) { return is_same(one, result, scales); });
     if (known == optima.end()) {
       optima.push_back({result.x, result.evaluation.objective, {i}});
       continue;
@@ -58,10 +53,7 @@ std::vector<LocalOptimum> distinct_optima(const std::vector<StagedSolution>& sol
       known->objective = result.evaluation.objective;
     }
   }
-  std::stable_sort(optima.begin(), optima.end(),
-                   [](const LocalOptimum& one, const LocalOptimum& other) {
-                     return one.objective < other.objective;
-                   });
+  std::ranges::stable_sort(optima, {}, &LocalOptimum::objective);
   return optima;
 }
 
@@ -190,7 +182,7 @@ class Searches : public StoredTasks<SearchData> {
     none.problem = std::make_unique<DesignProblem>(data().file);
     none.result.status = Status::failed;
     none.result.message = fmt::format("the search from start {} was lost: {}", task + 1, failure);
-    none.result.x = start(task);
+    none.result.x = data().starts[task];
     none.result.history = std::move(seen_);
     none.result.evaluations = int_size(none.result.history);
     notify(setup_.notice, none.result.message);
@@ -200,21 +192,16 @@ class Searches : public StoredTasks<SearchData> {
   std::vector<StagedSolution> take_solutions() { return std::move(solutions_); }
 
  private:
-  const Eigen::VectorXd& start(int task) const { return data().starts[task]; }
-
-  /// What comes from here on is of this search.
+  /// What comes from here on is of this search. After a stop, others are heard after a search that did
+  /// not end.
   void announce(int task) {
     if (task < announced_) return;
-    count_unfinished();
+    if (!seen_.empty()) {
+      const EvaluationRecord& last = seen_.back();
+      add_effort(last.evaluation, last.iteration, last.seconds);
+    }
     announced_ = task + 1;
     notify(setup_.notice, fmt::format("start {} of {}", task + 1, data().starts.size()));
-  }
-
-  /// After a stop, others are heard after a search that did not end.
-  void count_unfinished() {
-    if (seen_.empty()) return;
-    const EvaluationRecord& last = seen_.back();
-    add_effort(last.evaluation, last.iteration, last.seconds);
   }
 
   void add(StagedSolution solution) {
@@ -348,7 +335,7 @@ Result interrupted_result(const DesignProblem& problem, const SolveOptions& opti
   result.evaluations = seen.back().evaluation;
   result.iterations = seen.back().iteration;
   result.gradient_evaluations =
-      static_cast<int>(std::count_if(seen.begin(), seen.end(), [](const EvaluationRecord& record) {
+      static_cast<int>(std::ranges::count_if(seen, [](const EvaluationRecord& record) {
         return record.request == Request::values_and_gradients;
       }));
   result.max_violation = best.max_violation;

@@ -306,10 +306,10 @@ const Finding* find_serious(const std::vector<Finding>& findings, const ProblemF
   const auto counts = [&](const Finding& finding) {
     return finding.is_serious &&
            (file.has_cases() || finding.responses.empty() ||
-            std::any_of(finding.responses.begin(), finding.responses.end(),
-                        [&](const std::string& name) { return asked.contains(name); }));
+            std::ranges::any_of(finding.responses,
+                                [&](const std::string& name) { return asked.contains(name); }));
   };
-  const auto found = std::find_if(findings.begin(), findings.end(), counts);
+  const auto found = std::ranges::find_if(findings, counts);
   return found == findings.end() ? nullptr : &*found;
 }
 
