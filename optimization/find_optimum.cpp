@@ -32,20 +32,6 @@ constexpr int most_restorations = 2;
 /// Iterations of each optimization that looks for the least violation.
 constexpr int least_violation_iterations = 60;
 
-/// A problem that begins at another design.
-class StartedProblem : public ProblemDecorator {
- public:
-  StartedProblem(Problem& problem, const Eigen::VectorXd& start)
-      : ProblemDecorator(problem), variables_(problem.variables()) {
-    set_start(variables_, start);
-  }
-
-  const std::vector<Variable>& variables() const override { return variables_; }
-
- private:
-  std::vector<Variable> variables_;
-};
-
 /// A backend, and the size of its first steps.
 struct BackendSetup {
   std::string backend;
@@ -178,7 +164,7 @@ class Search {
     LimitRows rows = searched_.limit_rows();
     const Stopwatch watch;
     const double seconds_before = total_.seconds;
-    ProblemDecorator recorded(*rows.problem, [&](const Eigen::VectorXd& x, Request request) {
+    FunctionProblem recorded(*rows.problem, [&](const Eigen::VectorXd& x, Request request) {
       Attempt attempt = attempt_evaluation(*rows.problem, x, request);
       total_.seconds = seconds_before + watch.seconds();
       record(rows.constraint_of_row, record_of(x, request, attempt));
@@ -336,7 +322,10 @@ Result find_optimum(Problem& problem, const SolveOptions& options, const Observe
                     const Notice& notice) {
   const auto attempt = [&](const Eigen::VectorXd& start, const SolveOptions& with,
                            const Observer& hears) {
-    StartedProblem started(problem, start);
+    FunctionProblem started(problem, [&](const Eigen::VectorXd& x, Request request) {
+      return problem.evaluate(x, request);
+    });
+    started.start_from(start);
     return solve(started, with, hears);
   };
   const auto limit_rows = [&] { return LimitRows{&problem, own_constraints(problem)}; };

@@ -71,6 +71,9 @@ class EvaluationFailure : public SimulationError {
   using SimulationError::SimulationError;
 };
 
+/// Makes variables start at a design.
+void set_start(std::vector<Variable>& variables, const Eigen::VectorXd& x);
+
 /// Something to optimize.
 class Problem {
  public:
@@ -90,7 +93,7 @@ class Problem {
   virtual Evaluation evaluate(const Eigen::VectorXd& x, Request request) = 0;
 };
 
-/// A problem whose evaluation is a function object; for tests and small uses.
+/// A problem whose evaluation is a function object: one by itself, or made of another one.
 class FunctionProblem : public Problem {
  public:
   using Function = std::function<Evaluation(const Eigen::VectorXd& x, Request request)>;
@@ -101,46 +104,37 @@ class FunctionProblem : public Problem {
         constraints_(std::move(constraints)),
         function_(std::move(function)) {}
 
-  const std::vector<Variable>& variables() const override { return variables_; }
+  /// With the variables, the limits and the words of another problem, which must outlive this.
+  FunctionProblem(const Problem& of, Function function)
+      : of_(&of), constraints_(of.constraints()), function_(std::move(function)) {}
+
+  /// Begins at another design.
+  void start_from(const Eigen::VectorXd& x) {
+    variables_ = variables();
+    set_start(*variables_, x);
+  }
+
+  const std::vector<Variable>& variables() const override {
+    return variables_ ? *variables_ : of_->variables();
+  }
   const std::vector<Constraint>& constraints() const override { return constraints_; }
-  std::string objective_name() const override { return "objective"; }
+  std::string objective_name() const override { return of_ ? of_->objective_name() : "objective"; }
+  std::string variable_text(std::size_t variable, double value) const override {
+    return of_ ? of_->variable_text(variable, value) : Problem::variable_text(variable, value);
+  }
+  std::string constraint_text(std::size_t constraint, double value) const override {
+    return of_ ? of_->constraint_text(constraint, value)
+               : Problem::constraint_text(constraint, value);
+  }
   Evaluation evaluate(const Eigen::VectorXd& x, Request request) override {
     return function_(x, request);
   }
 
  private:
-  std::vector<Variable> variables_;
+  const Problem* of_ = nullptr;
+  std::optional<std::vector<Variable>> variables_;
   std::vector<Constraint> constraints_;
   Function function_;
-};
-
-/// Another problem made of one with the same variables: a function, or a derived class, says what it answers.
-class ProblemDecorator : public Problem {
- public:
-  /// @param problem   must outlive this
-  /// @param function  by default the evaluation of the problem
-  explicit ProblemDecorator(Problem& problem, FunctionProblem::Function function = {})
-      : problem_(problem), function_(std::move(function)) {}
-
-  const std::vector<Variable>& variables() const override { return problem_.variables(); }
-  const std::vector<Constraint>& constraints() const override { return problem_.constraints(); }
-  std::string objective_name() const override { return problem_.objective_name(); }
-  std::string variable_text(std::size_t variable, double value) const override {
-    return problem_.variable_text(variable, value);
-  }
-  std::string constraint_text(std::size_t constraint, double value) const override {
-    return problem_.constraint_text(constraint, value);
-  }
-  Evaluation evaluate(const Eigen::VectorXd& x, Request request) override {
-    return function_ ? function_(x, request) : problem_.evaluate(x, request);
-  }
-
- protected:
-  Problem& problem() { return problem_; }
-
- private:
-  Problem& problem_;
-  FunctionProblem::Function function_;
 };
 
 /// The outcome of an evaluation that may fail: the evaluation, or why there is none.
@@ -160,9 +154,6 @@ Eigen::VectorXd start_of(const Problem& problem);
 /// @throws InputError if there is no variable, if bounds or limits contradict each other or are not
 ///         numbers, or if a start lies outside its bounds; the message names the variable.
 Eigen::VectorXd checked_start(const Problem& problem);
-
-/// Makes variables start at a design.
-void set_start(std::vector<Variable>& variables, const Eigen::VectorXd& x);
 
 /// The nearest design within the bounds.
 Eigen::VectorXd within_bounds(const Problem& problem, Eigen::VectorXd x);

@@ -21,7 +21,10 @@ constexpr double relative_step = 1e-4;
 }  // namespace
 
 RobustProblem::RobustProblem(Problem& problem, Eigen::VectorXd deviations, Eigen::VectorXd margins)
-    : ProblemDecorator(problem), deviations_(std::move(deviations)), margins_(std::move(margins)) {
+    : FunctionProblem(problem, {}),
+      problem_(problem),
+      deviations_(std::move(deviations)),
+      margins_(std::move(margins)) {
   assert(deviations_.size() == static_cast<Eigen::Index>(variables().size()));
   assert(margins_.size() == static_cast<Eigen::Index>(constraints().size()));
   for (std::size_t j = 0; j < constraints().size(); ++j) {
@@ -40,7 +43,7 @@ Eigen::MatrixXd RobustProblem::deviation_gradients(const Eigen::VectorXd& x,
                                                    const Eigen::VectorXd& deviations) {
   const Eigen::MatrixXd& jacobian = evaluation.constraint_jacobian;
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(jacobian.rows(), jacobian.cols());
-  const Eigen::VectorXd sizes = x.cwiseAbs().cwiseMax(local_scales(problem(), x));
+  const Eigen::VectorXd sizes = x.cwiseAbs().cwiseMax(local_scales(problem_, x));
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     if (deviations_(i) == 0.0) continue;
     const double step = relative_step * sizes(i);
@@ -64,7 +67,7 @@ Eigen::MatrixXd RobustProblem::deviation_gradients(const Eigen::VectorXd& x,
 
 Eigen::MatrixXd RobustProblem::neighbour_jacobian(const Eigen::VectorXd& x, Eigen::Index changed) {
   try {
-    return problem().evaluate(x, Request::values_and_gradients).constraint_jacobian;
+    return problem_.evaluate(x, Request::values_and_gradients).constraint_jacobian;
   } catch (const SimulationError& error) {
     throw EvaluationFailure(fmt::format("with {} = {:.9g}, for the gradient of a margin: {}",
                                         variables()[changed].name, x(changed), error.what()));
@@ -75,7 +78,7 @@ Evaluation RobustProblem::evaluate(const Eigen::VectorXd& x, Request request) {
   // Backends ask for values first, and often for the gradients of the same design after.
   if (x_.size() == 0 || x != x_) {
     x_.resize(0);
-    at_x_ = problem().evaluate(x, Request::values_and_gradients);
+    at_x_ = problem_.evaluate(x, Request::values_and_gradients);
     x_ = x;
   }
   Evaluation evaluation = at_x_;
