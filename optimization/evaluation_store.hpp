@@ -18,7 +18,7 @@ namespace pleuel {
 
 /// What an evaluation follows from, within one problem file; equal to the last bit or not at all.
 struct EvaluationKey {
-  std::string setting;  ///< what it is simulated with (setting_text.hpp)
+  std::string setting;  ///< what it is simulated with (setting_text())
   std::string rows;     ///< what stands for the constraints
   std::string method;   ///< how gradients are computed; empty where that is chosen with it
   Request request = Request::values;

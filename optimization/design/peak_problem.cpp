@@ -196,7 +196,7 @@ void PeakProblem::start_epigraph_variables() {
   }
 }
 
-/// What is no goal of its case, whose goals the record knows (setting_text.hpp), is named.
+/// What is no goal of its case, whose goals the record knows (setting_text()), is named.
 void PeakProblem::name_rows() {
   named_rows_.name =
       fmt::format("peaks of {} windows{}", windows_, bounds_.empty() ? "" : " with the objective");
