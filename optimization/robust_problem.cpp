@@ -34,10 +34,6 @@ RobustProblem::RobustProblem(Problem& problem, Eigen::VectorXd deviations, Eigen
   }
 }
 
-Eigen::VectorXd RobustProblem::constraint_deviations(const Evaluation& evaluation) const {
-  return (evaluation.constraint_jacobian * deviations_.asDiagonal()).rowwise().norm();
-}
-
 Eigen::MatrixXd RobustProblem::deviation_gradients(const Eigen::VectorXd& x,
                                                    const Evaluation& evaluation,
                                                    const Eigen::VectorXd& deviations) {
@@ -82,7 +78,8 @@ Evaluation RobustProblem::evaluate(const Eigen::VectorXd& x, Request request) {
     x_ = x;
   }
   Evaluation evaluation = at_x_;
-  const Eigen::VectorXd deviations = constraint_deviations(evaluation);
+  const Eigen::VectorXd deviations =
+      (evaluation.constraint_jacobian * deviations_.asDiagonal()).rowwise().norm();
   if (request == Request::values_and_gradients) {
     const Eigen::MatrixXd gradients = deviation_gradients(x, evaluation, deviations);
     evaluation.constraint_jacobian += margins_.asDiagonal() * gradients;

@@ -24,7 +24,6 @@ class RobustProblem : public FunctionProblem {
   Evaluation evaluate(const Eigen::VectorXd& x, Request request) override;
 
  private:
-  Eigen::VectorXd constraint_deviations(const Evaluation& evaluation) const;
   Eigen::MatrixXd deviation_gradients(const Eigen::VectorXd& x, const Evaluation& evaluation,
                                       const Eigen::VectorXd& deviations);
 

@@ -101,22 +101,6 @@ std::optional<std::size_t> DesignCase::response_of(const RowSource& rows) const 
   return index_of_response(file_, name);
 }
 
-DesignCase::Row DesignCase::linear_row(std::size_t constraint) const {
-  Row row;
-  row.gradient = Eigen::VectorXd::Zero(x_.size());
-  for (const auto& [variable, factor] : file_.constraints[constraint].linear) {
-    row.value += factor * x_(variable);
-    row.gradient(variable) += factor;
-  }
-  return row;
-}
-
-std::vector<RowSource> DesignCase::with_objective(const std::vector<RowSource>& rows) const {
-  std::vector<RowSource> all = rows;
-  if (has_objective()) all.insert(all.begin(), RowSource());
-  return all;
-}
-
 /// One after the other.
 std::vector<DesignCase::Row> DesignCase::rows_at(const Analysis& analysis,
                                                  const std::vector<RowSource>& rows) const {
@@ -128,7 +112,12 @@ std::vector<DesignCase::Row> DesignCase::rows_at(const Analysis& analysis,
   for (const RowSource& of : rows) {
     const auto response = response_of(of);
     if (!response) {
-      all.push_back(linear_row(*of.constraint));
+      Row& row = all.emplace_back();
+      row.gradient = Eigen::VectorXd::Zero(x_.size());
+      for (const auto& [variable, factor] : file_.constraints[*of.constraint].linear) {
+        row.value += factor * x_(variable);
+        row.gradient(variable) += factor;
+      }
     } else if (of.division) {
       for (const Reduction& peak : divided_peaks(analysis, file_, *response, *of.division)) {
         add(of, *response, peak);
@@ -185,19 +174,14 @@ Eigen::MatrixXd DesignCase::gradients_of(Analysis& analysis, const std::vector<R
   return gradients;
 }
 
-EvaluationKey DesignCase::key_of(const Eigen::VectorXd& x, Request request,
-                                 const std::string& rows) const {
-  const GradientMethod method = choice_ ? choice_->method : file_.sensitivity.method;
-  const bool is_open = method == GradientMethod::automatic;
-  const bool has_method = request == Request::values_and_gradients && !is_open;
-  return {setting_, rows, has_method ? to_string(method) : "", request, x};
-}
-
 std::optional<StoredEvaluation> DesignCase::recall(const Eigen::VectorXd& x, Request request,
                                                    const std::string& name,
                                                    const std::vector<RowSource>& rows) {
   if (!store_) return std::nullopt;
-  asked_ = key_of(x, request, name);
+  const GradientMethod method = choice_ ? choice_->method : file_.sensitivity.method;
+  const bool is_open = method == GradientMethod::automatic;
+  const bool has_method = request == Request::values_and_gradients && !is_open;
+  asked_ = {setting_, name, has_method ? to_string(method) : "", request, x};
   auto stored = store_->find(*asked_);
   if (!stored) return std::nullopt;
   if (stored->older_row > 0) recalled_.emplace_back(*asked_, rows);
@@ -233,7 +217,8 @@ void DesignCase::confirm(const std::function<bool(const Eigen::VectorXd& x)>& co
 Evaluation DesignCase::simulated_rows(const Eigen::VectorXd& x, Request request,
                                       const std::vector<RowSource>& rows) {
   Analysis& analysis = analysis_at(x);
-  const std::vector<RowSource> asked = with_objective(rows);
+  std::vector<RowSource> asked = rows;
+  if (has_objective()) asked.insert(asked.begin(), RowSource());
   const std::vector<Row> all = rows_at(analysis, asked);
   const Eigen::Index first = has_objective() ? 1 : 0, count = std::ssize(all) - first;
   Evaluation evaluation;

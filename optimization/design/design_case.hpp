@@ -98,12 +98,8 @@ class DesignCase {
     Eigen::VectorXd gradient = {};  ///< of a sum of variables, which has no samples
   };
 
-  /// The rows, before them the objective, if there is one.
-  std::vector<RowSource> with_objective(const std::vector<RowSource>& rows) const;
   Evaluation simulated_rows(const Eigen::VectorXd& x, Request request,
                             const std::vector<RowSource>& rows);
-  EvaluationKey key_of(const Eigen::VectorXd& x, Request request, const std::string& rows) const;
-  Row linear_row(std::size_t constraint) const;
   std::vector<Row> rows_at(const Analysis& analysis, const std::vector<RowSource>& rows) const;
   /// That of the choice, which was made for the first rows: the adjoint method, if it was to choose, is
   /// none for more rows than there are variables.
