@@ -56,28 +56,18 @@ std::string place_text(double x, double y, double z) {
   return fmt::format("{:.12g} {:.12g} {:.12g}", rounded(x), rounded(y), rounded(z));
 }
 
-/// PointCoordinates by the text of their coordinates; one with a coordinate that is not fixed has none.
-class PointCoordinates {
- public:
-  explicit PointCoordinates(const std::vector<SceneNumber>& numbers) {
-    for (const SceneNumber& number : numbers) {
-      const auto component = component_of(number);
-      if (!component) continue;
-      auto& coordinates = coordinates_[component->point];
-      coordinates[component->index] = number.value;
+/// The coordinates of points; one that is not fixed is missing.
+using Coordinates = std::map<std::string, std::array<std::optional<double>, 3>>;
+
+Coordinates coordinates_of(const std::vector<SceneNumber>& numbers) {
+  Coordinates all;
+  for (const SceneNumber& number : numbers) {
+    if (const auto component = component_of(number)) {
+      all[component->point][component->index] = number.value;
     }
   }
-
-  /// Equal for points at one place.
-  std::string place(const std::string& point) const {
-    const auto& [x, y, z] = coordinates_.at(point);
-    if (!x || !y || !z) return point;
-    return place_text(*x, *y, *z);
-  }
-
- private:
-  std::map<std::string, std::array<std::optional<double>, 3>> coordinates_;
-};
+  return all;
+}
 
 bool leaves_plane(const Component& component, const std::optional<MotionPlane>& plane) {
   return plane && std::abs(plane->normal(component.index)) > 1e-12;
@@ -86,7 +76,7 @@ bool leaves_plane(const Component& component, const std::optional<MotionPlane>& 
 /// @param taken  places of points that variables move: what is there cannot be moved by itself
 Groups grouped(const std::vector<SceneNumber>& numbers, const std::optional<MotionPlane>& plane,
                const std::set<std::string>& taken) {
-  const PointCoordinates points(numbers);
+  const Coordinates coordinates = coordinates_of(numbers);
   Groups groups;
   std::map<std::string, std::size_t> group_of_place;
   for (const SceneNumber& number : numbers) {
@@ -95,7 +85,8 @@ Groups grouped(const std::vector<SceneNumber>& numbers, const std::optional<Moti
       if (number.value != 0.0) groups.push_back({number.pointer, {number.pointer}});
       continue;
     }
-    const std::string place = points.place(component->point);
+    const auto& [x, y, z] = coordinates.at(component->point);
+    const std::string place = x && y && z ? place_text(*x, *y, *z) : component->point;
     if (leaves_plane(*component, plane) || taken.contains(place)) continue;
     const std::string key = fmt::format("{} {}", place, component->index);
     const auto [found, is_new] = group_of_place.try_emplace(key, groups.size());
