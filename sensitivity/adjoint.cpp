@@ -9,10 +9,9 @@
 #include "core/integration/period_map.hpp"
 #include "core/integration/projection.hpp"
 #include "core/integration/step_equations.hpp"
-#include "core/mechanism/configuration.hpp"
 #include "core/mechanism/linear_solver.hpp"
+#include "core/mechanism/mechanism.hpp"
 #include "sensitivity/initial_sensitivity.hpp"
-#include "sensitivity/periodic_sensitivity.hpp"
 
 namespace pleuel {
 

@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "core/integration/simulate.hpp"
-#include "core/integration/state_sensitivity.hpp"
+#include "core/integration/state_columns.hpp"
 
 namespace pleuel {
 

@@ -4,7 +4,7 @@
 
 #include <Eigen/SparseCore>
 
-#include "core/beam/invariant_vector.hpp"
+#include "core/beam/invariants.hpp"
 #include "core/effects/body_equations.hpp"
 #include "core/system/term.hpp"
 

@@ -12,7 +12,7 @@
 #include "core/base/int_size.hpp"
 #include "core/linear/elastic_stability.hpp"
 #include "core/response/lateral_buckling_signal.hpp"
-#include "core/trust/stability.hpp"
+#include "core/trust/check_list.hpp"
 
 namespace pleuel {
 

@@ -1,7 +1,7 @@
 #include <filesystem>
 
 #include "core/scene/problem_reader.hpp"
-#include "core/scene/response_quantity.hpp"
+#include "core/scene/shown_unit.hpp"
 #include "tests/scene/good_problem.hpp"
 #include "tests/support/parameter_name.hpp"
 #include "tests/support/source_folder.hpp"

@@ -7,7 +7,6 @@
 #include "core/base/eager_matrices.hpp"
 #include "sensitivity/direct.hpp"
 #include "sensitivity/gradients.hpp"
-#include "sensitivity/history_gradients.hpp"
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/sample_scenes.hpp"
 #include "tests/support/test.hpp"

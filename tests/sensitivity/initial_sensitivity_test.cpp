@@ -5,7 +5,7 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/rotation_vector.hpp"
-#include "core/mechanism/configuration.hpp"
+#include "core/mechanism/mechanism.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/support/common_basis.hpp"
 #include "tests/support/dense_algebra.hpp"

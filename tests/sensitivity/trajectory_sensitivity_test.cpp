@@ -4,7 +4,7 @@
 #include <tuple>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/mechanism/configuration.hpp"
+#include "core/mechanism/mechanism.hpp"
 #include "core/response/analysis.hpp"
 #include "sensitivity/direct.hpp"
 #include "tests/support/common_basis.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/beam/beam_place.hpp"
+#include "core/beam/beam_shape.hpp"
 #include "core/model/model.hpp"
 
 namespace pleuel::test {

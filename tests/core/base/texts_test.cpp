@@ -4,7 +4,6 @@
 #include <variant>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/base/members.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/packed.hpp"
 #include "tests/support/test.hpp"

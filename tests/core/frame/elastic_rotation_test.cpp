@@ -1,6 +1,5 @@
-#include "core/frame/elastic_rotation.hpp"
-
 #include "core/base/eager_matrices.hpp"
+#include "core/frame/marker_kinematics.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/test.hpp"
 

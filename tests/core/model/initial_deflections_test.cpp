@@ -2,7 +2,7 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
-#include "core/trust/initial_motion.hpp"
+#include "core/trust/check_list.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/core/trust/findings_of.hpp"
 #include "tests/support/differences.hpp"

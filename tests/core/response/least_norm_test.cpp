@@ -1,7 +1,6 @@
-#include "core/start/least_norm.hpp"
-
 #include "core/base/eager_matrices.hpp"
 #include "core/start/initial_state.hpp"
+#include "core/start/redundancy.hpp"
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/core/response/response_samples.hpp"

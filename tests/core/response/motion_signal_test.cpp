@@ -4,7 +4,7 @@
 #include "core/beam/elastic_basis.hpp"
 #include "core/linear/modes.hpp"
 #include "core/response/analysis.hpp"
-#include "core/response/motion_along.hpp"
+#include "core/response/modal_vectors.hpp"
 #include "core/response/whole_turns.hpp"
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/random_state.hpp"

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/mechanism/configuration.hpp"
+#include "core/mechanism/mechanism.hpp"
 #include "sensitivity/gradients.hpp"
 #include "sensitivity/initial_sensitivity.hpp"
 #include "tests/support/differences.hpp"

@@ -5,7 +5,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/integration/simulate.hpp"
-#include "core/mechanism/configuration.hpp"
+#include "core/mechanism/mechanism.hpp"
 #include "tests/support/sample_name.hpp"
 #include "tests/support/sample_scenes.hpp"
 #include "tests/support/test.hpp"

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "core/trust/check_list.hpp"
 #include "core/trust/sideways_buckling.hpp"
-#include "core/trust/stability.hpp"
 #include "tests/core/trust/findings_of.hpp"
 
 namespace pleuel::test {

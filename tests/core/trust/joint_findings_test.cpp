@@ -1,7 +1,7 @@
 #include "core/trust/joint_findings.hpp"
 
 #include "core/base/error.hpp"
-#include "core/trust/not_modelled.hpp"
+#include "core/trust/check_list.hpp"
 #include "tests/core/trust/crank_rocker.hpp"
 #include "tests/core/trust/findings_of.hpp"
 #include "tests/support/parameter_name.hpp"

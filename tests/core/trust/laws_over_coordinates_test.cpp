@@ -1,5 +1,4 @@
-#include "core/trust/laws_over_coordinates.hpp"
-
+#include "core/trust/check_list.hpp"
 #include "core/trust/fast_laws.hpp"
 #include "tests/core/trust/findings_of.hpp"
 #include "tests/support/test.hpp"

@@ -1,7 +1,5 @@
-#include "core/trust/proportions.hpp"
-
 #include "core/base/eager_matrices.hpp"
-#include "core/trust/start_positions.hpp"
+#include "core/trust/check_list.hpp"
 #include "tests/core/trust/crank_rocker.hpp"
 #include "tests/core/trust/findings_of.hpp"
 #include "tests/support/parameter_name.hpp"

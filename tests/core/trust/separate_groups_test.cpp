@@ -1,5 +1,5 @@
 #include "core/base/eager_matrices.hpp"
-#include "core/trust/initial_motion.hpp"
+#include "core/trust/check_list.hpp"
 #include "tests/core/trust/findings_of.hpp"
 #include "tests/support/test.hpp"
 

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "core/trust/low_slenderness.hpp"
+#include "core/trust/bent_beams.hpp"
 #include "tests/core/trust/findings_of.hpp"
 #include "tests/support/bent_cantilever.hpp"
 #include "tests/support/problem_runs.hpp"

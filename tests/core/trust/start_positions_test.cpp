@@ -1,6 +1,4 @@
-#include "core/trust/start_positions.hpp"
-
-#include "core/trust/initial_motion.hpp"
+#include "core/trust/check_list.hpp"
 #include "tests/core/trust/findings_of.hpp"
 #include "tests/support/test.hpp"
 

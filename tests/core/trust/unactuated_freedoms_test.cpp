@@ -1,7 +1,7 @@
 #include "core/trust/unactuated_freedoms.hpp"
 
+#include "core/trust/check_list.hpp"
 #include "core/trust/joint_findings.hpp"
-#include "core/trust/proportions.hpp"
 #include "tests/core/trust/crank_rocker.hpp"
 #include "tests/core/trust/findings_of.hpp"
 #include "tests/support/problem_runs.hpp"
