@@ -77,7 +77,7 @@ class AdjointRun {
   }
 
   /// A start that is the end of its period depends on x by dy₀/dx = (1 − M)⁻¹ ∂Y/∂x
-  /// (periodic_sensitivity.hpp). With p, the derivatives with respect to it, and (1 − M)ᵀ π = p,
+  /// (initial_sensitivity.hpp). With p, the derivatives with respect to it, and (1 − M)ᵀ π = p,
   ///     pᵀ dy₀/dx = πᵀ ∂Y/∂x
   /// is what going back from π through the period adds to the sums. As the map is one of a motion
   /// close by, this is done again with what is left of p, until that is round-off. Multipliers at

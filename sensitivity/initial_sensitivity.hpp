@@ -48,7 +48,7 @@ inline Eigen::RowVectorXd sizes_of(const Eigen::MatrixXd& columns) {
   return columns.cwiseAbs().colwise().maxCoeff();
 }
 
-/// When the repeated solution with 1 − M (periodic_sensitivity.hpp) ends: where what is left is
+/// When the repeated solution with 1 − M ends: where what is left is
 /// round-off, relative to the size of the whole, in each column.
 class PeriodicCorrection {
  public:

@@ -83,7 +83,7 @@ struct Expression {
   std::string unit;      ///< SI unit of it
   std::vector<ExpressionArgument> arguments;
   std::vector<ExpressionStep> steps;
-  std::vector<double> path = {};  ///< what Operation::path goes through (value_path.hpp) [SI]
+  std::vector<double> path = {};  ///< what Operation::path goes through [SI]
 };
 
 struct ExpressionValue {

@@ -1,11 +1,8 @@
 #pragma once
 
-/// The members of a plain struct, in their order and without a list of their names: what is done with
-/// each, such as packing, is done with a member that is added later, too.
-
 /// Values as bytes and back, for other processes of the same program on the same kind of machine:
-/// doubles bit by bit. Plain structs go member by member (members below); others say how,
-/// once for both ways:
+/// doubles bit by bit. Plain structs go member by member, in their order and without a
+/// list of their names, so that one that is added later goes, too; others say how, once for both ways:
 ///
 ///     template <class Archive>
 ///     void transfer(Archive& archive, Interval& interval) {

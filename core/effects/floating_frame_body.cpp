@@ -73,7 +73,7 @@ void add_sums(const Invariants<double>& body, const InvariantLayout& layout, con
   layout.second_moment(sums) += of.M;
 }
 
-/// sums += ∂(μᵀR)/∂I: the residual of a body (floating_frame_residual.hpp) is linear in its
+/// sums += ∂(μᵀR)/∂I: the residual of a body (general_body_equations.hpp) is linear in its
 /// invariants, μᵀR = Σ sums · I. The same chain of formulas, backwards.
 /// @param layout    of the body's invariants; `sums` has so many entries
 /// @param motion    of the body

@@ -13,7 +13,7 @@
 
 namespace pleuel {
 
-/// Readings of a force law between two markers (force_term.hpp), which besides its forces gives
+/// Readings of a force law between two markers, which besides its forces gives
 ///       template <class Scalar>
 ///       Scalar read(const Data<Scalar>&, double time, const MarkerKinematics<Scalar, 2>&,
 ///                   Reading) const;
@@ -274,7 +274,7 @@ struct ForceElement {
   std::unique_ptr<Gauge> gauge;
 };
 
-/// Both of one law (force_term.hpp, marker_gauge.hpp).
+/// Both of one law.
 template <class Law>
 ForceElement make_force_element(
     const Law& law, const std::array<Marker, 2>& markers,

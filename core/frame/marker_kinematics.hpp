@@ -140,7 +140,7 @@ using Motion = std::array<Vector3<Scalar>, 3>;
 /// on them.
 ///
 /// Points and directions are attached to a marker by their undeformed local vectors p and s, with
-/// the elastic displacement u and rotation ψ of the marker, R = exp(ψ̃) (elastic_rotation.hpp):
+/// the elastic displacement u and rotation ψ of the marker, R = exp(ψ̃):
 ///     P = r + A (p + u),      d = A R s
 /// Forces enter by their virtual work, so that they are the exact gradients of what was computed
 /// from P and d.

@@ -56,7 +56,7 @@ Turning rotor_turning(const Mechanism& mechanism, const State& state);
 
 /// Small motions y of a mechanism about a state, with coefficients as they are there:
 ///     M ÿ + G ẏ + K y + Φᵀ μ = 0,   Φ y = 0
-/// counted in axes δq = T y, δv = T ẏ + V y, δa = T ÿ + P ẏ + Q y (turning.hpp), in which, with the
+/// counted in axes δq = T y, δv = T ẏ + V y, δa = T ÿ + P ẏ + Q y, in which, with the
 /// share of λ in R_q,
 ///     M = Tᵀ R_a T,  G = Tᵀ (R_a P + R_v T),  K = Tᵀ (R_a Q + R_v V + R_q T),  Φ = Φ_q T
 /// All tangents are those of the terms: of forces that follow, damping, stress, gyroscopic forces.

@@ -62,7 +62,7 @@ struct Mechanism {
   /// assembly moves frames rather than deforms bodies.
   Eigen::VectorXd assembly_weight;
   std::vector<BentStart> bent_starts;
-  /// What the square of each multiplier weighs in the norm of the reactions (least_norm.hpp): 1 for
+  /// What the square of each multiplier weighs in the norm of the reactions (redundancy.hpp): 1 for
   /// forces, one over the square of a length [1/m²] for moments.
   Eigen::VectorXd reaction_weight;
 };

@@ -56,7 +56,7 @@ constexpr int most_judged_coordinates = 600;
 /// make the stiffness singular (may_grow()), or more than what nothing grows tenfold below
 /// (CriticalInstants::harmless), at the instants at which beams are pressed most, each of them and all
 /// together, and of the fastest turn. Then small disturbances are propagated through all
-/// of it (disturbance_growth.hpp). Serious where one grows more than tenfold; mentioned where an
+/// of it (stability.cpp). Serious where one grows more than tenfold; mentioned where an
 /// instant is not stable, but does not last. Forces that follow, springs, rigid parts and turning
 /// damping count as they are. Not seen is what moments do to a beam that they bend
 /// (sideways_buckling.hpp).
