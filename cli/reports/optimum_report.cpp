@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "cli/reports/analysis_report.hpp"
 #include "cli/reports/case_report.hpp"
 #include "cli/reports/document_table.hpp"
+#include "cli/reports/limits_report.hpp"
 #include "cli/reports/scene_report.hpp"
 #include "cli/reports/starts_report.hpp"
 #include "cli/text/wrapped_text.hpp"

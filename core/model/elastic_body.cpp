@@ -1,4 +1,4 @@
-#include "core/model/stretched_members.hpp"
+#include "core/model/elastic_body.hpp"
 
 #include <set>
 

@@ -1,4 +1,4 @@
-#include "core/scene/sensitivity_settings.hpp"
+#include "core/scene/problem_file.hpp"
 
 #include <fmt/format.h>
 

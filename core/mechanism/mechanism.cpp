@@ -1,4 +1,4 @@
-#include "core/mechanism/configuration.hpp"
+#include "core/mechanism/mechanism.hpp"
 
 #include <cassert>
 

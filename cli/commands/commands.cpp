@@ -1,9 +1,6 @@
-#include "cli/commands/accurate_input.hpp"
-
-#include <fmt/format.h>
+#include "cli/commands/commands.hpp"
 
 #include "cli/reports/setting_report.hpp"
-#include "cli/text/console.hpp"
 
 namespace pleuel {
 
