@@ -147,6 +147,20 @@ struct Attempt {
 /// Anything else that is thrown is a fault of the program and passes through.
 Attempt attempt_evaluation(Problem& problem, const Eigen::VectorXd& x, Request request);
 
+/// Why some work failed with its numbers or its input, as where a window of time has no steps or there
+/// cannot be such a section; empty: it did not.
+template <class Work>
+std::string failure_of(const Work& work) {
+  try {
+    work();
+    return "";
+  } catch (const SimulationError& error) {
+    return error.what();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
 /// The start values of all variables as they are.
 Eigen::VectorXd start_of(const Problem& problem);
 

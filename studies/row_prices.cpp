@@ -92,13 +92,9 @@ PricedDesign::PricedDesign(const ProblemFile& problem, const Eigen::VectorXd& x)
 std::optional<double> PricedDesign::lagrangian(const ProblemFile& other) const {
   const bool has_windows = (other.simulation.local_error == 0.0) == has_equal_steps_;
   if (!prices_ || !has_windows) return std::nullopt;
-  try {
-    return prices_->lagrangian(other);
-  } catch (const SimulationError&) {
-    return std::nullopt;
-  } catch (const InputError&) {  // windows without steps
-    return std::nullopt;
-  }
+  std::optional<double> sum;  // none where it fails
+  failure_of([&] { sum = prices_->lagrangian(other); });
+  return sum;
 }
 
 std::optional<double> PricedDesign::change(const std::optional<double>& before,

@@ -9,7 +9,7 @@
 #include "core/scene/load_cases.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/trust/checks.hpp"
-#include "studies/accuracy_run.hpp"
+#include "optimization/problem.hpp"
 
 namespace pleuel {
 

@@ -251,7 +251,7 @@ class MadeSolve {
   StagedSolution solve(const ProblemFile& file, const Eigen::VectorXd& x) {
     StagedSolution solution;
     before_ = run_after(before_, setup_.observer, [&](const Observer& observer) {
-      solution = solve_stages(file, x, setup_.heard_by(observer));
+      solution = solve_in_stages(file, x, setup_.heard_by(observer));
       return std::move(solution.result);
     });
     solution.result = before_;
@@ -264,8 +264,7 @@ class MadeSolve {
   Eigen::VectorXd made_for_;  ///< the last design with bodies
 };
 
-}  // namespace
-
+/// Whether a body is made anew for each design.
 bool has_made_bodies(const ProblemFile& file) {
   for (const ProblemFile* problem : simulated_problems(file)) {
     for (const Body& body : problem->scene.bodies) {
@@ -275,9 +274,12 @@ bool has_made_bodies(const ProblemFile& file) {
   return false;
 }
 
+}  // namespace
+
 StagedSolution solve_with_made_bodies(const ProblemFile& file, const Eigen::VectorXd& start,
                                       const SearchSetup& setup) {
-  return MadeSolve(file, setup).run(start);
+  return has_made_bodies(file) ? MadeSolve(file, setup).run(start)
+                               : solve_in_stages(file, start, setup);
 }
 
 }  // namespace pleuel

@@ -4,12 +4,8 @@
 
 namespace pleuel {
 
-/// Whether a body is made anew for each design.
-bool has_made_bodies(const ProblemFile& file);
-
-/// solve_in_stages() where bodies are made anew for each design: with few calls of what makes them, as
+/// solve_in_stages(), with few calls of what makes bodies anew for each design, if there are such bodies:
 /// they are continued between the designs that they were made for (core/scene/continued_body.hpp).
-/// @pre has_made_bodies(file)
 StagedSolution solve_with_made_bodies(const ProblemFile& file, const Eigen::VectorXd& start,
                                       const SearchSetup& setup);
 

@@ -130,20 +130,13 @@ std::vector<Finding> check_margins(DesignProblem& design, const Eigen::VectorXd&
   std::vector<Margin> margins = margins_of(design, x);
   if (margins.empty() || !design.file().uncertainty) return {};
   std::vector<Finding> findings;
-  const auto refuse = [&](const UncertainParameter& parameter, const std::string& why) {
+  for (const UncertainParameter& parameter : design.file().uncertainty->parameters) {
+    const std::string why = failure_of([&] { look_beside(design, x, parameter, margins); });
+    if (why.empty()) continue;
     findings.push_back({fmt::format("at the deviations of \"{}\" that limits ask for the mechanism "
                                     "cannot be simulated: {}",
                                     name_of(design, parameter), why),
                         true});
-  };
-  for (const UncertainParameter& parameter : design.file().uncertainty->parameters) {
-    try {
-      look_beside(design, x, parameter, margins);
-    } catch (const SimulationError& error) {
-      refuse(parameter, error.what());
-    } catch (const InputError& error) {  // a section that there cannot be
-      refuse(parameter, error.what());
-    }
   }
   for (const Margin& margin : margins) {
     if (!margin.kink.empty() && margin.limit() != 0.0) {

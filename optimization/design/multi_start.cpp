@@ -13,6 +13,7 @@
 #include "core/jobs/parallel.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/packed_problem.hpp"
+#include "optimization/design/made_search.hpp"
 #include "optimization/evaluation_store.hpp"
 #include "optimization/problem.hpp"
 #include "optimization/result.hpp"
@@ -143,7 +144,7 @@ struct SearchData {
         {{.jobs = available_threads()}, store},
         [&](const EvaluationRecord& record) { caller.tell(packed(MessageKind::record, record)); },
         [&](const std::string& text) { caller.tell(packed(MessageKind::notice, text)); }};
-    return pack_solution(solve_in_stages(file, starts[task], setup));
+    return pack_solution(solve_with_made_bodies(file, starts[task], setup));
   }
 };
 
@@ -279,7 +280,7 @@ MultiStart solve_from_starts(const ProblemFile& file, const std::vector<Eigen::V
   setup.options.starts = int_size(starts);
   if (starts.size() == 1) {
     std::vector<StagedSolution> solutions;
-    solutions.push_back(solve_in_stages(file, starts.front(), setup));
+    solutions.push_back(solve_with_made_bodies(file, starts.front(), setup));
     return combined(starts, std::move(solutions));
   }
   const Stopwatch all_searches;

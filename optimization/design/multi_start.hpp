@@ -48,7 +48,7 @@ std::vector<Eigen::VectorXd> starts_of(const ProblemFile& file, const Eigen::Vec
 MultiStart combined(const std::vector<Eigen::VectorXd>& starts,
                     std::vector<StagedSolution> solutions);
 
-/// solve_in_stages() from each design, each independent of the others and, where they are several,
+/// solve_with_made_bodies() from each design, each independent of the others and, where they are several,
 /// in a process of its own (core/jobs/tasks.hpp): one that crashes is a start that failed. Observer
 /// and notice hear of them in their order. Answers do not depend on the number of jobs.
 /// @throws as solve()

@@ -97,30 +97,24 @@ Trust judge_cases(DesignProblem& design, const Eigen::VectorXd& x, Scrutiny scru
   if (!file.has_cases()) return trust_of(design.load_case(0), x, scrutiny);
   std::vector<std::vector<Finding>> findings;
   Trust all;
-  all.errors.resize(file.responses.size());
-  all.evidence.resize(file.responses.size());
-  all.bands.resize(file.responses.size());
-  bool has_errors = false, has_bands = false;
   for (std::size_t c = 0; c < design.case_count(); ++c) {
     Trust one = trust_of(design.load_case(c), x, scrutiny);
     findings.push_back(std::move(one.findings));
     if (all.failed_run.empty()) all.failed_run = std::move(one.failed_run);
     for (std::size_t i = 0; i < file.responses.size(); ++i) {
       if (is_over_cases(file, i) || file.case_responses[i].load_case != c) continue;
-      const std::size_t here = file.case_responses[i].index;
-      has_errors = has_errors || !one.errors.empty();
-      has_bands = has_bands || !one.bands.empty();
-      if (!one.errors.empty()) all.errors[i] = one.errors[here];
-      if (!one.evidence.empty()) all.evidence[i] = one.evidence[here];
-      if (!one.bands.empty()) all.bands[i] = one.bands[here];
+      const auto keep = [&](auto& numbers, const auto& of_case) {
+        if (of_case.empty()) return;
+        numbers.resize(file.responses.size());
+        numbers[i] = of_case[file.case_responses[i].index];
+      };
+      keep(all.errors, one.errors);
+      keep(all.evidence, one.evidence);
+      keep(all.bands, one.bands);
     }
   }
-  if (!has_errors) {
-    all.errors.clear();
-    all.evidence.clear();
-  }
-  if (has_errors) add_errors_over_cases(design, x, all);
-  if (!has_bands) all.bands.clear();
+  all.evidence.resize(all.errors.size());
+  if (!all.errors.empty()) add_errors_over_cases(design, x, all);
   all.findings = joined_findings(file, findings);
   return all;
 }

@@ -12,7 +12,6 @@
 #include "core/base/stopwatch.hpp"
 #include "core/response/effect_measurement.hpp"
 #include "core/scene/load_cases.hpp"
-#include "optimization/design/made_search.hpp"
 
 namespace pleuel {
 
@@ -195,12 +194,6 @@ class StagedSolve {
 
 StagedSolution solve_in_stages(const ProblemFile& file, const Eigen::VectorXd& start,
                                const SearchSetup& setup) {
-  return has_made_bodies(file) ? solve_with_made_bodies(file, start, setup)
-                               : solve_stages(file, start, setup);
-}
-
-StagedSolution solve_stages(const ProblemFile& file, const Eigen::VectorXd& start,
-                            const SearchSetup& setup) {
   return StagedSolve(file, setup).run(start);
 }
 

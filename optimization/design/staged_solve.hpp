@@ -59,8 +59,4 @@ struct StagedSolution {
 StagedSolution solve_in_stages(const ProblemFile& file, const Eigen::VectorXd& start,
                                const SearchSetup& setup);
 
-/// The same with bodies that are made anew for each design as they are.
-StagedSolution solve_stages(const ProblemFile& file, const Eigen::VectorXd& start,
-                            const SearchSetup& setup);
-
 }  // namespace pleuel
