@@ -1,9 +1,9 @@
 #include <fstream>
 
 #include "cli/text/log_log_chart.hpp"
+#include "tests/cli/page_text.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/readback.hpp"
-#include "tests/cli/svg_text.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::plot_test {

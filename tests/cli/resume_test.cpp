@@ -5,7 +5,6 @@
 #include <sys/stat.h>
 
 #include "record/run_database.hpp"
-#include "tests/cli/compared_runs.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/support/test.hpp"
 

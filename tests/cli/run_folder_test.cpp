@@ -3,7 +3,7 @@
 #include <sstream>
 
 #include "tests/cli/program.hpp"
-#include "tests/cli/text_table.hpp"
+#include "tests/cli/readback.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::run_folder_test {

@@ -6,11 +6,10 @@
 #include "core/base/error.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "tests/hard/hard_problems.hpp"
-#include "tests/hard/rigid_references.hpp"
-#include "tests/support/convergence.hpp"
-#include "tests/support/energy.hpp"
+#include "tests/support/differences.hpp"
+#include "tests/support/files.hpp"
+#include "tests/support/model_state.hpp"
 #include "tests/support/problem_runs.hpp"
-#include "tests/support/source_folder.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::rigid_test {

@@ -7,9 +7,8 @@
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/hard/hard_problems.hpp"
-#include "tests/hard/rigid_references.hpp"
-#include "tests/support/convergence.hpp"
 #include "tests/support/dense_algebra.hpp"
+#include "tests/support/differences.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::scheme_test {

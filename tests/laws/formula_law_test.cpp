@@ -4,7 +4,6 @@
 #include "core/scene/time_breaks.hpp"
 #include "core/trust/fast_laws.hpp"
 #include "sensitivity/gradients.hpp"
-#include "tests/laws/law_gradients.hpp"
 #include "tests/laws/law_problems.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/problem_runs.hpp"

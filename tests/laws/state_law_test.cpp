@@ -4,7 +4,6 @@
 #include "core/trust/joint_findings.hpp"
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/gradients.hpp"
-#include "tests/laws/law_gradients.hpp"
 #include "tests/laws/law_problems.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/problem_runs.hpp"

@@ -8,10 +8,10 @@
 #include "optimization/backends.hpp"
 #include "optimization/design/peak_problem.hpp"
 #include "optimization/design/staged_solve.hpp"
-#include "tests/optimization/backend_names.hpp"
-#include "tests/problems/verified_optimum.hpp"
+#include "tests/optimization/known_problems.hpp"
+#include "tests/problems/loaded_crank.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/problem_runs.hpp"
-#include "tests/support/source_folder.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::design_solve_test {

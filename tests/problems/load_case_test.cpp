@@ -9,7 +9,6 @@
 #include "optimization/design/peak_problem.hpp"
 #include "optimization/design/staged_solve.hpp"
 #include "tests/problems/loaded_crank.hpp"
-#include "tests/problems/verified_optimum.hpp"
 #include "tests/support/evaluation_memory.hpp"
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"

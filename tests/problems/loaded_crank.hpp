@@ -2,6 +2,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "optimization/design/design_solve.hpp"
+#include "tests/support/test.hpp"
+
 namespace pleuel::test {
 
 /// Half a turn of a slender crank with a load at its end, at two speeds and with two loads.
@@ -46,6 +49,14 @@ inline nlohmann::ordered_json loaded_crank() {
                 "/scene/joints/hub/drive/speed": "30 rad/s"}
     }
   })json");
+}
+
+/// What a search from the start of a problem file ends with: an optimum, or a failure of the test.
+inline Result verified_optimum(const ProblemFile& file) {
+  DesignProblem design(file);
+  const Result result = solve_design(design, {});
+  EXPECT_EQ(result.status, Status::verified) << result.message;
+  return result;
 }
 
 }  // namespace pleuel::test

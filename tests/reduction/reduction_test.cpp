@@ -3,8 +3,8 @@
 #include "reduction/reduce.hpp"
 #include "tests/reduction/solid_block.hpp"
 #include "tests/support/dense_algebra.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/sample_beams.hpp"
-#include "tests/support/temporary_folder.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::reduction_test {

@@ -4,8 +4,8 @@
 #include "core/base/error.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "tests/scene/good_problem.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/parameter_name.hpp"
-#include "tests/support/temporary_folder.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::bad_section_test {

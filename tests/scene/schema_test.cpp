@@ -16,8 +16,8 @@
 #include "core/scene/reading/key_schema.hpp"
 #include "core/scene/visit_numbers.hpp"
 #include "tests/scene/good_problem.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/problem_runs.hpp"
-#include "tests/support/source_folder.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::schema_test {

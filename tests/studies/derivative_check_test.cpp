@@ -6,8 +6,8 @@
 #include "sensitivity/sampled_gradients.hpp"
 #include "studies/noise.hpp"
 #include "tests/studies/quick_problem.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/problem_runs.hpp"
-#include "tests/support/source_folder.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::derivative_check_test {

@@ -14,7 +14,7 @@
 #include "core/base/stopwatch.hpp"
 #include "core/jobs/parallel.hpp"
 #include "core/jobs/rank_place.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::tasks_test {

@@ -8,7 +8,7 @@
 #include "core/trust/model_variants.hpp"
 #include "core/trust/stability.hpp"
 #include "tests/core/start/quasi_static_beam.hpp"
-#include "tests/core/trust/findings_of.hpp"
+#include "tests/core/trust/trust_scenes.hpp"
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"
 

@@ -5,7 +5,6 @@
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/support/bent_cantilever.hpp"
-#include "tests/support/convergence.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"

@@ -9,7 +9,7 @@
 #include "core/base/error.hpp"
 #include "core/response/body_export.hpp"
 #include "sensitivity/gradients.hpp"
-#include "tests/support/source_folder.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test {

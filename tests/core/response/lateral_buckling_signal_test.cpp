@@ -4,7 +4,7 @@
 #include "core/base/error.hpp"
 #include "core/trust/sideways_buckling.hpp"
 #include "sensitivity/gradients.hpp"
-#include "tests/core/trust/findings_of.hpp"
+#include "tests/core/trust/trust_scenes.hpp"
 #include "tests/support/parameter_name.hpp"
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"

@@ -5,7 +5,7 @@
 #include "core/response/lateral_buckling_signal.hpp"
 #include "core/response/make_responses.hpp"
 #include "core/scene/magnitude_direction.hpp"
-#include "tests/support/random_state.hpp"
+#include "tests/support/model_state.hpp"
 #include "tests/support/sample_scenes.hpp"
 
 /// Every kind of response, asked of every body and joint of a sample.

@@ -7,7 +7,7 @@
 #include "sensitivity/gradients.hpp"
 #include "tests/core/response/response_samples.hpp"
 #include "tests/support/differences.hpp"
-#include "tests/support/sample_name.hpp"
+#include "tests/support/sample_scenes.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::signal_derivative_test {

@@ -8,7 +8,7 @@
 #include "core/response/analysis.hpp"
 #include "core/start/degrees_of_freedom.hpp"
 #include "core/start/initial_state.hpp"
-#include "tests/support/places.hpp"
+#include "tests/support/model_state.hpp"
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/sample_scenes.hpp"
 #include "tests/support/test.hpp"

@@ -5,9 +5,8 @@
 #include "core/scene/problem_reader.hpp"
 #include "core/trust/checks.hpp"
 #include "core/trust/not_modelled.hpp"
-#include "tests/core/trust/crank_rocker.hpp"
-#include "tests/core/trust/findings_of.hpp"
-#include "tests/support/source_folder.hpp"
+#include "tests/core/trust/trust_scenes.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::error_bars_test {

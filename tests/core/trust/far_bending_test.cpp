@@ -2,7 +2,7 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/trust/tension_layers.hpp"
-#include "tests/core/trust/findings_of.hpp"
+#include "tests/core/trust/trust_scenes.hpp"
 #include "tests/support/bent_cantilever.hpp"
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"

@@ -9,7 +9,7 @@
 #include "core/integration/period_map.hpp"
 #include "core/trust/refined_runs.hpp"
 #include "core/trust/round_off.hpp"
-#include "tests/core/trust/findings_of.hpp"
+#include "tests/core/trust/trust_scenes.hpp"
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"
 

@@ -1,6 +1,6 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/section/section_properties.hpp"
-#include "tests/core/trust/sheared_beam.hpp"
+#include "tests/core/trust/trust_scenes.hpp"
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"
 

@@ -1,7 +1,7 @@
 #include "core/trust/stability.hpp"
 
 #include "core/trust/sideways_buckling.hpp"
-#include "tests/core/trust/findings_of.hpp"
+#include "tests/core/trust/trust_scenes.hpp"
 #include "tests/support/test.hpp"
 
 /// A square column of 1 m × 10 mm, pressed slowly: EI = 175 N m².

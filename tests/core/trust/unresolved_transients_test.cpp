@@ -4,9 +4,9 @@
 #include "core/integration/fast_vibration.hpp"
 #include "core/trust/checks.hpp"
 #include "core/trust/startup_transient.hpp"
-#include "tests/core/trust/findings_of.hpp"
+#include "tests/core/trust/trust_scenes.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/problem_runs.hpp"
-#include "tests/support/source_folder.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::unresolved_transients_test {
