@@ -225,8 +225,7 @@ TEST_F(Warnings, FitIntoAHundredColumns) {
 ProgramRun simulate_with_width(const std::string& width) {
   const ProgramFolder folder;
   std::ofstream(folder.path() / "bar.json") << R"({"scene": {
-      "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
-                         "elements": 1,
+      "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel", "elements": 1,
                          "section": {"type": "rectangle", "width": "= w", "height": "= h"}}},
       "joints": {"root": {"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}}},
     "simulation": {"end_time": 0.001, "step": 0.001},
@@ -287,8 +286,7 @@ TEST_F(Show, DrawsBodiesRedThatNothingMoves) {
         "crank": {"type": "beam", "from": [0, 0, 0], "to": [0.1, 0, 0], "material": "steel",
                   "rigid": true, "elements": 1, "section": {"type": "circle", "diameter": 0.01}},
         "link": {"type": "beam", "from": [0.1, 0, 0], "to": [0.3, 0, 0], "material": "steel",
-                 "rigid": true, "elements": 1, "section": {"type": "circle", "diameter": 0.01}}
-      },
+                 "rigid": true, "elements": 1, "section": {"type": "circle", "diameter": 0.01}}},
       "joints": {
         "hub": {"type": "revolute", "bodies": ["ground", "crank"], "at": [0, 0, 0],
                 "drive": {"type": "constant-speed", "speed": 5}},
@@ -296,8 +294,7 @@ TEST_F(Show, DrawsBodiesRedThatNothingMoves) {
       }
     },
     "simulation": {"end_time": 0.1, "step": 1e-3},
-    "responses": {"reach": {"type": "position", "body": "link", "at": 1, "direction": "x",
-                            "over_time": "final"}}
+    "responses": {"reach": {"type": "position", "body": "link", "at": 1, "direction": "x", "over_time": "final"}}
   })";
   const ProgramRun run = folder_.run({"show", "loose.json", "-o", "page.html", "--json"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
@@ -365,8 +362,7 @@ TEST(GradientReport, ComparesAllMethods) {
 /// its period of 62 ms.
 const char* const pushed = R"j({"name": "pushed", "scene": {
     "bodies": {"beam": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
-      "section": {"type": "rectangle", "width": "30 mm", "height": "20 mm"}, "elements": 4,
-      "frame": "tangent"}},
+      "section": {"type": "rectangle", "width": "30 mm", "height": "20 mm"}, "elements": 4, "frame": "tangent"}},
     "joints": {"clamp": {"type": "fixed", "bodies": ["ground", "beam"], "at": [0, 0, 0]}},
     "loads": {"push": {"type": "force", "body": "beam", "at": [1, 0, 0], "direction": [0, -1, 0],
       "value": {"type": "expression", "value": "= 20 N*exp(-(4*(t/(1 s) - 1))^2)"}}}},

@@ -289,9 +289,9 @@ TEST_F(RoundedDesign, SaysWhichOfItsSizesAreAtABound) {
   EXPECT_EQ(reached("/variables/crank_length/lower=50 mm"), "none");
   EXPECT_EQ(reached("/variables/crank_length/lower=55 mm"), "lower");
   EXPECT_EQ(reached("/variables/crank_length/upper=55 mm"), "upper");
-  EXPECT_EQ(reached(R"(/variables/crank_length={"start": "55 mm", "lower": "55 mm",
-                                                "upper": "55 mm"})"),
-            "both");
+  EXPECT_EQ(
+      reached(R"(/variables/crank_length={"start": "55 mm", "lower": "55 mm", "upper": "55 mm"})"),
+      "both");
   // Far bounds are compared with themselves and with the start, 5 cm, not with the range.
   EXPECT_EQ(reached("/variables/crank_length/upper=100 km"), "none");
 }

@@ -134,9 +134,9 @@ TEST_F(LoadCases, AreNamedWhereOneOfThemCannotBe) {
     return folder_.run({"simulate", file.string(), "--no-report"}).err;
   };
   // The frame of the rod holds its ends.
-  EXPECT_THAT(complaint_with("/scene/bodies/rod/initial_deflections",
-                             R"([{"at": ["120 mm", 0, 0], "direction": [0, 1, 0],
-                                  "displacement": "1 mm"}])"),
+  EXPECT_THAT(complaint_with(
+                  "/scene/bodies/rod/initial_deflections",
+                  R"([{"at": ["120 mm", 0, 0], "direction": [0, 1, 0], "displacement": "1 mm"}])"),
               HasSubstr("two.json: in the case \"fast\": /scene/bodies/rod/initial_deflections/0"));
   // Its drive begins from rest, which no period ends with.
   EXPECT_THAT(complaint_with("/cases/heavy/~1simulation~1initial_state",
@@ -205,15 +205,13 @@ class BentCantilever : public testing::Test {
   BentCantilever() {
     document_ = nlohmann::ordered_json::parse(R"json({
       "scene": {
-        "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": ["300 mm", 0, 0],
-                           "material": "steel",
+        "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": ["300 mm", 0, 0], "material": "steel",
                            "section": {"type": "rectangle", "width": {"variable": "width"},
                                        "height": "= share*(1 mm)"},
                            "elements": 2, "damping": {"stiffness": "0.1 ms"}}},
         "joints": {"wall": {"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}},
         "loads": {"weight": {"type": "force", "body": "bar", "at": ["300 mm", 0, 0],
-                             "direction": [0, -1, 0], "value": "200 N"}}
-      },
+                             "direction": [0, -1, 0], "value": "200 N"}}},
       "simulation": {"end_time": "1 ms", "step": "0.1 ms", "initial_state": "quasi-static",
                      "resolution_check": false},
       "variables": {"width": {"start": "20 mm", "lower": "4 mm", "upper": "40 mm"},

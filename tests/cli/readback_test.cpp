@@ -629,13 +629,14 @@ TEST_F(ReadBackFrequency, MarksVariablesAtTheirBounds) {
   EXPECT_THAT(report({}), ContainsRegex("\n  d .* mm *\n"));
   EXPECT_THAT(report({"--set", "/variables/d/lower=38 mm"}),
               ContainsRegex("\n  d .* mm +at its lower bound\n"));
-  EXPECT_THAT(report({"--set", R"(/scene/loads={"f": {"type": "force", "body": "arm",
+  EXPECT_THAT(
+      report(
+          {"--set", R"(/scene/loads={"f": {"type": "force", "body": "arm",
                                  "at": [0.8, 0, 0], "direction": [0, 1, 0], "value": 1}})",
-                      "--set", "/simulation/initial_state=quasi-static", "--set",
-                      R"(/responses/tip={"type": "deflection", "body": "arm", "at": 1,
-                         "over_time": "max-abs"})",
-                      "--set", "/objective/minimize=tip"}),
-              ContainsRegex("\n  d .* mm +at its upper bound\n"));
+           "--set", "/simulation/initial_state=quasi-static", "--set",
+           R"(/responses/tip={"type": "deflection", "body": "arm", "at": 1, "over_time": "max-abs"})",
+           "--set", "/objective/minimize=tip"}),
+      ContainsRegex("\n  d .* mm +at its upper bound\n"));
   EXPECT_THAT(report({"--set", R"(/scene/materials/iron={"young": 2.1e11, "poisson": 0.3,
                                    "density": {"variable": "rho"}})",
                       "--set", "/scene/bodies/arm/material=iron", "--set",
@@ -651,10 +652,10 @@ TEST_F(ReadBackFrequency, ComesWithHistoriesOfMagnitudes) {
        R"(/scene/loads={"f": {"type": "force", "body": "arm", "at": [0.8, 0, 0],
                               "direction": [-1, 0, 0], "value": 1000}})",
        "--set", "/simulation/initial_state=quasi-static", "--set", "/scene/gravity=[0, 0, 0]",
-       "--set", R"(/responses/largest={"type": "stress", "part": "axial", "body": "arm",
-                                       "over_time": "max-abs"})",
-       "--set", R"(/responses/highest={"type": "stress", "part": "axial", "body": "arm",
-                                       "over_time": "max"})"});
+       "--set",
+       R"(/responses/largest={"type": "stress", "part": "axial", "body": "arm", "over_time": "max-abs"})",
+       "--set",
+       R"(/responses/highest={"type": "stress", "part": "axial", "body": "arm", "over_time": "max"})"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const CsvRows rows = read_csv(folder_.path() / "press/trajectory.csv");
   const double stress = 1000 / (M_PI / 4 * 0.04 * 0.04);

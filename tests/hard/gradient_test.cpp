@@ -157,8 +157,7 @@ std::string problem_text(const Units& u, const std::string& formulation) {
     "rod": {"type": "beam", "from": [)" +
          r + R"(, 0, 0], "to": [)" + end +
          R"(, 0, 0], "material": "steel", "elements": 3, "frame": "chord",
-      "damping": {"stiffness": 1e-5},
-      "section": {"type": "circle", "diameter": {"variable": "diameter"}}},
+      "damping": {"stiffness": 1e-5}, "section": {"type": "circle", "diameter": {"variable": "diameter"}}},
     "slider": {"type": "point-mass", "at": [)" +
          end + R"(, 0, 0], "mass": )" + scaled(0.5, u.kilogram) + R"(}},
   "joints": {

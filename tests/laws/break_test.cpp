@@ -177,15 +177,13 @@ TEST(DriveTable, RefusesToJump) {
 TEST(DriveTable, StaysBetweenItsValuesUnlessItIsASpline) {
   const auto farthest = [](const std::string& interpolation) {
     const ProblemFile problem = problem_from(R"({"scene": {
-            "bodies": {"block": {"type": "rigid", "at": [0, 0, 0], "mass": 1,
-                                 "inertia": [1, 1, 1, 0, 0, 0]}},
+            "bodies": {"block": {"type": "rigid", "at": [0, 0, 0], "mass": 1, "inertia": [1, 1, 1, 0, 0, 0]}},
             "joints": {"guide": {"type": "prismatic", "bodies": ["ground", "block"],
               "at": [0, 0, 0], "axis": [1, 0, 0], "drive": {"type": "table",
                 "times": [0, 1, 2, 3], "values": [0, 0.1, 0.1, 0])" +
                                              interpolation + R"(}}}},
           "simulation": {"end_time": 3, "step": 0.02},
-          "responses": {"x": {"type": "position", "body": "block", "direction": "x",
-                              "over_time": "max"}}})");
+          "responses": {"x": {"type": "position", "body": "block", "direction": "x", "over_time": "max"}}})");
     return analyze(problem, start_design(problem))->reductions[0].value;
   };
   EXPECT_NEAR(farthest(""), 0.1, 1e-9);
@@ -215,21 +213,16 @@ ProblemFile cubic_motion(const std::vector<std::string>& changes = {}) {
     "wheel": {"type": "rigid", "at": [0, 0, 0], "mass": 1, "inertia": [1, 1, 1, 0, 0, 0]}},
   "joints": {
     "rail": {"type": "prismatic", "bodies": ["ground", "carriage"], "at": [0, 0, 0],
-              "axis": [1, 0, 0], "drive": {"type": "polynomial",
-              "coefficients": [0, 0, 0, {"variable": "c"}]}},
+              "axis": [1, 0, 0], "drive": {"type": "polynomial", "coefficients": [0, 0, 0, {"variable": "c"}]}},
     "hub": {"type": "revolute", "bodies": ["carriage", "wheel"], "at": [0, 0, 0],
-             "axis": [0, 0, 1], "drive": {"type": "polynomial",
-             "coefficients": [0, 0, 0, {"variable": "turn"}]}}}},
-  "variables": {"c": {"start": 2, "lower": 1, "upper": 3},
-                 "turn": {"start": 2, "lower": 1, "upper": 3}},
+             "axis": [0, 0, 1], "drive": {"type": "polynomial", "coefficients": [0, 0, 0, {"variable": "turn"}]}}}},
+  "variables": {"c": {"start": 2, "lower": 1, "upper": 3}, "turn": {"start": 2, "lower": 1, "upper": 3}},
   "simulation": {"end_time": 0.5, "step": 0.01},
   "responses": {
     "jerk": {"type": "jerk", "body": "carriage", "direction": "x", "over_time": "max-abs"},
     "least": {"type": "jerk", "body": "carriage", "direction": [1, 0, 0], "over_time": "min"},
-    "first": {"type": "jerk", "body": "carriage", "direction": "x", "to": 0.02,
-               "over_time": "mean"},
-    "turning": {"type": "angular-jerk", "body": "wheel", "direction": "z",
-                 "over_time": "final"}},
+    "first": {"type": "jerk", "body": "carriage", "direction": "x", "to": 0.02, "over_time": "mean"},
+    "turning": {"type": "angular-jerk", "body": "wheel", "direction": "z", "over_time": "final"}},
   "objective": {"minimize": "jerk"}})",
                       changes);
 }
@@ -251,8 +244,7 @@ TEST(Jerk, OfACubicMotionIsConstant) {
 /// corner; the cubic that begins with the simulation has no corner.
 TEST(Jerk, AtACornerOfADriveIsToldWhereItRings) {
   const std::string corner =
-      R"(/scene/joints/rail/drive={"type": "expression",
-         "value": "= c * 10 m/s^3 * max(0 s, t - 100 ms)^3"})";
+      R"(/scene/joints/rail/drive={"type": "expression", "value": "= c * 10 m/s^3 * max(0 s, t - 100 ms)^3"})";
   const ProblemFile ringing = cubic_motion({corner});
   const Eigen::VectorXd x = start_design(ringing);
   const auto analysis = analyze(ringing, x);
@@ -292,8 +284,7 @@ TEST(Jerk, HasNoMagnitudeOfItsOwn) {
 TEST(Jerk, HasTheGradientOfItsSimulation) {
   const ProblemFile problem = loaded_cantilever(
       R"({"type": "ramp", "to": {"variable": "force"}, "begin": 0.02, "end": 0.06, "rounding": 0.01})",
-      {R"(/responses/end={"type": "jerk", "body": "beam", "at": 1, "direction": "y",
-          "over_time": "rms"})",
+      {R"(/responses/end={"type": "jerk", "body": "beam", "at": 1, "direction": "y", "over_time": "rms"})",
        R"(/responses/sag={"type": "jerk", "body": "beam", "at": 1, "direction": "y",
           "over_time": "max", "to": 0.05})",
        "/simulation/newton_tolerance=1e-13"});

@@ -127,8 +127,7 @@ TEST(DriveOfStraightLines, IsDoubtedWhereItsSpeedJumps) {
 /// all at once. Its height is the variable.
 ProblemFile released_rod(const std::vector<std::string>& overrides = {}) {
   return problem_from(R"({
-  "scene": {
-    "gravity": [0, -9.81, 0],
+  "scene": {"gravity": [0, -9.81, 0],
     "bodies": {"rod": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
       "section": {"type": "rectangle", "width": 0.02, "height": {"variable": "height"}}, "elements": 8, "frame": "chord", "damping": {"stiffness": 1e-3}}},
     "joints": {"hinge": {"type": "revolute", "bodies": ["ground", "rod"], "at": [0, 0, 0]}}
@@ -138,8 +137,7 @@ ProblemFile released_rod(const std::vector<std::string>& overrides = {}) {
   "responses": {
     "stress": {"type": "stress", "body": "rod", "over_time": "max"},
     "reaction": {"type": "reaction-force", "joint": "hinge", "direction": "magnitude", "over_time": "max"},
-    "speed": {"type": "velocity", "body": "rod", "at": 1, "direction": "y", "over_time": "rms"}
-  },
+    "speed": {"type": "velocity", "body": "rod", "at": 1, "direction": "y", "over_time": "rms"}},
   "objective": {"minimize": "stress"}
 })",
                       overrides);

@@ -15,8 +15,7 @@ namespace pleuel::test {
 inline ProblemFile pushed_block(const std::string& value,
                                 const std::vector<std::string>& overrides = {}) {
   return problem_from(R"({
-  "scene": {
-    "bodies": {"block": {"type": "rigid", "at": [0, 0, 0], "mass": 2, "inertia": [1, 1, 1, 0, 0, 0]}},
+  "scene": {"bodies": {"block": {"type": "rigid", "at": [0, 0, 0], "mass": 2, "inertia": [1, 1, 1, 0, 0, 0]}},
     "joints": {"slide": {"type": "prismatic", "bodies": ["ground", "block"], "at": [0, 0, 0], "axis": [1, 0, 0]}},
     "loads": {
       "push": {"type": "force", "body": "block", "at": [0, 0, 0], "direction": [1, 0, 0], "value": )" +
@@ -40,8 +39,7 @@ inline ProblemFile pushed_block(const std::string& value,
 inline ProblemFile loaded_cantilever(const std::string& value,
                                      const std::vector<std::string>& overrides = {}) {
   return problem_from(R"({
-  "scene": {
-    "gravity": [0, -9.81, 0],
+  "scene": {"gravity": [0, -9.81, 0],
     "bodies": {"beam": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
       "section": {"type": "rectangle", "width": 0.02, "height": {"variable": "height"}}, "elements": 4, "damping": {"stiffness": 1e-3}}},
     "joints": {"clamp": {"type": "fixed", "bodies": ["ground", "beam"], "at": [0, 0, 0]}},

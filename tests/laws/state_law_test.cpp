@@ -301,8 +301,7 @@ double largest_force(double step, const std::string& over_time) {
                 "loads": {{"rub": {{"type": "joint", "joint": "rail",
                   "resistance": {{"type": "friction", "value": 20, "speed": "1 mm/s"}}}}}}}},
               "simulation": {{"end_time": 1.5, "step": {}}},
-              "responses": {{"force": {{"type": "drive-force", "joint": "rail",
-                                        "over_time": "{}"}}}}}})j",
+              "responses": {{"force": {{"type": "drive-force", "joint": "rail", "over_time": "{}"}}}}}})j",
       step, over_time));
   return analyze(problem, start_design(problem))->reductions[0].value;
 }

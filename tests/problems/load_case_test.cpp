@@ -29,10 +29,8 @@ ProblemFile problem_of(const Json& document) {
 Json distances() {
   return Json::parse(R"json({
     "constants": {"target": 1},
-    "scene": {"bodies": {"stone": {"type": "rigid", "at": [0, 0, 0], "mass": 1,
-                                   "inertia": [1, 1, 1, 0, 0, 0]}},
-              "joints": {"floor": {"type": "fixed", "bodies": ["ground", "stone"],
-                                   "at": [0, 0, 0]}}},
+    "scene": {"bodies": {"stone": {"type": "rigid", "at": [0, 0, 0], "mass": 1, "inertia": [1, 1, 1, 0, 0, 0]}},
+              "joints": {"floor": {"type": "fixed", "bodies": ["ground", "stone"], "at": [0, 0, 0]}}},
     "simulation": {"end_time": "2 s", "step": "1 s"},
     "variables": {"x": {"start": 2.7, "lower": -10, "upper": 10}},
     "responses": {"distance": {"type": "expression", "value": "(x - target)^2"}},
@@ -237,10 +235,8 @@ TEST(LoadCases, HaveStepsOfTheirOwnWhereAnAccuracyIsAskedFor) {
 /// A stone on the floor: what is simulated does not matter.
 Json stone() {
   return Json::parse(R"json({
-    "scene": {"bodies": {"stone": {"type": "rigid", "at": [0, 0, 0], "mass": 1,
-                                   "inertia": [1, 1, 1, 0, 0, 0]}},
-              "joints": {"floor": {"type": "fixed", "bodies": ["ground", "stone"],
-                                   "at": [0, 0, 0]}}},
+    "scene": {"bodies": {"stone": {"type": "rigid", "at": [0, 0, 0], "mass": 1, "inertia": [1, 1, 1, 0, 0, 0]}},
+              "joints": {"floor": {"type": "fixed", "bodies": ["ground", "stone"], "at": [0, 0, 0]}}},
     "simulation": {"end_time": "2 s", "step": "1 s", "resolution_check": false}
   })json");
 }
@@ -345,15 +341,12 @@ TEST(AcrossCases, SolveAHockSchittkowskiProblemThatIsSpreadOverCases) {
 Json cantilever() {
   return Json::parse(R"json({
     "scene": {
-      "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": ["1 m", 0, 0],
-                         "material": "steel",
-                         "section": {"type": "rectangle", "width": "20 mm",
-                                     "height": {"variable": "height"}},
+      "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": ["1 m", 0, 0], "material": "steel",
+                         "section": {"type": "rectangle", "width": "20 mm", "height": {"variable": "height"}},
                          "elements": 2}},
       "joints": {"wall": {"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}},
       "loads": {"pull": {"type": "force", "body": "bar", "at": ["1 m", 0, 0],
-                         "direction": [0, 1, 0], "value": "20 N"}}
-    },
+                         "direction": [0, 1, 0], "value": "20 N"}}},
     "effects": {"geometric_stiffening": "off"},
     "simulation": {"end_time": "2 ms", "step": "1 ms", "initial_state": "quasi-static"},
     "variables": {"height": {"start": "40 mm", "lower": "10 mm", "upper": "80 mm"}},
@@ -393,16 +386,13 @@ TEST(AcrossCases, LimitTheDifferenceOfTwoDeflectionsOfACantilever) {
 /// beside what it is the difference of.
 TEST(AcrossCases, MayBeHeldAtZero) {
   const ProblemFile problem = problem_of(Json::parse(R"json({
-    "scene": {
-      "gravity": [0, 0, 0],
+    "scene": {"gravity": [0, 0, 0],
       "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": [0.4, 0, 0], "material": "steel",
-                         "section": {"type": "rectangle", "width": {"variable": "b"},
-                                     "height": {"variable": "h"}},
+                         "section": {"type": "rectangle", "width": {"variable": "b"}, "height": {"variable": "h"}},
                          "elements": 4}},
       "joints": {"wall": {"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}},
       "loads": {"push": {"type": "force", "body": "bar", "at": [0.4, 0, 0],
-                         "direction": [0, -1, 0], "value": "1 kN"}}
-    },
+                         "direction": [0, -1, 0], "value": "1 kN"}}},
     "simulation": {"end_time": "10 ms", "step": "1 ms", "initial_state": "quasi-static"},
     "variables": {"b": {"start": "20 mm", "lower": "5 mm", "upper": "60 mm"},
                   "h": {"start": "20 mm", "lower": "5 mm", "upper": "60 mm"}},
@@ -410,12 +400,9 @@ TEST(AcrossCases, MayBeHeldAtZero) {
                   "sag": {"type": "deflection", "body": "bar", "at": 1, "direction": "resultant",
                           "over_time": "max"}},
     "objective": {"minimize": "mass"},
-    "constraints": {
-      "stiffness": {"response": "sag", "upper": "1 mm", "cases": ["side"]},
+    "constraints": {"stiffness": {"response": "sag", "upper": "1 mm", "cases": ["side"]},
       "proportion": {"response": "= sag[down] - 2*sag[side]", "lower": 0, "upper": 0}},
-    "cases": {"down": {},
-              "side": {"/scene/loads/push/direction": [0, 0, 1],
-                       "/scene/loads/push/value": "0.5 kN"}}
+    "cases": {"down": {}, "side": {"/scene/loads/push/direction": [0, 0, 1], "/scene/loads/push/value": "0.5 kN"}}
   })json"));
   const Result result = verified_optimum(problem);
   const double size = std::pow(12.0 * 500.0 * std::pow(0.4, 3) / (3.0 * 210e9 * 1e-3), 0.25);

@@ -26,8 +26,7 @@ ProblemFile held_arm(const std::string& optimizer) {
       "drive": {{"type": "constant", "value": {{"variable": "phi"}}}}}}}}}},
     "simulation": {{"end_time": "2 ms", "step": "1 ms"}},
     "variables": {{"phi": {{"start": 0.4, "lower": -1, "upper": 0.8}}}},
-    "responses": {{"x": {{"type": "position", "body": "arm", "at": 1, "direction": "x",
-      "over_time": "final"}}}},
+    "responses": {{"x": {{"type": "position", "body": "arm", "at": 1, "direction": "x", "over_time": "final"}}}},
     "objective": {{"minimize": "x"}}, "optimizer": {}}})",
                                   optimizer));
 }

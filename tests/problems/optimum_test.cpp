@@ -170,8 +170,7 @@ void PrintTo(const TextbookProblem& problem, std::ostream* stream) {
 
 Json document_of(const TextbookProblem& problem) {
   Json document = Json::parse(R"({
-    "scene": {"bodies": {"stone": {"type": "rigid", "at": [0, 0, 0], "mass": 1,
-                                   "inertia": [1, 1, 1, 0, 0, 0]}},
+    "scene": {"bodies": {"stone": {"type": "rigid", "at": [0, 0, 0], "mass": 1, "inertia": [1, 1, 1, 0, 0, 0]}},
               "joints": {"floor": {"type": "fixed", "bodies": ["ground", "stone"], "at": [0, 0, 0]}}},
     "simulation": {"end_time": "2 s", "step": "1 s"}, "constraints": {}})");
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {

@@ -42,15 +42,12 @@ struct Simulated {
 TEST(SpringResponse, IsThatOfTheSpringLaw) {
   Simulated block(R"({
     "scene": {
-      "bodies": {"block": {"type": "rigid", "at": [0, 0, 0], "mass": 2,
-                           "inertia": [0.1, 0.1, 0.1, 0, 0, 0]}},
-      "joints": {"guide": {"type": "prismatic", "bodies": ["ground", "block"], "at": [0, 0, 0],
-                           "axis": [1, 0, 0],
+      "bodies": {"block": {"type": "rigid", "at": [0, 0, 0], "mass": 2, "inertia": [0.1, 0.1, 0.1, 0, 0, 0]}},
+      "joints": {"guide": {"type": "prismatic", "bodies": ["ground", "block"], "at": [0, 0, 0], "axis": [1, 0, 0],
                            "drive": {"type": "constant-speed", "speed": "= speed"}}},
       "loads": {"spring": {"type": "spring", "bodies": ["ground", "block"],
                            "at": [["-200 mm", 0, 0], [0, 0, 0]], "stiffness": "= stiffness",
-                           "damping": "7 N s/m", "free_length": "150 mm"}}
-    },
+                           "damping": "7 N s/m", "free_length": "150 mm"}}},
     "simulation": {"end_time": "0.1 s", "step": "1 ms"},
     "variables": {"speed": {"start": "0.5 m/s", "lower": "0.1 m/s", "upper": "1 m/s"},
                   "stiffness": {"start": "300 N/m", "lower": "1 N/m", "upper": "1 N/mm"}},
@@ -60,8 +57,7 @@ TEST(SpringResponse, IsThatOfTheSpringLaw) {
       "loss": {"type": "damper-power", "load": "spring", "over_time": "mean"},
       "aslant": {"type": "velocity", "body": "block", "direction": [3, 0, -4], "over_time": "mean"},
       "travel": {"type": "joint-position", "joint": "guide", "over_time": "final"},
-      "speed": {"type": "joint-velocity", "joint": "guide", "over_time": "mean"}
-    }})");
+      "speed": {"type": "joint-velocity", "joint": "guide", "over_time": "mean"}}})");
   EXPECT_NEAR(block.value("length"), 0.25, 1e-10);               // 200 mm + v t
   EXPECT_NEAR(block.value("force"), 300 * 0.1 + 7 * 0.5, 1e-7);  // k (l − l₀) + c v
   EXPECT_NEAR(block.value("travel"), 0.05, 1e-10);
@@ -77,10 +73,8 @@ TEST(SpringResponse, IsThatOfTheSpringLaw) {
 TEST(MotorResponse, IsTorqueTimesAngularVelocity) {
   Simulated wheel(R"({
     "scene": {
-      "bodies": {"wheel": {"type": "rigid", "at": [0, 0, 0], "mass": 3,
-                           "inertia": [0.2, 0.2, 0.4, 0, 0, 0]}},
-      "joints": {"axle": {"type": "revolute", "bodies": ["ground", "wheel"], "at": [0, 0, 0],
-                          "axis": [0, 0, -1]}},
+      "bodies": {"wheel": {"type": "rigid", "at": [0, 0, 0], "mass": 3, "inertia": [0.2, 0.2, 0.4, 0, 0, 0]}},
+      "joints": {"axle": {"type": "revolute", "bodies": ["ground", "wheel"], "at": [0, 0, 0], "axis": [0, 0, -1]}},
       "loads": {"motor": {"type": "joint", "joint": "axle", "motor": {"variable": "torque"}}}
     },
     "simulation": {"end_time": "2 s", "step": "10 ms"},
@@ -89,14 +83,11 @@ TEST(MotorResponse, IsTorqueTimesAngularVelocity) {
       "angle": {"type": "joint-position", "joint": "axle", "over_time": "final"},
       "rate": {"type": "joint-velocity", "joint": "axle", "over_time": "final"},
       "spin": {"type": "angular-velocity", "body": "wheel", "direction": "z", "over_time": "final"},
-      "size": {"type": "angular-velocity", "body": "wheel", "direction": "magnitude",
-               "over_time": "final"},
+      "size": {"type": "angular-velocity", "body": "wheel", "direction": "magnitude", "over_time": "final"},
       "turn": {"type": "angle", "body": "wheel", "direction": "z", "over_time": "final"},
       "gain": {"type": "joint-acceleration", "joint": "axle", "over_time": "max"},
-      "growth": {"type": "angular-acceleration", "body": "wheel", "direction": "z",
-                 "over_time": "mean"},
-      "aslant": {"type": "angular-velocity", "body": "wheel", "direction": [0, 3, 4],
-                 "over_time": "final"},
+      "growth": {"type": "angular-acceleration", "body": "wheel", "direction": "z", "over_time": "mean"},
+      "aslant": {"type": "angular-velocity", "body": "wheel", "direction": [0, 3, 4], "over_time": "final"},
       "power": {"type": "motor-power", "load": "motor", "over_time": "final"}
     }})");
   EXPECT_NEAR(wheel.value("turn"), -40.0, 1e-8);    // counted, about +z
@@ -116,49 +107,33 @@ constexpr const char* cantilever = R"({
     "scene": {
       "bodies": {
         "bar": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
-                "section": {"type": "rectangle", "width": "30 mm", "height": "= height"},
-                "elements": 4},
+                "section": {"type": "rectangle", "width": "30 mm", "height": "= height"}, "elements": 4},
         "stub": {"type": "beam", "from": [0, 0, 1], "to": [1, 0, 1], "material": "steel",
-                 "section": {"type": "rectangle", "width": "30 mm", "height": "40 mm"},
-                 "elements": 2}},
+                 "section": {"type": "rectangle", "width": "30 mm", "height": "40 mm"}, "elements": 2}},
       "joints": {"wall": {"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]},
                  "other": {"type": "fixed", "bodies": ["ground", "stub"], "at": [0, 0, 1]}},
       "loads": {
-        "down": {"type": "force", "body": "bar", "at": [1, 0, 0], "direction": [0, -1, 0],
-                 "value": "= force"},
-        "aside": {"type": "force", "body": "bar", "at": [1, 0, 0], "direction": [0, 0, 1],
-                  "value": "30 N"},
-        "pull": {"type": "force", "body": "bar", "at": [1, 0, 0], "direction": [1, 0, 0],
-                 "value": "500 N"},
-        "twist": {"type": "torque", "body": "bar", "at": [1, 0, 0], "direction": [1, 0, 0],
-                  "value": "0.9 N m"},
-        "small": {"type": "force", "body": "stub", "at": [1, 0, 1], "direction": [0, -1, 0],
-                  "value": "10 N"}}
+        "down": {"type": "force", "body": "bar", "at": [1, 0, 0], "direction": [0, -1, 0], "value": "= force"},
+        "aside": {"type": "force", "body": "bar", "at": [1, 0, 0], "direction": [0, 0, 1], "value": "30 N"},
+        "pull": {"type": "force", "body": "bar", "at": [1, 0, 0], "direction": [1, 0, 0], "value": "500 N"},
+        "twist": {"type": "torque", "body": "bar", "at": [1, 0, 0], "direction": [1, 0, 0], "value": "0.9 N m"},
+        "small": {"type": "force", "body": "stub", "at": [1, 0, 1], "direction": [0, -1, 0], "value": "10 N"}}
     },
     "effects": {"geometric_stiffening": "off"},
     "simulation": {"end_time": "1 ms", "step": "0.1 ms", "initial_state": "quasi-static"},
     "variables": {"height": {"start": "40 mm", "lower": "20 mm", "upper": "60 mm"},
                   "force": {"start": "40 N", "lower": "1 N", "upper": "60 N"}},
     "responses": {
-      "N": {"type": "section-force", "body": "bar", "at": 0.3, "part": "axial",
-            "over_time": "mean"},
-      "Mz": {"type": "section-force", "body": "bar", "at": 0.25, "part": "moment-z",
-             "over_time": "max-abs"},
-      "My": {"type": "section-force", "body": "bar", "at": 0.6, "part": "moment-y",
-             "over_time": "max-abs"},
-      "Vy": {"type": "section-force", "body": "bar", "at": 0.3, "part": "shear-y",
-             "over_time": "mean"},
-      "Vz": {"type": "section-force", "body": "bar", "at": 0.3, "part": "shear-z",
-             "over_time": "mean"},
-      "T": {"type": "section-force", "body": "bar", "at": 0.6, "part": "torque",
-            "over_time": "mean"},
+      "N": {"type": "section-force", "body": "bar", "at": 0.3, "part": "axial", "over_time": "mean"},
+      "Mz": {"type": "section-force", "body": "bar", "at": 0.25, "part": "moment-z", "over_time": "max-abs"},
+      "My": {"type": "section-force", "body": "bar", "at": 0.6, "part": "moment-y", "over_time": "max-abs"},
+      "Vy": {"type": "section-force", "body": "bar", "at": 0.3, "part": "shear-y", "over_time": "mean"},
+      "Vz": {"type": "section-force", "body": "bar", "at": 0.3, "part": "shear-z", "over_time": "mean"},
+      "T": {"type": "section-force", "body": "bar", "at": 0.6, "part": "torque", "over_time": "mean"},
       "y": {"type": "deflection", "body": "bar", "at": 1, "over_time": "max-abs"},
-      "z": {"type": "deflection", "body": "bar", "at": 1, "direction": "z",
-            "over_time": "max-abs"},
-      "x": {"type": "deflection", "body": "bar", "at": 1, "direction": "x",
-            "over_time": "max-abs"},
-      "resultant": {"type": "deflection", "body": "bar", "at": 1, "direction": "resultant",
-                    "over_time": "max"},
+      "z": {"type": "deflection", "body": "bar", "at": 1, "direction": "z", "over_time": "max-abs"},
+      "x": {"type": "deflection", "body": "bar", "at": 1, "direction": "x", "over_time": "max-abs"},
+      "resultant": {"type": "deflection", "body": "bar", "at": 1, "direction": "resultant", "over_time": "max"},
       "bar": {"type": "stress", "body": "bar", "over_time": "max"},
       "stub": {"type": "stress", "body": "stub", "over_time": "max"},
       "both": {"type": "stress", "bodies": ["stub", "bar"], "over_time": "max"}
@@ -182,12 +157,10 @@ TEST(SectionForce, IsThatOfStatics) {
 /// derivative of its curvature: the rest is what the load does within it.
 TEST(ShearForce, CarriesTheWeightBehindIt) {
   Simulated bar(R"({
-    "scene": {
-      "gravity": [0, -9.81, 3],
+    "scene": {"gravity": [0, -9.81, 3],
       "materials": {"steel": {"young": "210 GPa", "poisson": 0.3, "density": "= density"}},
       "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
-                 "section": {"type": "rectangle", "width": "30 mm", "height": "40 mm"},
-                 "elements": 2}},
+                 "section": {"type": "rectangle", "width": "30 mm", "height": "40 mm"}, "elements": 2}},
       "joints": {"wall": {"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}}
     },
     "effects": {"geometric_stiffening": "off"},
@@ -266,8 +239,7 @@ Json slider_crank() {
     "scene": {
       "bodies": {
         "crank": {"type": "beam", "from": [0, 0, 0], "to": ["= crank", 0, 0], "rigid": true,
-                  "material": "steel", "section": {"type": "circle", "diameter": "= crank/5"},
-                  "elements": 1},
+                  "material": "steel", "section": {"type": "circle", "diameter": "= crank/5"}, "elements": 1},
         "rod": {"type": "beam", "from": ["= crank", 0, 0], "to": ["= crank + rod", 0, 0],
                 "rigid": true, "material": "steel",
                 "section": {"type": "circle", "diameter": "8 mm"}, "elements": 1},
@@ -279,9 +251,7 @@ Json slider_crank() {
         "pin": {"type": "revolute", "bodies": ["crank", "rod"], "at": ["= crank", 0, 0]},
         "end": {"type": "revolute", "bodies": ["rod", "slider"], "at": ["= crank + rod", 0, 0]},
         "guide": {"type": "point-on-line", "bodies": ["ground", "slider"],
-                  "at": ["= crank + rod", 0, 0], "axis": [1, 0, 0]}
-      }
-    },
+                  "at": ["= crank + rod", 0, 0], "axis": [1, 0, 0]}}},
     "simulation": {"end_time": "= 7 rad/speed", "step": "5 ms"},
     "variables": {
       "crank": {"start": "40 mm", "lower": "20 mm", "upper": "80 mm"},

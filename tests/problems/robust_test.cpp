@@ -93,8 +93,7 @@ TEST(RobustConstraints, AreNotVerifiedWhereFirstOrderMissesThem) {
                       "section": {{"type": "circle", "diameter": {{"variable": "d"}}}}}}}},
                   "joints": {{"w": {{"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]}}}},
                   "loads": {{
-                    "F": {{"type": "force", "body": "b", "at": [0.6, 0, 0], "direction": [0, -1, 0],
-                          "value": 100}},
+                    "F": {{"type": "force", "body": "b", "at": [0.6, 0, 0], "direction": [0, -1, 0], "value": 100}},
                     "S": {{"type": "force", "body": "b", "at": [0.6, 0, 0], "direction": [0, 0, 1],
                           "value": {{"variable": "side"}}}}}}}},
                 "simulation": {{"end_time": 0.1, "step": 0.01, "initial_state": "quasi-static"}},
@@ -125,8 +124,7 @@ TEST(RobustConstraints, TellMarginsOfFrequenciesThatCoincide) {
     const ProblemFile problem = problem_from(
         fmt::format(R"j({{"scene": {{"bodies": {{"b": {{"type": "beam", "from": [0, 0, 0],
                   "to": [0.5, 0, 0], "material": "steel", "elements": 4,
-                  "section": {{"type": "rectangle", "width": "= a + e1",
-                              "height": "= a + e2 + {} mm"}}}}}},
+                  "section": {{"type": "rectangle", "width": "= a + e1", "height": "= a + e2 + {} mm"}}}}}},
                 "joints": {{"w": {{"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]}}}}}},
               "simulation": {{"end_time": "10 ms", "step": "1 ms"}},
               "variables": {{"a": {{"start": "18.2 mm", "lower": "5 mm", "upper": "60 mm"}},
@@ -166,8 +164,7 @@ TEST(RobustConstraints, CostMassThatPlainLimitsDoNot) {
 /// 100 mm ≤ 102 mm at the first peak, which does not scatter, and a + 6 mm ≤ 102 mm at the second.
 const char* const two_peaks = R"({
   "scene": {
-    "bodies": {"block": {"type": "rigid", "at": [0, 0, 0], "mass": 1,
-      "inertia": [1, 1, 1, 0, 0, 0]}},
+    "bodies": {"block": {"type": "rigid", "at": [0, 0, 0], "mass": 1, "inertia": [1, 1, 1, 0, 0, 0]}},
     "joints": {"guide": {"type": "prismatic", "bodies": ["ground", "block"], "at": [0, 0, 0],
       "axis": [1, 0, 0], "drive": {"type": "table",
         "times": [0, "10 ms", "20 ms", "30 ms", "40 ms"],
@@ -296,8 +293,7 @@ TEST(OptimumError, OfALimitThatItMayBreakIsAsLargeAsTheTargetAtMost) {
   const auto complaint = [](const std::string& side, double value, double error) {
     DesignProblem design(problem_from(
         R"({"scene": {"bodies": {"b": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0],
-              "material": "steel", "elements": 1,
-              "section": {"type": "circle", "diameter": {"variable": "d"}}}},
+              "material": "steel", "elements": 1, "section": {"type": "circle", "diameter": {"variable": "d"}}}},
             "joints": {"f": {"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]}}},
           "simulation": {"end_time": 1e-3, "step": 1e-3},
           "variables": {"d": {"start": 0.02, "lower": 0.01, "upper": 0.03}},

@@ -26,13 +26,11 @@ ProblemFile cantilever(const std::vector<std::string>& overrides) {
       "joints": {"wall": {"type": "fixed", "bodies": ["ground", "tube"], "at": [0, 0, 0]},
                  "tip": {"type": "spherical", "bodies": ["tube", "end"], "at": ["1 m", 0, 0]}},
       "loads": {"push": {"type": "force", "body": "tube", "at": ["1 m", 0, 0], "direction": [0, -1, 0],
-                         "value": "10 N"}}
-    },
+                         "value": "10 N"}}},
     "simulation": {"end_time": "2 ms", "step": "1 ms"},
     "variables": {"a": {"start": 1, "lower": 0.6, "upper": 1.5}, "b": {"start": 0.5, "lower": 0.4, "upper": 0.9}},
     "responses": {"mass": {"type": "mass"}},
-    "objective": {"minimize": "= mass + 0 kg*(a + b)"
-}
+    "objective": {"minimize": "= mass + 0 kg*(a + b)"}
 })json",
                       overrides);
 }

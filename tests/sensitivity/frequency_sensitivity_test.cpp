@@ -88,8 +88,7 @@ TEST(FrequencyDirection, IsFoundAmongFourModesThatCoincide) {
   const ProblemFile problem = square_cantilever(
       R"j(, "second_root": {"type": "fixed", "bodies": ["ground", "other"], "at": [1, 0, 0]})j",
       R"j(, "other": {"type": "beam", "from": [1, 0, 0], "to": [1.4330127018922193, 0.25, 0],
-    "material": "steel", "elements": 4,
-    "section": {"type": "rectangle", "width": "= w", "height": "= h"}})j");
+    "material": "steel", "elements": 4, "section": {"type": "rectangle", "width": "= w", "height": "= h"}})j");
   const Eigen::VectorXd x = start_design(problem);
   const auto analysis = analyze(problem, x);
   const Eigen::VectorXd values = values_of(*analysis);
@@ -278,12 +277,10 @@ ProblemFile problem_with(const std::string& rod_frame) {
       {"/simulation/end_time=0.06 s", "/simulation/step=1e-4 s", "/scene/bodies/crank/elements=3",
        "/scene/bodies/rod/elements=4", "/scene/bodies/rod/frame=" + rod_frame,
        "/variables/crank_height/start=18 mm",
-       R"(/responses/bow_from_frame={"type": "deflection", "body": "rod", "at": 0.5,
-            "over_time": "rms"})",
+       R"(/responses/bow_from_frame={"type": "deflection", "body": "rod", "at": 0.5, "over_time": "rms"})",
        R"(/responses/bow_from_chord={"type": "deflection", "body": "rod", "at": 0.5,
             "against": "chord", "over_time": "rms"})",
-       R"(/responses/tip_from_frame={"type": "deflection", "body": "crank", "at": 1,
-            "over_time": "rms"})",
+       R"(/responses/tip_from_frame={"type": "deflection", "body": "crank", "at": 1, "over_time": "rms"})",
        R"(/responses/tip_from_rigid_x={"type": "deflection", "body": "crank", "at": 1,
             "against": "rigid-mechanism", "direction": "x", "over_time": "rms"})",
        R"(/responses/tip_from_rigid_y={"type": "deflection", "body": "crank", "at": 1,
@@ -353,8 +350,7 @@ TEST(DeflectionReferences, LeaveOutHowTheRigidMechanismMovesWithTheDesign) {
        R"(/scene/joints/bearing/drive/speed={"variable": "speed"})",
        R"(/responses/tip_from_rigid={"type": "deflection", "body": "crank", "at": 1,
             "against": "rigid-mechanism", "direction": "y", "over_time": "final"})",
-       R"(/responses/tip={"type": "position", "body": "crank", "at": 1, "direction": "y",
-            "over_time": "final"})"});
+       R"(/responses/tip={"type": "position", "body": "crank", "at": 1, "direction": "y", "over_time": "final"})"});
   problem.simulation.newton_tolerance = 1e-12;
   const Eigen::VectorXd x = start_design(problem);
   const auto analysis = analyze(problem, x);
@@ -411,8 +407,7 @@ TEST(TransmissionAngle, OfASliderCrankIsLeastWhereTheCrankStandsAcross) {
                   "axis": [2, 0, 0]}}}}}},
     "simulation": {{"end_time": 1, "step": 0.0025}},
     "variables": {{"r": {{"start": 0.1, "lower": 0.05, "upper": 0.15}}}},
-    "responses": {{"mu": {{"type": "transmission-angle", "body": "rod", "joint": "guide",
-                         "over_time": "min"}},
+    "responses": {{"mu": {{"type": "transmission-angle", "body": "rod", "joint": "guide", "over_time": "min"}},
                   "at_end": {{"type": "transmission-angle", "bodies": ["crank", "rod"],
                              "over_time": "final"}}}}}})",
       bar("crank", "[0, 0, 0]", R"([{"variable": "r"}, 0, 0])"),

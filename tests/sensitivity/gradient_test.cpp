@@ -94,8 +94,7 @@ TEST(Differences, OfAVariableAtZeroTakeTheirStepFromItsRange) {
         "drive": {"type": "constant", "value": {"variable": "p", "factor": 1000}}}}},
     "simulation": {"end_time": "2 ms", "step": "1 ms"},
     "variables": {"p": {"start": 0, "lower": -0.001, "upper": 0.001}},
-    "responses": {"y": {"type": "position", "body": "arm", "at": 1, "direction": "y",
-      "over_time": "final"}}})");
+    "responses": {"y": {"type": "position", "body": "arm", "at": 1, "direction": "y", "over_time": "final"}}})");
   const Eigen::VectorXd x = start_design(problem);
   EXPECT_NEAR(central_differences(problem, x, 1e-5)(0, 0), 100.0, 1e-5);
   EXPECT_NEAR(forward_differences(problem, x, *analyze(problem, x), 1e-5)(0, 0), 100.0, 1e-5);

@@ -18,12 +18,10 @@ namespace {
 /// are 0.1 m, the gradients (1, ± factor) differ by 2 factor/√(1 + factor²).
 ProblemFile block_with(double factor) {
   return problem_from(fmt::format(R"({{"scene": {{
-          "bodies": {{"block": {{"type": "rigid", "at": [0, 0, 0], "mass": 1,
-                                "inertia": [1, 1, 1, 0, 0, 0]}}}},
+          "bodies": {{"block": {{"type": "rigid", "at": [0, 0, 0], "mass": 1, "inertia": [1, 1, 1, 0, 0, 0]}}}},
           "joints": {{"guide": {{"type": "prismatic", "bodies": ["ground", "block"],
             "at": [0, 0, 0], "axis": [1, 0, 0],
-            "drive": {{"type": "harmonic", "amplitude": {{"variable": "A"}},
-                       "frequency": "628.3185307179586 rad/s",
+            "drive": {{"type": "harmonic", "amplitude": {{"variable": "A"}}, "frequency": "628.3185307179586 rad/s",
                        "offset": {{"variable": "b", "factor": {}}}}}}}}}}},
         "simulation": {{"end_time": "10 ms", "step": "0.05 ms"}},
         "variables": {{"A": {{"start": "100 mm", "lower": 0, "upper": 1}},

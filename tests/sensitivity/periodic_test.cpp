@@ -265,8 +265,7 @@ TEST(SteadyMachine, HasGradientsOfAVariableThatChangesForcesOnly) {
     "variables": {"M": {"start": "5 kg", "lower": "1 kg", "upper": "20 kg"}},
     "responses": {
       "torque": {"type": "drive-torque", "joint": "bearing", "over_time": "max-abs"},
-      "weight": {"type": "reaction-force", "joint": "bearing", "direction": "y",
-                 "over_time": "mean"}}})");
+      "weight": {"type": "reaction-force", "joint": "bearing", "direction": "y", "over_time": "mean"}}})");
   const Eigen::VectorXd x = start_design(problem);
   const auto analysis = analyze(problem, x);
   const auto gradients_by = [&](GradientMethod method) {
@@ -289,10 +288,8 @@ TEST(SteadyBar, HasDerivativesWhereTheMapOfTheSearchIsTooFarAway) {
                            "section": {"type": "rectangle", "width": 0.03, "height": {"variable": "height"}}}},
         "joints": {"wall": {"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}},
         "loads": {"press": {"type": "force", "body": "bar", "at": [0.4, {"variable": "rise"}, 0],
-          "direction": [0, -1, 0],
-          "value": {"type": "harmonic", "amplitude": "0.5 kN", "frequency": "40 Hz"}}}},
-      "simulation": {"end_time": "25 ms", "step": "0.5 ms", "initial_state": "periodic",
-                     "newton_tolerance": 1e-12},
+          "direction": [0, -1, 0], "value": {"type": "harmonic", "amplitude": "0.5 kN", "frequency": "40 Hz"}}}},
+      "simulation": {"end_time": "25 ms", "step": "0.5 ms", "initial_state": "periodic", "newton_tolerance": 1e-12},
       "variables": {"height": {"start": 0.02, "lower": 0.01, "upper": 0.03},
                     "rise": {"start": 1e-3, "lower": 1e-3, "upper": 1e-3}},
       "responses": {"s": {"type": "stress", "body": "bar", "over_time": "max"}}})");
@@ -357,12 +354,10 @@ TEST(SteadyMachineErrors, NameAMotionThatNothingBringsBack) {
         "bodies": {"cart": {"type": "point-mass", "at": [0, 0, 0], "mass": 1}},
         "joints": {"guide": {"type": "point-on-line", "bodies": ["ground", "cart"],
                              "at": [0, 0, 0], "axis": [1, 0, 0]}},
-        "loads": {"push": {"type": "force", "body": "cart", "at": [0, 0, 0],
-          "direction": [1, 0, 0],
+        "loads": {"push": {"type": "force", "body": "cart", "at": [0, 0, 0], "direction": [1, 0, 0],
           "value": {"type": "harmonic", "amplitude": 1, "frequency": 62.83185307179586}}}},
         "simulation": {"end_time": 0.1, "step": 1e-3, "initial_state": "periodic"},
-        "responses": {"x": {"type": "position", "body": "cart", "direction": "x",
-                            "over_time": "max"}}})"));
+        "responses": {"x": {"type": "position", "body": "cart", "direction": "x", "over_time": "max"}}})"));
   EXPECT_THAT(failure, HasSubstr("\"cart\""));
   EXPECT_THAT(failure, HasSubstr("nothing has brought back"));
 }
@@ -374,10 +369,8 @@ TEST(SteadyMachineErrors, AreNoneOfAMotionThatIsFoundFromOneThatGrows) {
     const ProblemFile disc =
         problem_from(fmt::format(R"({{"scene": {{"gravity": [0, 0, 0], "bodies": {{
               "tube": {{"type": "beam", "from": [0, 0, 0], "to": [0, 0, 0.6], "material": "steel",
-                "section": {{"type": "tube", "outer_diameter": 0.03, "thickness": 0.003}},
-                "elements": 4}},
-              "disc": {{"type": "rigid", "at": [0, 0, 0.6], "mass": 20,
-                "inertia": [0.2, 0.2, 0.4, 0, 0, 0]}}}},
+                "section": {{"type": "tube", "outer_diameter": 0.03, "thickness": 0.003}}, "elements": 4}},
+              "disc": {{"type": "rigid", "at": [0, 0, 0.6], "mass": 20, "inertia": [0.2, 0.2, 0.4, 0, 0, 0]}}}},
             "joints": {{
               "wall": {{"type": "fixed", "bodies": ["ground", "tube"], "at": [0, 0, 0]}},
               "hub": {{"type": "fixed", "bodies": ["tube", "disc"], "at": [0, 0, 0.6]}}}},

@@ -454,8 +454,7 @@ ProblemFile formulas(const std::string& first, const std::string& second,
     "joints": {}, "gravity": [0, 0, 0], "loads": {"f": {"type": "force", "body": "m",
     "at": [0, 0, 0], "direction": [1, 0, 0], "value": "1 N"}}},
   "simulation": {"end_time": 0.01, "step": 0.005},
-  "variables": {"x": {"start": 0.5, "lower": -2, "upper": 2},
-                "y": {"start": 0.5, "lower": -2, "upper": 2}},
+  "variables": {"x": {"start": 0.5, "lower": -2, "upper": 2}, "y": {"start": 0.5, "lower": -2, "upper": 2}},
   "responses": {"f": {"type": "expression", "value": ")" +
       first + R"("}, "g": {"type": "expression", "value": ")" + second + R"("}},)" + more +
       R"("pareto": {"responses": ["f", "g"], "points": 3}})");

@@ -55,21 +55,18 @@ TEST(DerivativeCheck, FindsDirectAndAdjointAsFarApartAsRoundOffMovesTheMotion) {
             "section": {{"type": "rectangle", "width": {4}, "height": {{"variable": "h"}}}}}})",
         i == 0 ? "" : ", ", i, 0.2 * i, 0.2 * (i + 1), width);
     joints += fmt::format(
-        R"({0}"j{1}": {{"type": "revolute", "bodies": ["{2}", "b{1}"], "at": [{3}, 0, 0],
-            "axis": [0, 0, 1]{4}}})",
+        R"({0}"j{1}": {{"type": "revolute", "bodies": ["{2}", "b{1}"], "at": [{3}, 0, 0], "axis": [0, 0, 1]{4}}})",
         i == 0 ? "" : ", ", i, before, 0.2 * i, drive);
   }
   const ProblemFile problem = problem_from(R"({"scene": {"gravity": [0, -9.81, 0],
           "materials": {"soft": {"young": "2 GPa", "poisson": 0.3, "density": 1200}},
           "bodies": {)" + bodies + R"(}, "joints": {)" +
                                            joints + R"(}},
-          "simulation": {"end_time": "0.5 s", "step": "1 ms",
-            "formulation": "stabilized-index-2"},
+          "simulation": {"end_time": "0.5 s", "step": "1 ms", "formulation": "stabilized-index-2"},
           "variables": {"h": {"start": 0.01, "lower": 0.005, "upper": 0.02},
             "w": {"start": 0.012, "lower": 0.005, "upper": 0.02}},
           "responses": {
-            "a": {"type": "acceleration", "body": "b4", "at": 1, "direction": "y",
-              "over_time": "max-abs"},
+            "a": {"type": "acceleration", "body": "b4", "at": 1, "direction": "y", "over_time": "max-abs"},
             "s": {"type": "stress", "body": "b0", "over_time": "max"}}})");
   const Eigen::VectorXd x = start_design(problem);
   const auto gradients = [&](const Eigen::VectorXd& design, ExactMethod method) {

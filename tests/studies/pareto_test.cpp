@@ -238,10 +238,8 @@ using Json = nlohmann::ordered_json;
 Json distances(const std::string& pareto) {
   Json document = Json::parse(R"json({
     "constants": {"target": 1},
-    "scene": {"bodies": {"stone": {"type": "rigid", "at": [0, 0, 0], "mass": 1,
-                                   "inertia": [1, 1, 1, 0, 0, 0]}},
-              "joints": {"floor": {"type": "fixed", "bodies": ["ground", "stone"],
-                                   "at": [0, 0, 0]}}},
+    "scene": {"bodies": {"stone": {"type": "rigid", "at": [0, 0, 0], "mass": 1, "inertia": [1, 1, 1, 0, 0, 0]}},
+              "joints": {"floor": {"type": "fixed", "bodies": ["ground", "stone"], "at": [0, 0, 0]}}},
     "simulation": {"end_time": "2 s", "step": "1 s", "resolution_check": false},
     "sensitivity": {"method": "direct"},
     "variables": {"x": {"start": 1.3, "lower": 0.5, "upper": 10}},
@@ -310,8 +308,7 @@ TEST(ParetoOverCases, TradesResponsesOfTwoCases) {
 
 TEST(ParetoOverCases, TradesASumOverThem) {
   const auto points = case_front(distances(
-      R"({"responses": ["cost[near]", {"minimize": "distance", "over_cases": "sum"}],
-          "points": 4})"));
+      R"({"responses": ["cost[near]", {"minimize": "distance", "over_cases": "sum"}], "points": 4})"));
   ASSERT_EQ(points.size(), 4u);
   for (const ParetoPoint& point : points) {
     EXPECT_EQ(point.result.status, Status::verified) << point.result.message;
@@ -372,12 +369,14 @@ TEST(ParetoOverCases, SaysWhichNamesThereAre) {
               AllOf(HasSubstr("/pareto/responses/0"), HasSubstr("\"distance [near]\"")));
   EXPECT_THAT(complaint(R"({"constraint": "reach[fra]", "from": 1, "to": 2})"),
               AllOf(HasSubstr("/pareto/constraint"), HasSubstr("reach [far]")));
-  EXPECT_THAT(complaint(R"({"responses": [{"minimize": "distance", "over_cases": {"nah": 1}},
-                                          "cost[near]"]})"),
-              AllOf(HasSubstr("/pareto/responses/0/over_cases/nah"), HasSubstr("near")));
-  EXPECT_THAT(complaint(R"({"responses": [{"minimize": "distance[near]", "over_cases": "sum"},
-                                          "cost[near]"]})"),
-              HasSubstr("/pareto/responses/0/over_cases"));
+  EXPECT_THAT(
+      complaint(
+          R"({"responses": [{"minimize": "distance", "over_cases": {"nah": 1}}, "cost[near]"]})"),
+      AllOf(HasSubstr("/pareto/responses/0/over_cases/nah"), HasSubstr("near")));
+  EXPECT_THAT(
+      complaint(
+          R"({"responses": [{"minimize": "distance[near]", "over_cases": "sum"}, "cost[near]"]})"),
+      HasSubstr("/pareto/responses/0/over_cases"));
 }
 
 }  // namespace

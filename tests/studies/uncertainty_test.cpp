@@ -36,8 +36,7 @@ const UncertainResponse& response_of(const ProblemFile& problem, const Uncertain
 /// Closed form: m = ρ π/4 (d₁² l₁ + d₂² l₂), so ∂m/∂dᵢ = ρ π/2 dᵢ lᵢ.
 TEST(Uncertainty, OfTheMassIsThatOfTheClosedForm) {
   const ProblemFile problem = uncertain_problem(
-      R"({"parameters": {"crank_diameter": {"deviation": "0.2 mm"},
-                         "rod_diameter": {"interval": "0.3 mm"}}})");
+      R"({"parameters": {"crank_diameter": {"deviation": "0.2 mm"}, "rod_diameter": {"interval": "0.3 mm"}}})");
   const UncertaintyStudy study = uncertainty_study(problem, {.tasks = {.jobs = 1}});
   const UncertainResponse& mass = response_of(problem, study, "crank_and_rod");
   const double crank = 7850 * pi / 2 * 0.030 * 0.120, rod = 7850 * pi / 2 * 0.030 * 0.180;
@@ -54,11 +53,9 @@ TEST(Uncertainty, OfTheMassIsThatOfTheClosedForm) {
 TEST(Uncertainty, SaysWhereFirstOrderIsNotEnough) {
   const ProblemFile problem = problem_from(R"({"scene": {
           "bodies": {"b": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
-            "section": {"type": "rectangle", "width": 0.02, "height": {"variable": "h"}},
-            "elements": 1}},
+            "section": {"type": "rectangle", "width": 0.02, "height": {"variable": "h"}}, "elements": 1}},
           "joints": {"f": {"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]}},
-          "loads": {"p": {"type": "force", "body": "b", "at": [1, 0, 0], "direction": [0, 1, 0],
-                          "value": 1}}},
+          "loads": {"p": {"type": "force", "body": "b", "at": [1, 0, 0], "direction": [0, 1, 0], "value": 1}}},
         "simulation": {"end_time": 2e-3, "step": 1e-3, "initial_state": "quasi-static"},
         "variables": {"h": {"start": 0.02, "lower": 0.001, "upper": 0.1}},
         "uncertainty": {"parameters": {"h": {"deviation": 0.003}}, "samples": 500},
@@ -192,9 +189,9 @@ double drawn_by(const ProblemFile& problem, double mass) {
 ProblemFile brief_problem(unsigned seed, int samples, const char* parameter) {
   return quick_problem(
       {"/simulation/end_time=0.4 ms", "/simulation/step=0.2 ms",
-       fmt::format(R"(/uncertainty={{"parameters": {{"rod_diameter": {{{}}}}}, "samples": {},
-                                    "seed": {}}})",
-                   parameter, samples, seed)});
+       fmt::format(
+           R"(/uncertainty={{"parameters": {{"rod_diameter": {{{}}}}}, "samples": {}, "seed": {}}})",
+           parameter, samples, seed)});
 }
 
 /// Of these seeds (found by a search), the first has a number that lies 5.5 deviations out, the

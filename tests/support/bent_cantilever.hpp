@@ -26,8 +26,7 @@ struct BentCantilever {
     const auto add = [&](const char* type, const char* direction, double value) {
       if (value == 0.0) return;
       list += fmt::format(
-          R"({}"{} {}": {{"type": "{}", "body": "beam", "at": [1, 0, 0], "direction": {},
-              "value": {}}})",
+          R"({}"{} {}": {{"type": "{}", "body": "beam", "at": [1, 0, 0], "direction": {}, "value": {}}})",
           list.empty() ? "" : ", ", type, direction, type, direction, value);
     };
     add("force", "[0, 1, 0]", force_y);
@@ -42,8 +41,7 @@ struct BentCantilever {
         R"({{"name": "bent", "scene": {{"gravity": [0, 0, 0],
           "materials": {{"soft": {{"young": 1.2e11, "poisson": 0.3, "density": 1000}}}},
           "bodies": {{"beam": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0],
-            "material": "soft", "section": {},
-            "elements": {}, "frames": {}, "frame": "{}"{}}}}},
+            "material": "soft", "section": {}, "elements": {}, "frames": {}, "frame": "{}"{}}}}},
           "joints": {{"clamp": {{"type": "fixed", "bodies": ["ground", "beam"], "at": [0, 0, 0]}}}},
           "loads": {{{}}}}},
         "effects": {{"spatial_motion": "{}", "geometric_stiffening": "{}"}},

@@ -113,11 +113,11 @@ TEST(MeasuredEffects, ChangeNoAskedResponseByMoreThanTheTolerance) {
 
 /// At another design little is not little any more.
 TEST(MeasuredEffects, AreMeasuredAgainAtOtherDesigns) {
-  ProblemFile problem =
-      read(twisted_bar(1e-2, R"({"type": "position", "body": "arm", "direction": "z",
-                                 "over_time": "final"})"),
-           {R"(/scene/loads/w/value={"variable": "force"})",
-            R"(/variables={"force": {"start": "1e-6 N", "lower": "1e-7 N", "upper": "500 N"}})"});
+  ProblemFile problem = read(
+      twisted_bar(1e-2,
+                  R"({"type": "position", "body": "arm", "direction": "z", "over_time": "final"})"),
+      {R"(/scene/loads/w/value={"variable": "force"})",
+       R"(/variables={"force": {"start": "1e-6 N", "lower": "1e-7 N", "upper": "500 N"}})"});
   decide_effects(problem);
   const auto findings_at = [&](double force) {
     Eigen::VectorXd x(1);

@@ -25,8 +25,7 @@ TEST(ElasticStability, OfAColumnThatASpringPressesAsideEndsEarlier) {
                  loads + fmt::format(
                              R"("k": {{"type": "joint", "joint": "foot", "stiffness": {}}},
                                 "s": {{"type": "spring", "bodies": ["ground", "b"],
-                                      "at": [[{}, 0, 0], [1, 0, 0]], "stiffness": {},
-                                      "free_length": {}}}, )",
+                                      "at": [[{}, 0, 0], [1, 0, 0]], "stiffness": {}, "free_length": {}}}, )",
                              k, 1.0 + d, K, d + share * critical / K));
     EXPECT_EQ(error_of(text).find("is unstable") != std::string::npos, share > 1.0) << share;
   }
@@ -51,10 +50,10 @@ TEST(ElasticStability, OfAColumnOnASpringEndsAtTheLoadOfBothTogether) {
     const auto on_spring = [&](double share) {
       std::string text = beam(joint("foot", "revolute", 0.0), -share * critical, 0.0, 8, effects);
       const std::string loads = R"("loads": {)";
-      return text.replace(text.find(loads), loads.size(),
-                          loads + fmt::format(R"("k": {{"type": "joint", "joint": "foot",
-                                                       "stiffness": {}}}, )",
-                                              ratio * stiffness));
+      return text.replace(
+          text.find(loads), loads.size(),
+          loads + fmt::format(R"("k": {{"type": "joint", "joint": "foot", "stiffness": {}}}, )",
+                              ratio * stiffness));
     };
     EXPECT_EQ(error_of(on_spring(0.98)), "") << ratio;
     EXPECT_THAT(error_of(on_spring(1.02)), HasSubstr("is unstable")) << ratio;
@@ -73,16 +72,13 @@ TEST(ElasticStability, OfAColumnOnASpringIsThatOfTheColumnBelowAWheel) {
     const auto add = [&](const std::string& before, const std::string& more) {
       text.replace(text.find(before), before.size(), before + more);
     };
-    add(R"("loads": {)", fmt::format(R"("k": {{"type": "joint", "joint": "foot",
-                                              "stiffness": {}}}, )",
-                                     stiffness));
+    add(R"("loads": {)",
+        fmt::format(R"("k": {{"type": "joint", "joint": "foot", "stiffness": {}}}, )", stiffness));
     add(R"("bodies": {)", fmt::format(R"("wheel": {{"type": "rigid", "at": [1, 0, 0], "mass": 0.2,
-                                "inertia": [1e-4, 1e-4, 1e-4, 0, 0, 0],
-                                "angular_velocity": [0, 0, {}]}}, )",
+                                "inertia": [1e-4, 1e-4, 1e-4, 0, 0, 0], "angular_velocity": [0, 0, {}]}}, )",
                                       speed));
     add(R"("joints": {)", fmt::format(R"("motor": {{"type": "revolute", "bodies": ["b", "wheel"],
-                                "at": [1, 0, 0],
-                                "drive": {{"type": "constant-speed", "speed": {}}}}}, )",
+                                "at": [1, 0, 0], "drive": {{"type": "constant-speed", "speed": {}}}}}, )",
                                       speed));
     return text;
   };
@@ -110,15 +106,13 @@ std::string fan_on_a_mast(const std::string& axis, double speed, double share) {
                               "material": "m", "elements": 2, {},
                               "section": {{"type": "rectangle", "width": 0.01, "height": 0.01}}}})",
                           i, end(0), end(1), end(2), turn);
-    welds += fmt::format(R"(, "weld{0}": {{"type": "fixed", "bodies": ["hub", "blade{0}"],
-                             "at": [1, 0, 0]}})",
-                         i);
+    welds += fmt::format(
+        R"(, "weld{0}": {{"type": "fixed", "bodies": ["hub", "blade{0}"], "at": [1, 0, 0]}})", i);
   }
   return fmt::format(R"({{"scene": {{
       "materials": {{"m": {{"young": 2.1e11, "poisson": 0.3, "density": 7850}}}},
       "bodies": {{"mast": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "m",
-                          "section": {{"type": "rectangle", "width": 0.03, "height": 0.01}},
-                          "elements": 4}},
+                          "section": {{"type": "rectangle", "width": 0.03, "height": 0.01}}, "elements": 4}},
                  "hub": {{"type": "rigid", "at": [1, 0, 0], "mass": 0.2,
                          "inertia": [1e-4, 1e-4, 1e-4, 0, 0, 0], {}}}{}}},
       "joints": {{"root": {{"type": "fixed", "bodies": ["ground", "mast"], "at": [0, 0, 0]}},
@@ -129,8 +123,7 @@ std::string fan_on_a_mast(const std::string& axis, double speed, double share) {
                 "press": {{"type": "force", "body": "mast", "at": [1, 0, 0],
                           "direction": [-1, 0, 0], "value": {}}}}}}},
       "simulation": {{"end_time": 1e-4, "step": 1e-4, "initial_state": "quasi-static"}},
-      "responses": {{"y": {{"type": "position", "body": "mast", "at": 1, "direction": "y",
-                          "over_time": "final"}},
+      "responses": {{"y": {{"type": "position", "body": "mast", "at": 1, "direction": "y", "over_time": "final"}},
                     "z": {{"type": "position", "body": "mast", "at": 1, "direction": "z",
                           "over_time": "final"}}}}}})",
                      turn, blades, axis, speed, welds, press);

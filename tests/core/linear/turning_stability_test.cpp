@@ -31,10 +31,8 @@ std::string shaft(const std::string& frame, double h, double speed, double press
                        "elements": 6, "frame": "{}", "angular_velocity": [{}, 0, 0],
                        "damping": {{"stiffness": {}}}}}}},
       "joints": {{"a": {{"type": "spherical", "bodies": ["ground", "b"], "at": [0, 0, 0]}},
-                "l": {{"type": "point-on-line", "bodies": ["ground", "b"], "at": [1, 0, 0],
-                      "axis": [1, 0, 0]}}}},
-      "loads": {{"p": {{"type": "force", "body": "b", "at": [1, 0, 0], "direction": [-1, 0, 0],
-                      "value": {}}}}}}},
+                "l": {{"type": "point-on-line", "bodies": ["ground", "b"], "at": [1, 0, 0], "axis": [1, 0, 0]}}}},
+      "loads": {{"p": {{"type": "force", "body": "b", "at": [1, 0, 0], "direction": [-1, 0, 0], "value": {}}}}}}},
       "effects": {{"spatial_motion": "on"}},
       "simulation": {{"end_time": 2e-4, "step": 1e-4, "initial_state": "quasi-static"}},
       "responses": {{
@@ -221,15 +219,12 @@ std::string held_rotor(double speed, double damping, double damper, double sprin
               "angular_velocity": [{0}, 0, 0], "damping": {{"stiffness": {1}}}}},
         "disk": {{"type": "rigid", "at": [0.5, 0, 0], "mass": 1,
                  "inertia": [1e-6, 1e-6, 1e-6, 0, 0, 0], "angular_velocity": [{0}, 0, 0]}},
-        "block": {{"type": "rigid", "at": [0.5, 0, 0], "mass": 1,
-                  "inertia": [1e-6, 1e-6, 1e-6, 0, 0, 0]}}}},
+        "block": {{"type": "rigid", "at": [0.5, 0, 0], "mass": 1, "inertia": [1e-6, 1e-6, 1e-6, 0, 0, 0]}}}},
       "joints": {{
         "a": {{"type": "spherical", "bodies": ["ground", "b"], "at": [0, 0, 0]}},
-        "l": {{"type": "point-on-line", "bodies": ["ground", "b"], "at": [1, 0, 0],
-              "axis": [1, 0, 0]}},
+        "l": {{"type": "point-on-line", "bodies": ["ground", "b"], "at": [1, 0, 0], "axis": [1, 0, 0]}},
         "weld": {{"type": "fixed", "bodies": ["b", "disk"], "at": [0.5, 0, 0]}},
-        "bearing": {{"type": "revolute", "bodies": ["b", "block"], "at": [0.5, 0, 0],
-                    "axis": [1, 0, 0]}}}},
+        "bearing": {{"type": "revolute", "bodies": ["b", "block"], "at": [0.5, 0, 0], "axis": [1, 0, 0]}}}},
       "loads": {{
         "y": {{"type": "spring", "bodies": ["ground", "block"], "at": [[0.5, 10, 0], [0.5, 0, 0]],
               "stiffness": {3}, "damping": {2}}},
@@ -283,8 +278,7 @@ ProblemFile blade(const std::string& frame, double speed = 50.0) {
           "joints": {{"d": {{"type": "revolute", "bodies": ["ground", "b"], "at": [0, 0, 0],
             "drive": {{"type": "constant-speed", "speed": {}}}}}}}}},
         "simulation": {{"end_time": 1e-3, "step": 1e-4, "initial_state": "quasi-static"}},
-        "responses": {{"flap": {{"type": "frequency", "mode": 1}},
-                       "lag": {{"type": "frequency", "mode": 2}}}}}})",
+        "responses": {{"flap": {{"type": "frequency", "mode": 1}}, "lag": {{"type": "frequency", "mode": 2}}}}}})",
                                   frame, speed));
 }
 
@@ -365,8 +359,7 @@ TEST(Frequencies, AreDoubtedWhereMoreFramesChangeThem) {
     return problem_from(fmt::format(R"({{"scene": {{"gravity": [0, 0, 0],
           "materials": {{"m": {{"young": 2.1e11, "poisson": 0.3, "density": 7850}}}},
           "bodies": {{"b": {{"type": "beam", "from": {0}, "to": {1}, "material": "m",
-            "section": {{"type": "rectangle", "width": 0.008, "height": 0.016}}, "elements": 6,
-            "frames": {2}}}}},
+            "section": {{"type": "rectangle", "width": 0.008, "height": 0.016}}, "elements": 6, "frames": {2}}}}},
           "joints": {{"wall": {{"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]}}}},
           "loads": {{"moment": {{"type": "torque", "body": "b", "at": [0.6, 0, 0],
                                "direction": [0, 1, 0], "value": 20}}}}}},

@@ -173,12 +173,10 @@ ProblemFile designed_problem() {
        R"(/responses/chord={"type": "deflection", "body": "crank", "at": 0.4, "against": "chord",
             "over_time": "rms"})",
        R"(/responses/elastic={"type": "elastic-energy", "body": "rod", "over_time": "rms"})",
-       R"(/responses/speed={"type": "velocity", "body": "rod", "at": 0.3, "direction": "y",
-            "over_time": "final"})",
+       R"(/responses/speed={"type": "velocity", "body": "rod", "at": 0.3, "direction": "y", "over_time": "final"})",
        R"(/responses/frequency={"type": "frequency", "body": "rod"})",
        R"(/responses/rod_stress={"type": "stress", "body": "rod", "at": 0.5, "over_time": "rms"})",
-       R"(/responses/crank_stress={"type": "stress", "body": "crank", "at": 0.1,
-            "over_time": "rms"})",
+       R"(/responses/crank_stress={"type": "stress", "body": "crank", "at": 0.1, "over_time": "rms"})",
        R"(/responses/reaction={"type": "reaction-force", "joint": "crank_pin", "direction": "x",
             "over_time": "rms"})"});
   problem.simulation.newton_tolerance = 1e-13;
@@ -235,8 +233,7 @@ TEST(DividedBeam, SpinsUpAsAGeometricallyExactBeam) {
           "joints": {{"hub": {{"type": "revolute", "bodies": ["ground", "beam"], "at": [0, 0, 0],
             "drive": {{"type": "ramp-to-speed", "speed": 6, "ramp": 15}}}}}}}},
         "simulation": {{"end_time": 6.75, "step": 5e-3}},
-        "responses": {{"tip": {{"type": "deflection", "body": "beam", "at": 1,
-          "over_time": "final"}}}})",
+        "responses": {{"tip": {{"type": "deflection", "body": "beam", "at": 1, "over_time": "final"}}}})",
                                                 4e-4 / height, height)))
         .value("tip");
   };

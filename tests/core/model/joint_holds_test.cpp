@@ -24,9 +24,9 @@ std::string beam(const std::string& from, const std::string& to) {
 const std::string bar = R"("bar": )" + beam("[0, 0, 0]", "[1, 0, 0]");
 
 std::string rigid(const std::string& name, const std::string& at) {
-  return fmt::format(R"(, "{}": {{"type": "rigid", "at": {}, "mass": 1,
-                                 "inertia": [1, 1, 1, 0, 0, 0]}})",
-                     name, at);
+  return fmt::format(
+      R"(, "{}": {{"type": "rigid", "at": {}, "mass": 1, "inertia": [1, 1, 1, 0, 0, 0]}})", name,
+      at);
 }
 
 std::string joint(const std::string& name, const std::string& type, const std::string& one,

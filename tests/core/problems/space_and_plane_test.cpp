@@ -32,8 +32,7 @@ Json swung_arm() {
                  "elements": 3, "frame": "chord", "damping": {"stiffness": 1e-4}},
         "arm": {"type": "beam", "from": [0.48, 0.36, 0], "to": [0.4, 0.6, 0], "material": "light",
                 "section": {"type": "rectangle", "width": 0.02, "height": 0.016}, "elements": 2,
-                "damping": {"stiffness": 1e-4}}
-      },
+                "damping": {"stiffness": 1e-4}}},
       "joints": {
         "shoulder": {"type": "revolute", "bodies": ["ground", "boom"], "at": [0, 0, 0],
                      "drive": {"type": "harmonic", "amplitude": 0.12, "frequency": 30}},
@@ -47,10 +46,8 @@ Json swung_arm() {
       "arm stress": {"type": "stress", "body": "arm", "over_time": "max"},
       "x": {"type": "position", "body": "arm", "at": 1, "direction": "x", "over_time": "max"},
       "y": {"type": "position", "body": "arm", "at": 1, "direction": "y", "over_time": "max"},
-      "force": {"type": "reaction-force", "joint": "wrist", "direction": "magnitude",
-                "over_time": "max"},
-      "moment": {"type": "reaction-moment", "joint": "shoulder", "direction": "z",
-                 "over_time": "max-abs"}
+      "force": {"type": "reaction-force", "joint": "wrist", "direction": "magnitude", "over_time": "max"},
+      "moment": {"type": "reaction-moment", "joint": "shoulder", "direction": "z", "over_time": "max-abs"}
     }
   })");
 }
@@ -137,8 +134,7 @@ std::string loaded(const std::string& load) {
 }
 
 const std::string slide_spring =
-    R"({"type": "joint", "joint": "wrist", "coordinate": "displacement", "stiffness": 2000,
-        "damping": 3})";
+    R"({"type": "joint", "joint": "wrist", "coordinate": "displacement", "stiffness": 2000, "damping": 3})";
 const std::string hinge_spring =
     R"({"type": "joint", "joint": "wrist", "coordinate": "angle", "stiffness": 20,
         "damping": 0.1, "rest": 0.05,
@@ -149,9 +145,10 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Case{"Revolute", "{}"}, Case{"RevoluteAgainst", wrist(R"({"axis": [0, 0, -1]})")},
         Case{"RevoluteWithSpringAndMotor", loaded_wrist("{}", hinge_spring)},
-        Case{"RevoluteDriven",
-             wrist(R"({"axis": [0, 0, -1], "drive": {"type": "harmonic", "amplitude": 0.3,
-                                                     "frequency": 40}})")},
+        Case{
+            "RevoluteDriven",
+            wrist(
+                R"({"axis": [0, 0, -1], "drive": {"type": "harmonic", "amplitude": 0.3, "frequency": 40}})")},
         Case{"Fixed", wrist(R"({"type": "fixed"})")},
         Case{"PrismaticOnASpring",
              loaded_wrist(R"({"type": "prismatic", "axis": [0.28, 0.96, 0]})", slide_spring)},
@@ -178,15 +175,12 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Case{"FollowerForce", loaded(R"({"type": "force", "body": "boom", "at": [0.48, 0.36, 0],
                                          "direction": [-0.6, 0.8, 0], "follows": true,
-                                         "value": {"type": "harmonic", "amplitude": 8,
-                                                   "frequency": 30}})")},
+                                         "value": {"type": "harmonic", "amplitude": 8, "frequency": 30}})")},
         Case{"Torque", loaded(R"({"type": "torque", "body": "boom", "at": [0.48, 0.36, 0],
                                   "direction": [0, 0, -1],
-                                  "value": {"type": "harmonic", "amplitude": 1.5,
-                                            "frequency": 40}})")},
+                                  "value": {"type": "harmonic", "amplitude": 1.5, "frequency": 40}})")},
         Case{"FollowerTorque", loaded(R"({"type": "torque", "body": "boom", "at": [0.32, 0.24, 0],
-                                          "direction": [0, 0, 1], "follows": true,
-                                          "value": 1.5})")}),
+                                          "direction": [0, 0, 1], "follows": true, "value": 1.5})")}),
     [](const auto& test) { return test.param.name; });
 
 std::string boom(const std::string& keys) {
@@ -388,8 +382,7 @@ constexpr const char* cantilever = R"({
       "damping": {"stiffness": "= 0 s/m * end"}}},
     "joints": {"f": {"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]}},
     "loads": {"wind": {"type": "force", "body": "b", "at": ["= 0.225*long", "= 0.3*long", 0],
-      "to": ["= 0.6*end", "= 0.8*end", 0], "direction": [-0.8, 0.6, 0], "value": 30}}
-  },
+      "to": ["= 0.6*end", "= 0.8*end", 0], "direction": [-0.8, 0.6, 0], "value": 30}}},
     "simulation": {"end_time": 1e-3, "step": 1e-3, "initial_state": "quasi-static"},
   "effects": {"geometric_stiffening": "off"},
   "responses": {

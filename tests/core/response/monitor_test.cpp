@@ -343,8 +343,9 @@ TEST(KineticEnergyResponse, IsThatOfTurningAndOfTranslation) {
       {response_of("crank", R"({"type": "kinetic-energy", "body": "crank", "over_time": "final"})"),
        response_of("slider",
                    R"({"type": "kinetic-energy", "body": "slider", "over_time": "final"})"),
-       response_of("speed", R"({"type": "velocity", "body": "slider", "direction": "x",
-                                "over_time": "final"})")});
+       response_of(
+           "speed",
+           R"({"type": "velocity", "body": "slider", "direction": "x", "over_time": "final"})")});
   const auto analysis = analyze(problem, start_design(problem));
   EXPECT_NEAR(value_of(*analysis, "crank"), 0.5 * 0.001 * 60 * 60, 1e-8);  // a drive of index 3
   const double speed = value_of(*analysis, "speed");
@@ -469,10 +470,9 @@ TEST_P(DriftGradient, IsThatOfCentralDifferences) {
       "/responses={}", "/simulation/end_time=0.2", "/simulation/formulation=index-1",
       "/simulation/newton_tolerance=1e-16", "/simulation/step=4 ms"};
   for (const char* level : {"position", "velocity"}) {
-    overrides.push_back(
-        response_of(level, fmt::format(R"({{"type": "constraint-drift", "level": "{}",
-                                            "over_time": "{}"}})",
-                                       level, GetParam())));
+    overrides.push_back(response_of(
+        level, fmt::format(R"({{"type": "constraint-drift", "level": "{}", "over_time": "{}"}})",
+                           level, GetParam())));
   }
   const ProblemFile problem = sample_problem("hard/dead_centres", overrides);
   const Eigen::VectorXd x = start_design(problem);

@@ -124,8 +124,7 @@ TEST(WholeTurns, OfAJointCountInSpace) {
         "one": {"type": "rigid", "at": [0, 0, 0], "mass": 2, "inertia": [0.02, 0.02, 0.02, 0, 0, 0],
                 "angular_velocity": [0, 0, 100]},
         "two": {"type": "rigid", "at": [0, 1, 0], "mass": 2, "inertia": [0.02, 0.02, 0.02, 0, 0, 0],
-                "angular_velocity": [10, 0, 0]}
-      },
+                "angular_velocity": [10, 0, 0]}},
       "joints": {
         "first": {"type": "revolute", "bodies": ["ground", "one"], "at": [0, 0, 0], "axis": [0, 0, 1]},
         "second": {"type": "revolute", "bodies": ["ground", "two"], "at": [0, 1, 0], "axis": [1, 0, 0]}

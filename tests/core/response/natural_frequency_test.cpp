@@ -239,8 +239,7 @@ ProblemFile column(double P) {
     "scene": {{
       "materials": {{"m": {{"young": 2.1e11, "poisson": 0.3, "density": 7850}}}},
       "bodies": {{"b": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "m",
-        "section": {{"type": "rectangle", "width": 0.04, "height": 0.01}}, "elements": 8,
-        "frame": "chord"}}}},
+        "section": {{"type": "rectangle", "width": 0.04, "height": 0.01}}, "elements": 8, "frame": "chord"}}}},
       "joints": {{
         "a": {{"type": "revolute", "bodies": ["ground", "b"], "at": [0, 0, 0]}},
         "c": {{"type": "point-on-line", "bodies": ["ground", "b"], "at": [1, 0, 0], "axis": [1, 0, 0]}}}},
@@ -310,8 +309,7 @@ TEST(FrequencyUnderALoad, IsDoubtedWhereThereIsNoEquilibrium) {
         "bodies": {{"b": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
           "section": {{"type": "rectangle", "width": 0.01, "height": 0.01}}, "elements": 4}}}},
         "joints": {{"wall": {{"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]}}}},
-        "loads": {{"P": {{"type": "force", "body": "b", "at": [1, 0, 0], "direction": [0, 1, 0],
-                          "value": {}}}}}}},
+        "loads": {{"P": {{"type": "force", "body": "b", "at": [1, 0, 0], "direction": [0, 1, 0], "value": {}}}}}}},
       "simulation": {{"end_time": 1e-5, "step": 1e-5}},
       "responses": {{"f": {{"type": "frequency"}}}}}})j",
                                   force));
@@ -518,8 +516,7 @@ TEST(Buckling, IsAboutTheWeakerAxisAlsoInThePlane) {
 
 std::string pendulum(const std::string& gravity) {
   return fmt::format(R"({{"scene": {{"gravity": {},
-      "bodies": {{"bob": {{"type": "rigid", "at": [0, 0.4, 0], "mass": 0.7,
-                         "inertia": [0, 0, 0.03, 0, 0, 0]}}}},
+      "bodies": {{"bob": {{"type": "rigid", "at": [0, 0.4, 0], "mass": 0.7, "inertia": [0, 0, 0.03, 0, 0, 0]}}}},
       "joints": {{"j": {{"type": "revolute", "bodies": ["ground", "bob"], "at": [0, 0, 0]}}}}}},
       "simulation": {{"end_time": 1e-3, "step": 1e-3}},
       "responses": {{"f": {{"type": "frequency"}}}}}})",

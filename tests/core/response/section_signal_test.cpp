@@ -248,8 +248,7 @@ TEST(StressOfOnePoint, HasTheSignOfItsSide) {
                 "inertia_y": 2e-9, "inertia_z": 1e-9, "torsion": 1e-9, "points": [)" +
                                              point + R"(]}}},
             "joints": {"wall": {"type": "fixed", "bodies": ["ground", "beam"], "at": [0, 0, 0]}},
-            "loads": {"push": {"type": "force", "body": "beam", "at": [1, 0, 0], "value": 1,
-                               "direction": )" +
+            "loads": {"push": {"type": "force", "body": "beam", "at": [1, 0, 0], "value": 1, "direction": )" +
                                              direction + R"(}}},
           "effects": {"geometric_stiffening": "off"},
           "simulation": {"end_time": 2e-4, "step": 1e-4, "initial_state": "quasi-static"},
@@ -336,8 +335,7 @@ TEST(SectionForces, ThatVanishAreRoundOff) {
                                           {"d", 0.4, "moment-z"},
                                           {"e", 0.9, "shear-y"}}) {
     responses += fmt::format(
-        R"({}"{}": {{"type": "section-force", "body": "bar", "at": {}, "part": "{}",
-                     "over_time": "max-abs"}})",
+        R"({}"{}": {{"type": "section-force", "body": "bar", "at": {}, "part": "{}", "over_time": "max-abs"}})",
         responses.empty() ? "" : ", ", name, place, part);
   }
   responses += R"(, "f": {"type": "stress", "body": "bar", "at": 1, "over_time": "max"},

@@ -37,15 +37,11 @@ ProblemFile cantilever(const std::string& section, const Loads& loads) {
     "bodies": {{"bar": {{"type": "beam", "from": [0, 0, 0], "to": [0.5, 0, 0], "elements": 2,
                          "material": "light", "section": {}}}}},
     "joints": {{"wall": {{"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}}}},
-    "loads": {{"y": {{"type": "force", "body": "bar", "at": [0.5, 0, 0], "direction": [0, 1, 0],
-                      "value": {}}},
-              "z": {{"type": "force", "body": "bar", "at": [0.5, 0, 0], "direction": [0, 0, 1],
-                      "value": {}}},
-              "t": {{"type": "torque", "body": "bar", "at": [0.5, 0, 0], "direction": [1, 0, 0],
-                     "value": {}}}}}}},
+    "loads": {{"y": {{"type": "force", "body": "bar", "at": [0.5, 0, 0], "direction": [0, 1, 0], "value": {}}},
+              "z": {{"type": "force", "body": "bar", "at": [0.5, 0, 0], "direction": [0, 0, 1], "value": {}}},
+              "t": {{"type": "torque", "body": "bar", "at": [0.5, 0, 0], "direction": [1, 0, 0], "value": {}}}}}}},
   "effects": {{"geometric_stiffening": "off", "spatial_motion": "on"}},
-  "simulation": {{"end_time": "2 ms", "step": "1 ms", "initial_state": "quasi-static",
-                  "newton_tolerance": 1e-13}},
+  "simulation": {{"end_time": "2 ms", "step": "1 ms", "initial_state": "quasi-static", "newton_tolerance": 1e-13}},
   "variables": {{{}}},
   "responses": {{"tau": {{"type": "shear-stress", "body": "bar", "over_time": "max"}}}}}})j",
       section, loads.y, loads.z, loads.torque, variables_of(section)));
@@ -59,8 +55,8 @@ double stress_of(const std::string& section, const Loads& loads) {
 const std::string rectangle =
     R"({"type": "rectangle", "width": {"variable": "a"}, "height": {"variable": "b"}})";
 const std::string circle = R"({"type": "circle", "diameter": {"variable": "a"}})";
-const std::string tube = R"({"type": "tube", "outer_diameter": {"variable": "a"},
-                             "thickness": "2 mm"})";
+const std::string tube =
+    R"({"type": "tube", "outer_diameter": {"variable": "a"}, "thickness": "2 mm"})";
 const std::string ellipse =
     R"({"type": "ellipse", "width": {"variable": "a"}, "height": {"variable": "b"}})";
 const std::string box = R"({"type": "box", "width": {"variable": "a"}, "height": {"variable": "b"},
@@ -277,14 +273,13 @@ double value(const Analysis& analysis, std::size_t response) {
 /// Clamped at one end, on a roller at the other, under its weight q: the roller's force R holds
 ///     q L⁴/8EI + q L²/2κGA = R (L³/3EI + L/κGA)
 TEST(ForcesOfAShearedBeam, HeldTwiceAreTimoshenkos) {
-  const auto found =
-      analysis_of("[0, -9.81, 0]",
-                  R"({"clamp": {"type": "fixed", "bodies": ["ground", "beam"], "at": [0, 0, 0]},
+  const auto found = analysis_of(
+      "[0, -9.81, 0]",
+      R"({"clamp": {"type": "fixed", "bodies": ["ground", "beam"], "at": [0, 0, 0]},
           "roller": {"type": "point-on-line", "bodies": ["ground", "beam"], "at": [0.5, 0, 0],
                      "axis": [1, 0, 0]}})",
-                  {force_at(0.0, "moment-z"), force_at(0.6, "moment-z"), force_at(0.6, "shear-y"),
-                   R"({"type": "reaction-force", "joint": "roller", "direction": "y",
-                      "over_time": "max-abs"})"});
+      {force_at(0.0, "moment-z"), force_at(0.6, "moment-z"), force_at(0.6, "shear-y"),
+       R"({"type": "reaction-force", "joint": "roller", "direction": "y", "over_time": "max-abs"})"});
   const double q = 9.81 * density * area, L = span;
   const double bending = 1 / (young * inertia), shear = 1 / (shear_modulus * shear_area);
   const double R = q * (std::pow(L, 4) / 8 * bending + L * L / 2 * shear) /

@@ -302,8 +302,7 @@ std::string flat_truss(double load) {
           "l": {{"type": "beam", "from": [-0.5, 0, 0], "to": [0, 0.02, 0], "material": "steel",
                 "section": {{"type": "circle", "diameter": 0.03}}, "elements": 4, "frame": "chord"}},
           "r": {{"type": "beam", "from": [0.5, 0, 0], "to": [0, 0.02, 0], "material": "steel",
-                "section": {{"type": "circle", "diameter": 0.03}}, "elements": 4,
-                "frame": "chord"}}}},
+                "section": {{"type": "circle", "diameter": 0.03}}, "elements": 4, "frame": "chord"}}}},
         "joints": {{
           "a": {{"type": "revolute", "bodies": ["ground", "l"], "at": [-0.5, 0, 0]}},
           "c": {{"type": "revolute", "bodies": ["ground", "r"], "at": [0.5, 0, 0]}},
@@ -311,8 +310,7 @@ std::string flat_truss(double load) {
         "loads": {{"f": {{"type": "force", "body": "l", "at": [0, 0.02, 0],
                          "direction": [0, -1, 0], "value": {}}}}}}},
       "simulation": {{"end_time": 0.001, "step": 0.0005, "initial_state": "quasi-static"}},
-      "responses": {{"y": {{"type": "position", "body": "l", "at": 1, "direction": "y",
-                          "over_time": "min"}}}}}})",
+      "responses": {{"y": {{"type": "position", "body": "l", "at": 1, "direction": "y", "over_time": "min"}}}}}})",
       load);
 }
 
@@ -369,8 +367,7 @@ TEST(QuasiStaticStart, OfATurningBladeIsThatOfLoadsThatGrow) {
                       "section": {{"type": "rectangle", "width": 0.01, "height": 0.2}},
                       "angular_velocity": [0, 0, 40]}}}},
                   "joints": {{"hub": {{"type": "revolute", "bodies": ["ground", "blade"],
-                      "at": [0, 0, 0], "axis": [0, 0, 1],
-                      "drive": {{"type": "constant-speed", "speed": 40}}}}}},
+                      "at": [0, 0, 0], "axis": [0, 0, 1], "drive": {{"type": "constant-speed", "speed": 40}}}}}},
                   "loads": {{"lift": {{"type": "force", "body": "blade", "at": [5, 0, 0],
                       "direction": [0, 0, 1], "value": {}}}}}}},
                 "simulation": {{"end_time": 5e-4, "step": 5e-4, "initial_state": "quasi-static"}},
@@ -417,8 +414,7 @@ TEST(QuasiStaticStart, OfClampedMembersCoupledAtTheirTipsIsFound) {
       "joints": {{"a": {{"type": "fixed", "bodies": ["ground", "one"], "at": [0, 0, 0]}},
                 "b": {{"type": "fixed", "bodies": ["ground", "two"], "at": [2, 0, 0]}},
                 "link": {{"type": "{}", "bodies": ["one", "two"], "at": [1, 0, 0], "axis": [{}]}}}},
-      "loads": {{"f": {{"type": "force", "body": "one", "at": [1, 0, 0], "direction": [0, -1, 0],
-                      "value": 10}}}}}},
+      "loads": {{"f": {{"type": "force", "body": "one", "at": [1, 0, 0], "direction": [0, -1, 0], "value": 10}}}}}},
       "simulation": {{"end_time": 0.001, "step": 0.001, "initial_state": "quasi-static"}},
       "responses": {{"x": {{"type": "mass"}}, "y": {{"type": "position", "body": "one", "at": 1,
                                                 "direction": "y", "over_time": "max-abs"}}}}}})",

@@ -225,8 +225,7 @@ TEST(SlidingContact, IsNoneWhereTheLineBelongsToTheOtherBody) {
       R"({"scene": {"gravity": [0, -9.81, 0], "bodies": {
             "arm": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
                     "section": {"type": "circle", "diameter": 0.03}, "elements": 5},
-            "carriage": {"type": "rigid", "at": [1, 0, 0], "mass": 1,
-                         "inertia": [0.1, 0.1, 0.1, 0, 0, 0]}},
+            "carriage": {"type": "rigid", "at": [1, 0, 0], "mass": 1, "inertia": [0.1, 0.1, 0.1, 0, 0, 0]}},
           "joints": {"clamp": {"type": "fixed", "bodies": ["ground", "arm"], "at": [0, 0, 0]},
                      "rail": {"type": "prismatic", "bodies": ["ground", "carriage"],
                               "at": [1, 0, 0], "axis": [1, 0, 0],
@@ -268,8 +267,7 @@ TEST(SlidingContact, IsADoubtWhereItTravelsOverAnElasticBeam) {
 ProblemFile rotor(const std::string& resistance, double step, const std::string& plane = "auto") {
   return read_scene(fmt::format(
       R"j({{"scene": {{
-        "bodies": {{"rotor": {{"type": "rigid", "at": [0, 0, 0], "mass": 1,
-                              "inertia": [0.01, 0.01, 0.02, 0, 0, 0],
+        "bodies": {{"rotor": {{"type": "rigid", "at": [0, 0, 0], "mass": 1, "inertia": [0.01, 0.01, 0.02, 0, 0, 0],
                               "angular_velocity": [0, 0, "1250 rpm"]}}}},
         "joints": {{"b": {{"type": "revolute", "bodies": ["ground", "rotor"], "at": [0, 0, 0],
                           "drive": {{"type": "constant-speed", "speed": "1250 rpm"}}}}}},
@@ -336,8 +334,7 @@ TEST(FastTurning, IsDoubtedBeyondAQuarterOfATurn) {
               "bodies": {{"wheel": {{"type": "rigid", "at": [0, 0, 0], "mass": 1,
                                     "inertia": [0.01, 0.01, 0.02, 0, 0, 0],
                                     "angular_velocity": [0, 0, "100 rev/s"]}}}},
-              "joints": {{"b": {{"type": "revolute", "bodies": ["ground", "wheel"],
-                                "at": [0, 0, 0]}}}}}},
+              "joints": {{"b": {{"type": "revolute", "bodies": ["ground", "wheel"], "at": [0, 0, 0]}}}}}},
             "simulation": {{"end_time": 0.1, "step": {}}}}})j",
                            step)),
                        check_fast_turning);

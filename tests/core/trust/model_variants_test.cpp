@@ -16,8 +16,7 @@ ProblemFile bar(double across, const std::string& axial) {
   return read_scene(fmt::format(
       R"j({{"scene": {{"gravity": [0, 0, 0],
         "materials": {{"m": {{"young": 2.1e11, "poisson": 0.3, "density": 7850}}}},
-        "bodies": {{"bar": {{"type": "beam", "from": [0, 0, 0], "to": [0.5, 0, 0], "elements": 4,
-                            "material": "m",
+        "bodies": {{"bar": {{"type": "beam", "from": [0, 0, 0], "to": [0.5, 0, 0], "elements": 4, "material": "m",
                             "section": {{"type": "rectangle", "width": 0.02, "height": 0.02}}}}}},
         "joints": {{"wall": {{"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}}}},
         "loads": {{"pull": {{"type": "force", "body": "bar", "at": [0.5, 0, 0],
@@ -62,12 +61,10 @@ ProblemFile shaken(double force, const std::string& damping) {
               "elements": 8, "section": {{"type": "rectangle", "width": 0.02, "height": 0.008}},
               "reduction": {{"modes": 4}}, "damping": {}}}}},
           "joints": {{"wall": {{"type": "fixed", "bodies": ["ground", "beam"], "at": [0, 0, 0]}}}},
-          "loads": {{"push": {{"type": "force", "body": "beam", "at": [0.4, 0, 0],
-            "direction": [0, 1, 0],
+          "loads": {{"push": {{"type": "force", "body": "beam", "at": [0.4, 0, 0], "direction": [0, 1, 0],
             "value": {{"type": "harmonic", "amplitude": {}, "frequency": {}}}}}}}}},
           "simulation": {{"end_time": {}, "step": {}, "initial_state": "periodic"}},
-          "responses": {{"tip": {{"type": "deflection", "body": "beam", "at": 1,
-                                  "over_time": "max-abs"}}}}}})",
+          "responses": {{"tip": {{"type": "deflection", "body": "beam", "at": 1, "over_time": "max-abs"}}}}}})",
       damping, force, frequency, 2.0 * std::numbers::pi / frequency,
       2.0 * std::numbers::pi / frequency / 400.0));
 }
@@ -130,8 +127,7 @@ ProblemFile pressed_column(double force, const char* spatial_motion, double tole
                             "material": "light", "damping": {{"stiffness": 1e-4}},
                             "section": {{"type": "rectangle", "width": 0.01, "height": 0.01}}}}}},
         "joints": {{"wall": {{"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}}}},
-        "loads": {{"press": {{"type": "force", "body": "bar", "at": [1, 0, 0],
-                             "direction": [-1, 0, 0],
+        "loads": {{"press": {{"type": "force", "body": "bar", "at": [1, 0, 0], "direction": [-1, 0, 0],
                              "value": {{"type": "ramp", "to": {}, "end": 0.05}}}}}}}},
       "effects": {{"spatial_motion": "{}", "tolerance": {}}},
       "simulation": {{"end_time": 0.05, "step": 0.0025}},
@@ -222,17 +218,14 @@ TEST(EnergyBalance, IsAskedOfSmallMotionsFarFromTheOrigin) {
 std::vector<Finding> findings(const std::string& first, const std::string& second) {
   const ProblemFile shaft = read_scene(fmt::format(
       R"({{"scene": {{"gravity": [0, 0, 0], "bodies": {{
-            "shaft": {{"type": "rigid", "at": [0.05, 0, 0], "mass": 1,
-                       "inertia": [1e-3, 2e-3, 2e-3, 0, 0, 0]}}}},
+            "shaft": {{"type": "rigid", "at": [0.05, 0, 0], "mass": 1, "inertia": [1e-3, 2e-3, 2e-3, 0, 0, 0]}}}},
           "joints": {{"one": {}, "other": {}}},
           "loads": {{"belt": {{"type": "force", "body": "shaft", "at": [0.13, 0, 0],
                                "direction": [0, 1, 0], "value": 500}}}}}},
           "simulation": {{"end_time": 0.01, "step": 0.001}},
           "responses": {{
-            "one": {{"type": "reaction-force", "joint": "one", "direction": "y",
-                     "over_time": "final"}},
-            "other": {{"type": "reaction-force", "joint": "other", "direction": "y",
-                       "over_time": "final"}},
+            "one": {{"type": "reaction-force", "joint": "one", "direction": "y", "over_time": "final"}},
+            "other": {{"type": "reaction-force", "joint": "other", "direction": "y", "over_time": "final"}},
             "speed": {{"type": "angular-velocity", "body": "shaft", "direction": "x",
                        "over_time": "max-abs"}}}}}})",
       first, second));

@@ -69,8 +69,7 @@ TEST(MotionStability, OfBecksColumnIsLostBesideWhatFallsFaster) {
          .loads = R"(, "dead": {"type": "force", "body": "p", "at": [5, 0.1, 0],
                                 "direction": [0, -1, 0], "value": 100},
                        "soft": {"type": "spring", "bodies": ["ground", "p"],
-                                "at": [[6, 0.1, 0], [5, 0.1, 0]], "stiffness": 1,
-                                "free_length": 1})"});
+                                "at": [[6, 0.1, 0], [5, 0.1, 0]], "stiffness": 1, "free_length": 1})"});
   };
   const Finding before = only(beside_pendulum(15.0));
   EXPECT_EQ(before.text.find("\"c\""), std::string::npos) << before.text;
@@ -83,8 +82,7 @@ TEST(MotionStability, OfBecksColumnIsLostBesideWhatFallsFaster) {
 /// (damped_mode_test.cpp), by exp(6.9) in 1.5 s.
 TEST(MotionStability, OfBecksColumnIsLostWhenItsLoadComesLate) {
   const std::string late =
-      R"({{"type": "table", "interpolation": "monotone", "times": [0, 0.2, 0.3, 9],
-                               "values": [0, 0, {}, {}]}})";
+      R"({{"type": "table", "interpolation": "monotone", "times": [0, 0.2, 0.3, 9], "values": [0, 0, {}, {}]}})";
   EXPECT_TRUE(findings_of_followed({9.0, 1e-3, late, 1.8}).empty());
   const Finding finding = only(findings_of_followed({16.0, 1e-3, late, 1.8}));
   EXPECT_TRUE(finding.is_serious);
@@ -116,8 +114,7 @@ TEST(MotionStability, OfAColumnIsLostWhateverItsElements) {
                               "material": "light", "damping": {{"stiffness": 1e-4}},
                               "section": {{"type": "rectangle", "width": 0.02, "height": 0.01}}}}}},
           "joints": {{{}, {}}},
-          "loads": {{"press": {{"type": "force", "body": "bar", "at": [1, 0, 0],
-                               "direction": [-1, 0, 0],
+          "loads": {{"press": {{"type": "force", "body": "bar", "at": [1, 0, 0], "direction": [-1, 0, 0],
                                "value": {{"type": "ramp", "to": {}, "end": 0.05}}}}}}}},
         "simulation": {{"end_time": 1, "step": 0.0025}},
         "responses": {{"mass": {{"type": "mass"}}}}}})j",
@@ -151,8 +148,7 @@ std::vector<Finding> findings_of_pulsating(double share, double speed) {
         "section": {{"type": "rectangle", "width": 0.01, "height": 0.01}}, "elements": 6,
         "damping": {{"stiffness": 1e-6}}}}}},
       "joints": {{"a": {{"type": "revolute", "bodies": ["ground", "c"], "at": [0, 0, 0]}},
-        "l": {{"type": "point-on-line", "bodies": ["ground", "c"], "at": [1, 0, 0],
-              "axis": [1, 0, 0]}}}},
+        "l": {{"type": "point-on-line", "bodies": ["ground", "c"], "at": [1, 0, 0], "axis": [1, 0, 0]}}}},
       "loads": {{"P": {{"type": "force", "body": "c", "at": [1, 0, 0], "direction": [-1, 0, 0],
         "value": {{"type": "harmonic", "amplitude": {}, "frequency": {}}}}}}}}},
     "simulation": {{"end_time": 0.5, "step": 5e-4}},
@@ -212,8 +208,7 @@ TEST(MotionStability, OfAPendulumThatIsSaidToBeInEquilibriumIsAsked) {
 TEST(MotionStability, OfAnEquilibriumThatIsNeverLeftIsAsked) {
   const auto findings = [](double at) {
     return findings_of(read_scene(fmt::format(R"({{"scene": {{"gravity": [0, -9.81, 0],
-        "bodies": {{"bob": {{"type": "rigid", "at": [0, {}, 0], "mass": 2,
-                            "inertia": [0.5, 0.5, 0.5, 0, 0, 0]}}}},
+        "bodies": {{"bob": {{"type": "rigid", "at": [0, {}, 0], "mass": 2, "inertia": [0.5, 0.5, 0.5, 0, 0, 0]}}}},
         "joints": {{"p": {{"type": "revolute", "bodies": ["ground", "bob"], "at": [0, 0, 0]}}}}}},
       "simulation": {{"end_time": 0.1, "step": 0.01}},
       "responses": {{"mass": {{"type": "mass"}}}}}})",
@@ -251,9 +246,9 @@ std::string portal(double force, const std::string& knee, const std::string& mot
   };
   const auto joint = [](const std::string& type, const std::string& one, const std::string& other,
                         double x, double y) {
-    return fmt::format(R"("{1} {2}": {{"type": "{0}", "bodies": ["{1}", "{2}"],
-                                       "at": [{3}, {4}, 0]}})",
-                       type, one, other, x, y);
+    return fmt::format(
+        R"("{1} {2}": {{"type": "{0}", "bodies": ["{1}", "{2}"], "at": [{3}, {4}, 0]}})", type, one,
+        other, x, y);
   };
   const std::string joints =
       joint("fixed", "ground", "left", 0, 0) + ", " + joint("fixed", "ground", "right", 4, 0) +
@@ -339,14 +334,12 @@ std::string column(int beams, const std::string& more_bodies, const std::string&
   std::string bodies, joints;
   for (int i = 0; i < beams; ++i) {
     bodies += fmt::format(R"({}"c{}": {{"type": "beam", "from": [0, {}, 0], "to": [0, {}, 0],
-        "material": "steel", "elements": {},
-        "section": {{"type": "rectangle", "width": 0.01, "height": 0.03}}}})",
+        "material": "steel", "elements": {}, "section": {{"type": "rectangle", "width": 0.01, "height": 0.03}}}})",
                           i > 0 ? ", " : "", i, double(i) / beams, double(i + 1) / beams,
                           beams > 2 ? 2 : 6);
-    joints += fmt::format(R"({}"j{}": {{"type": "fixed", "bodies": ["{}", "c{}"],
-                                        "at": [0, {}, 0]}})",
-                          i > 0 ? ", " : "", i, i > 0 ? fmt::format("c{}", i - 1) : "ground", i,
-                          double(i) / beams);
+    joints += fmt::format(
+        R"({}"j{}": {{"type": "fixed", "bodies": ["{}", "c{}"], "at": [0, {}, 0]}})",
+        i > 0 ? ", " : "", i, i > 0 ? fmt::format("c{}", i - 1) : "ground", i, double(i) / beams);
   }
   const std::string side = fmt::format(R"(, "side": {{"type": "force", "body": "c{}",
       "at": [0, 1, 0], "direction": [1, 0, 0], "value": 1e-3}})",

@@ -168,23 +168,17 @@ const std::string scene = R"({
                         "section": {"type": "circle", "diameter": {"variable": "d"}}, "elements": 2}},
     "joints": {"wall": {"type": "fixed", "bodies": ["ground", "beam"], "at": [0, 0, 0]}},
     "loads": {"tool": {"type": "force", "body": "beam", "at": [0.3, 0, 0], "direction": [-1, -1, 0],
-                       "value": {"type": "constant", "value": "100 N"}}}
-  },
+                       "value": {"type": "constant", "value": "100 N"}}}},
   "simulation": {"end_time": 0.05, "step": 0.001},
   "variables": {"d": {"start": "10 mm", "lower": "5 mm", "upper": "30 mm"}},
-  "responses": {
-    "mass": {"type": "mass"},
+  "responses": {"mass": {"type": "mass"},
     "sag": {"type": "deflection", "body": "beam", "at": 1, "direction": "y", "over_time": "max"},
     "low": {"type": "deflection", "body": "beam", "at": 1, "direction": "y", "over_time": "min"},
     "far": {"type": "deflection", "body": "beam", "at": 1, "direction": "y", "over_time": "max-abs"},
-    "early": {"type": "deflection", "body": "beam", "at": 1, "direction": "y",
-              "over_time": "max-abs", "to": 0.01},
-    "moment": {"type": "section-force", "body": "beam", "at": 0.01, "part": "moment-z",
-               "over_time": "min"},
-    "axial": {"type": "section-force", "body": "beam", "at": 0.01, "part": "axial",
-              "over_time": "max"},
-    "height": {"type": "position", "body": "beam", "at": 1, "direction": "y", "over_time": "max"}
-  },
+    "early": {"type": "deflection", "body": "beam", "at": 1, "direction": "y", "over_time": "max-abs", "to": 0.01},
+    "moment": {"type": "section-force", "body": "beam", "at": 0.01, "part": "moment-z", "over_time": "min"},
+    "axial": {"type": "section-force", "body": "beam", "at": 0.01, "part": "axial", "over_time": "max"},
+    "height": {"type": "position", "body": "beam", "at": 1, "direction": "y", "over_time": "max"}},
   "objective": {"minimize": "mass"}
 })";
 
@@ -379,12 +373,9 @@ TEST(SeparateGroups, ShareNoReactions) {
     return values(scene_of(
         R"("door": {"type": "rigid", "at": [0.4, 0, 0], "mass": 20,
                     "inertia": [2, 3, 1.5, 0, 0, 0], "angular_velocity": [0, 1, 0]})",
-        R"("low": {"type": "revolute", "bodies": ["ground", "door"], "at": [0, -0.15, 0],
-                   "axis": [0, 1, 0]},
-           "high": {"type": "revolute", "bodies": ["ground", "door"], "at": [0, 0.15, 0],
-                    "axis": [0, 1, 0]})",
-        R"("force": {"type": "reaction-force", "joint": "high", "direction": "magnitude",
-                     "over_time": "max"})",
+        R"("low": {"type": "revolute", "bodies": ["ground", "door"], "at": [0, -0.15, 0], "axis": [0, 1, 0]},
+           "high": {"type": "revolute", "bodies": ["ground", "door"], "at": [0, 0.15, 0], "axis": [0, 1, 0]})",
+        R"("force": {"type": "reaction-force", "joint": "high", "direction": "magnitude", "over_time": "max"})",
         distance));
   };
   const double alone = door(0.0)(0);
@@ -402,8 +393,7 @@ std::string pendulum_on_carriage(double distance, const std::string& drive,
                   velocity),
       fmt::format(R"("rail": {{"type": "prismatic", "bodies": ["ground", "carriage"],
                                "at": [0, 0, 0], "axis": [1, 0, 0], "drive": {}}},
-                     "hinge": {{"type": "revolute", "bodies": ["carriage", "arm"],
-                                "at": [0, 0, 0]}})",
+                     "hinge": {{"type": "revolute", "bodies": ["carriage", "arm"], "at": [0, 0, 0]}})",
                   drive),
       R"("swing": {"type": "joint-position", "joint": "hinge", "over_time": "max-abs"})", distance);
 }
@@ -441,11 +431,9 @@ TEST(OpenVelocities, AreNoneThatTheFileGivesOrThatBeginAtRest) {
 /// A short thick block and a rod, each on a foundation of its own.
 TEST(SeparateGroups, ShareNoDoubtsOfShear) {
   const ProblemFile problem = read_scene(R"({"scene": {
-      "bodies": {"block": {"type": "beam", "from": [0, 0, 0], "to": [0.1, 0, 0],
-                           "material": "steel", "elements": 4,
+      "bodies": {"block": {"type": "beam", "from": [0, 0, 0], "to": [0.1, 0, 0], "material": "steel", "elements": 4,
                            "section": {"type": "rectangle", "width": 0.02, "height": 0.04}},
-                 "rod": {"type": "beam", "from": [1, 0, 0], "to": [1.5, 0, 0],
-                         "material": "steel", "elements": 4,
+                 "rod": {"type": "beam", "from": [1, 0, 0], "to": [1.5, 0, 0], "material": "steel", "elements": 4,
                          "section": {"type": "circle", "diameter": 0.02}}},
       "joints": {"left": {"type": "fixed", "bodies": ["ground", "block"], "at": [0, 0, 0]},
                  "right": {"type": "fixed", "bodies": ["ground", "rod"], "at": [1, 0, 0]}},
@@ -454,8 +442,7 @@ TEST(SeparateGroups, ShareNoDoubtsOfShear) {
                 "pull": {"type": "force", "body": "rod", "at": [1.5, 0, 0], "direction": [0, 1, 0],
                          "value": {"type": "step", "to": 10, "rise": 0.02}}}},
     "simulation": {"end_time": 0.05, "step": 0.0002},
-    "responses": {"of_rod": {"type": "position", "body": "rod", "at": 1, "direction": "y",
-                             "over_time": "max"},
+    "responses": {"of_rod": {"type": "position", "body": "rod", "at": 1, "direction": "y", "over_time": "max"},
                   "of_block": {"type": "position", "body": "block", "at": 1, "direction": "y",
                                "over_time": "max"}}})");
   const Finding finding = only(findings_of(problem, check_variants));

@@ -113,12 +113,10 @@ TEST(ShearRange, OfAFrequencyCountsModesThatPassOthers) {
   const ProblemFile problem = problem_from(R"({"scene": {
       "materials": {"s": {"young": 210e9, "poisson": 0.3, "density": 7850}},
       "bodies": {"b": {"type": "beam", "from": [0, 0, 0], "to": [0.5, 0, 0], "material": "s",
-        "section": {"type": "rectangle", "width": 0.25, "height": 0.15}, "elements": 8,
-        "frame": "chord"}},
+        "section": {"type": "rectangle", "width": 0.25, "height": 0.15}, "elements": 8, "frame": "chord"}},
       "joints": {"a": {"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]},
                  "e": {"type": "fixed", "bodies": ["ground", "b"], "at": [0.5, 0, 0]}},
-      "loads": {"Q": {"type": "force", "body": "b", "at": [0.25, 0, 0], "direction": [0, 1, 0],
-                      "value": 1000}}},
+      "loads": {"Q": {"type": "force", "body": "b", "at": [0.25, 0, 0], "direction": [0, 1, 0], "value": 1000}}},
     "simulation": {"end_time": 2e-6, "step": 1e-6, "initial_state": "quasi-static"},
     "responses": {"f": {"type": "frequency"}}})");
   const Eigen::VectorXd x = start_design(problem);
@@ -199,8 +197,7 @@ TEST(ShearRange, ConcernsTheForcesOfWhatIsHeldMoreThanItNeeds) {
             "bodies": {"b": {"type": "beam", "from": [0, 0, 0], "to": [0.2, 0, 0], "material": "m",
               "section": {"type": "rectangle", "width": 0.05, "height": 0.1}, "elements": 4}},
             "joints": {"clamp": {"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]},
-                       "ram": {"type": "prismatic", "bodies": ["ground", "b"], "at": [0.2, 0, 0],
-                               "axis": [0, 1, 0],
+                       "ram": {"type": "prismatic", "bodies": ["ground", "b"], "at": [0.2, 0, 0], "axis": [0, 1, 0],
                                "drive": {"type": "polynomial", "coefficients": [0, 1e-5]}}}},
           "simulation": {"end_time": 1, "step": 0.25}, "responses": {"asked": )" +
         response + "}}");
@@ -262,8 +259,8 @@ TEST(ShearRange, SaysWhatHelps) {
 TEST(ShearRange, AgainstTheChordIsThatAgainstTheChord) {
   LoadedBeam beam{rectangle(0.039)};
   beam.load_at = 0.1;
-  beam.response = R"({"type": "deflection", "body": "beam", "at": 0.9, "against": "chord",
-                      "over_time": "min"})";
+  beam.response =
+      R"({"type": "deflection", "body": "beam", "at": 0.9, "against": "chord", "over_time": "min"})";
   // F = EI = 1: w(0.1) = ℓ³/3, slope ℓ²/2, and shear adds γ ℓ from 0.1 on.
   const double l = 0.1, bent = l * l * l / 3.0, slope = 0.5 * l * l;
   const double sheared =
@@ -308,8 +305,8 @@ TEST(ShearRange, IsNotAskedWithoutResponses) {
 TEST(ShearRange, IsNotLeftByWhatDoesNotBend) {
   LoadedBeam beam{rectangle(0.3)};
   beam.direction = "[-1, 0, 0]";
-  beam.response = R"({"type": "position", "body": "beam", "at": 1, "direction": "y",
-                      "over_time": "max-abs"})";
+  beam.response =
+      R"({"type": "position", "body": "beam", "at": 1, "direction": "y", "over_time": "max-abs"})";
   EXPECT_TRUE(ShearedBeam(beam).findings().empty());
 }
 
@@ -348,20 +345,16 @@ TEST(ShearRange, OfABlockIsToldOfWhatStandsBesideIt) {
   const auto problem = [](bool has_shear) {
     return read_scene(fmt::format(R"j({{"scene": {{"bodies": {{
         "block": {{"type": "beam", "from": [0, 0, 0], "to": [0.1, 0, 0], "material": "steel",
-                   "elements": 2, "shear": {},
-                   "section": {{"type": "rectangle", "width": 0.01, "height": 0.1}}}},
+                   "elements": 2, "shear": {}, "section": {{"type": "rectangle", "width": 0.01, "height": 0.1}}}},
         "beam": {{"type": "beam", "from": [0, 0.5, 0], "to": [0.5, 0.5, 0], "material": "steel",
                   "elements": 2, "section": {{"type": "rectangle", "width": 0.3, "height": 0.05}}}},
-        "bar": {{"type": "rigid", "at": [0.3, 0.25, 0], "mass": 0.001,
-                 "inertia": [1e-6, 1e-6, 1e-6, 0, 0, 0]}}}},
+        "bar": {{"type": "rigid", "at": [0.3, 0.25, 0], "mass": 0.001, "inertia": [1e-6, 1e-6, 1e-6, 0, 0, 0]}}}},
       "joints": {{
         "a": {{"type": "fixed", "bodies": ["ground", "block"], "at": [0, 0, 0]}},
         "b": {{"type": "fixed", "bodies": ["ground", "beam"], "at": [0, 0.5, 0]}},
-        "to_block": {{"type": "point-on-line", "bodies": ["bar", "block"], "at": [0.1, 0, 0],
-                      "axis": [1, 0, 0]}},
+        "to_block": {{"type": "point-on-line", "bodies": ["bar", "block"], "at": [0.1, 0, 0], "axis": [1, 0, 0]}},
         "to_beam": {{"type": "revolute", "bodies": ["bar", "beam"], "at": [0.5, 0.5, 0]}},
-        "guide": {{"type": "prismatic", "bodies": ["ground", "bar"], "at": [0.3, 0.25, 0],
-                   "axis": [0, 1, 0]}}}},
+        "guide": {{"type": "prismatic", "bodies": ["ground", "bar"], "at": [0.3, 0.25, 0], "axis": [0, 1, 0]}}}},
       "loads": {{"push": {{"type": "force", "body": "bar", "at": [0.3, 0.25, 0],
                            "direction": [0, -1, 0], "value": 1000}}}}}},
       "simulation": {{"end_time": 0.002, "step": 0.001, "initial_state": "quasi-static"}},
@@ -424,8 +417,7 @@ TEST(ShearRange, OfAPositionIsThatOfItsOwnMotion) {
       "responses": {
         "y": {"type": "position", "body": "block", "at": 1, "direction": "y", "over_time": "min"},
         "sag": {"type": "expression", "value": "0.5 m - y"},
-        "of_reed": {"type": "position", "body": "reed", "at": 1, "direction": "y",
-                    "over_time": "min"}}})"),
+        "of_reed": {"type": "position", "body": "reed", "at": 1, "direction": "y", "over_time": "min"}}})"),
                                                  check_variants);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_THAT(found[0].responses, ElementsAre("y", "sag"));
@@ -439,20 +431,17 @@ TEST(ShearRange, OfASmallDamageIsThatOfTheDamage) {
   const auto damage = [](const std::string& shear) {
     return read_scene(R"({"scene": {"gravity": [0, 0, 0],
         "materials": {"m": {"young": 2.1e11, "poisson": 0.3, "density": 7850,
-                            "ultimate_strength": 1e9, "fatigue_strength": 1e9,
-                            "fatigue_exponent": 5}},
+                            "ultimate_strength": 1e9, "fatigue_strength": 1e9, "fatigue_exponent": 5}},
         "bodies": {"block": {"type": "beam", "from": [0, 0, 0], "to": [0.1, 0, 0], "material": "m",
                    "elements": 2, "section": {"type": "rectangle", "width": 0.01, "height": 0.1}, )" +
                       shear + R"(}},
         "joints": {"a": {"type": "fixed", "bodies": ["ground", "block"], "at": [0, 0, 0]}},
-        "loads": {"push": {"type": "force", "body": "block", "at": [0.1, 0, 0],
-                           "direction": [0, -1, 0],
+        "loads": {"push": {"type": "force", "body": "block", "at": [0.1, 0, 0], "direction": [0, -1, 0],
                            "value": {"type": "harmonic", "amplitude": 10000, "frequency": 1}},
                   "spring": {"type": "spring", "bodies": ["block", "ground"],
                              "at": [[0.1, 0, 0], [0.1, -5, 0]], "stiffness": 5.25e8}}},
       "simulation": {"end_time": 1, "step": 0.05, "initial_state": "quasi-static"},
-      "responses": {"damage": {"type": "fatigue-damage", "body": "block",
-                                "criterion": "goodman"}}})");
+      "responses": {"damage": {"type": "fatigue-damage", "body": "block", "criterion": "goodman"}}})");
   };
   const ProblemFile problem = damage(R"("shear": false)");
   const double without = values_of(*analyze(problem, start_design(problem)))(0);

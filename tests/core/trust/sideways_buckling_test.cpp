@@ -159,10 +159,8 @@ TEST(SidewaysBuckling, OfAStraightStrutInThePlaneOfItsHingesIsTold) {
       put(R"("initial_state": "quasi-static")", R"("initial_state": "consistent")");
       put(R"("end_time": 0.002)", R"("end_time": 0.2)");
       put(R"("c": {"type": "fixed", "bodies": ["ground", "arm"], "at": [0, 0, 0]})",
-          R"("c": {"type": "revolute", "bodies": ["ground", "arm"], "at": [0, 0, 0],
-                   "axis": [0, 0, 1]},
-             "l": {"type": "point-on-line", "bodies": ["ground", "arm"], "at": [1.2, 0, 0],
-                   "axis": [1, 0, 0]})");
+          R"("c": {"type": "revolute", "bodies": ["ground", "arm"], "at": [0, 0, 0], "axis": [0, 0, 1]},
+             "l": {"type": "point-on-line", "bodies": ["ground", "arm"], "at": [1.2, 0, 0], "axis": [1, 0, 0]})");
       return buckling_findings_of(text);
     };
     EXPECT_TRUE(pressed(0.4).empty()) << effects;
@@ -295,8 +293,7 @@ ProblemFile cylinder(double barrel, const std::string& spatial_motion, double al
           "foot": {{"type": "revolute", "bodies": ["ground", "barrel"], "at": [0, 0, 0]}},
           "slide": {{"type": "prismatic", "bodies": ["barrel", "rod"], "at": [{1}, 0, 0],
                     "axis": [1, 0, 0], "drive": {{"type": "constant", "value": 0}}}},
-          "eye": {{"type": "point-on-line", "bodies": ["ground", "rod"], "at": [{3}, 0, 0],
-                  "axis": [1, 0, 0]}}}},
+          "eye": {{"type": "point-on-line", "bodies": ["ground", "rod"], "at": [{3}, 0, 0], "axis": [1, 0, 0]}}}},
         "loads": {{{7}"press": {{"type": "force", "body": "rod", "at": [{3}, 0, 0],
                              "direction": [-1, 0, 0], "value": {5}}}}}}},
       "effects": {{"spatial_motion": "{6}", "geometric_stiffening": "on"}},
@@ -356,8 +353,7 @@ TEST(PromisedBuckling, IsTrueOfAMemberByItself) {
         "section": {"type": "rectangle", "width": 0.01, "height": 0.01}}},
       "joints": {
         "foot": {"type": "revolute", "bodies": ["ground", "bar"], "at": [0, 0, 0]},
-        "eye": {"type": "point-on-line", "bodies": ["ground", "bar"], "at": [1, 0, 0],
-                "axis": [1, 0, 0]}},
+        "eye": {"type": "point-on-line", "bodies": ["ground", "bar"], "at": [1, 0, 0], "axis": [1, 0, 0]}},
       "loads": {"press": {"type": "force", "body": "bar", "at": [1, 0, 0],
                           "direction": [-1, 0, 0], "value": 1500}}},
     "simulation": {"end_time": 0.01, "step": 0.005, "initial_state": "quasi-static"},
@@ -371,10 +367,8 @@ TEST(PromisedBuckling, IsNotAskedWhereLoadsDecideWhatConstraintsThereAre) {
   const std::string sliding = R"j({"scene": {
       "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": [0.5, 0, 0], "elements": 4,
         "material": "steel", "section": {"type": "rectangle", "width": 0.02, "height": 0.03}}},
-      "joints": {"p": {"type": "planar", "bodies": ["ground", "bar"], "at": [0, 0, 0],
-                       "axis": [0, 0, 1]}},
-      "loads": {"turn": {"type": "torque", "body": "bar", "at": [0.5, 0, 0],
-                         "direction": [0, 0, 1],
+      "joints": {"p": {"type": "planar", "bodies": ["ground", "bar"], "at": [0, 0, 0], "axis": [0, 0, 1]}},
+      "loads": {"turn": {"type": "torque", "body": "bar", "at": [0.5, 0, 0], "direction": [0, 0, 1],
                          "value": {"type": "ramp", "to": 100, "end": 0.005}}}},
     "simulation": {"end_time": 0.005, "step": 0.0005},
     "responses": {"own": {"type": "buckling", "body": "bar", "over_time": "max"}}})j";

@@ -22,8 +22,7 @@ std::vector<Finding> findings_of_column(const std::string& bodies, const std::st
                             "material": "light", "damping": {{"stiffness": 1e-4}},
                             "section": {{"type": "rectangle", "width": 0.01, "height": 0.01}}}}{}}},
         "joints": {{{}}},
-        "loads": {{{}"press": {{"type": "force", "body": "{}", "at": [{}, 0, 0],
-                             "direction": [-1, 0, 0],
+        "loads": {{{}"press": {{"type": "force", "body": "{}", "at": [{}, 0, 0], "direction": [-1, 0, 0],
                              "value": {{"type": "ramp", "to": {}, "end": 0.05}}}}}}}},
       "effects": {{"spatial_motion": "{}", "geometric_stiffening": "on"}},
       "simulation": {{"end_time": {}, "step": 0.0025}},
@@ -115,10 +114,8 @@ TEST(Stability, BuckleBesideWhatTurns) {
 /// tan u = u (Timoshenko & Gere, §2.1), eight times that of a free tip, by which none is judged.
 TEST(Stability, BuckleBetweenSpringsThatHoldTheTip) {
   const std::string springs = R"(
-      "y": {"type": "spring", "bodies": ["ground", "bar"], "at": [[1, 10, 0], [1, 0, 0]],
-            "stiffness": 1e7},
-      "z": {"type": "spring", "bodies": ["ground", "bar"], "at": [[1, 0, 10], [1, 0, 0]],
-            "stiffness": 1e7}, )";
+      "y": {"type": "spring", "bodies": ["ground", "bar"], "at": [[1, 10, 0], [1, 0, 0]], "stiffness": 1e7},
+      "z": {"type": "spring", "bodies": ["ground", "bar"], "at": [[1, 0, 10], [1, 0, 0]], "stiffness": 1e7}, )";
   const double critical = 20.1907 * stiffness;
   expect_critical(critical, [&](double force) {
     return findings_of_column("", clamp, "bar", 1, force, springs);

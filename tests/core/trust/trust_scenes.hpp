@@ -122,8 +122,7 @@ struct LoadedBeam {
         R"({"a": {"type": "fixed", "bodies": ["ground", "beam"], "at": [0, 0, 0]}})";
     const std::string pins =
         R"({"a": {"type": "revolute", "bodies": ["ground", "beam"], "at": [0, 0, 0]},
-            "b": {"type": "point-on-line", "bodies": ["ground", "beam"], "at": [1, 0, 0],
-                  "axis": [1, 0, 0]}})";
+            "b": {"type": "point-on-line", "bodies": ["ground", "beam"], "at": [1, 0, 0], "axis": [1, 0, 0]}})";
     return problem_from(fmt::format(R"({{"name": "stubby", "scene": {{"gravity": [0, 0, 0],
           "materials": {{"steel": {{"young": 2.1e11, "poisson": 0.3, "density": 7850}}}},
           "bodies": {{"beam": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0],

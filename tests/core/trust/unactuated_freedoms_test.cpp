@@ -326,8 +326,7 @@ TEST(OpenPositions, AreToldOfAMassThatHangsFromACarriage) {
   const auto findings_of_mass = [](const char* joint) {
     return findings_of(read_scene(fmt::format(R"j({{"scene": {{"gravity": [0, -9.81, 0],
       "bodies": {{
-        "carriage": {{"type": "rigid", "at": [0, 0, 0], "mass": 1,
-                     "inertia": [0.01, 0.01, 0.01, 0, 0, 0]}},
+        "carriage": {{"type": "rigid", "at": [0, 0, 0], "mass": 1, "inertia": [0.01, 0.01, 0.01, 0, 0, 0]}},
         "mass": {{"type": "point-mass", "at": [0, -0.3, 0], "mass": 1}}}},
       "joints": {{
         "rail": {{"type": "prismatic", "bodies": ["ground", "carriage"], "at": [0, 0, 0],
