@@ -7,8 +7,8 @@
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/hard/hard_problems.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/differences.hpp"
-#include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"
 
 /// Designs that cannot be simulated beside those that are looked for, and designs at the bounds.
@@ -38,9 +38,7 @@ ProblemFile problem_of(const GradientCase& hard, const std::string& formulation)
 /// that are left when it is good enough are not taken.
 TEST_P(HardGradient, IsThatOfCentralDifferencesAtTheBestStep) {
   const auto& [formulation, hard] = GetParam();
-  const ProblemFile problem = problem_of(hard, formulation);
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [problem, x, analysis] = AtStart(problem_of(hard, formulation));
   const Eigen::VectorXd direct = direct_gradients(*analysis) * x;
   // Against a thousandth of the value where it hardly depends on the design.
   Eigen::VectorXd best = Eigen::VectorXd::Ones(direct.size());
@@ -68,9 +66,7 @@ TEST_P(HardGradient, IsThatOfCentralDifferencesAtTheBestStep) {
 /// thousandth of the value where it hardly depends on the design.
 TEST_P(HardGradient, IsThatOfTheAdjoint) {
   const auto& [formulation, hard] = GetParam();
-  const ProblemFile problem = problem_of(hard, formulation);
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [problem, x, analysis] = AtStart(problem_of(hard, formulation));
   const auto values = response_values(*analysis);
   const Eigen::VectorXd direct = sampled_gradients(*analysis, values, ExactMethod::direct) * x;
   const Eigen::VectorXd adjoint = sampled_gradients(*analysis, values, ExactMethod::adjoint) * x;
@@ -187,8 +183,7 @@ std::string problem_text(const Units& u, const std::string& formulation) {
 /// Values of all responses, and their derivatives with respect to the logarithm of the diameter, in
 /// SI.
 Eigen::MatrixXd digits_in(const Units& u, const std::string& formulation) {
-  const ProblemFile problem = problem_from(problem_text(u, formulation));
-  const auto analysis = analyze(problem, start_design(problem));
+  const auto [problem, x, analysis] = AtStart(problem_from(problem_text(u, formulation)));
   Eigen::VectorXd unit(6);
   unit << u.metre, u.metre, u.pascal(), u.newton() * u.metre, u.metre, u.newton();
   Eigen::MatrixXd digits(6, 2);

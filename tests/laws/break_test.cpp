@@ -6,8 +6,8 @@
 #include "sensitivity/gradients.hpp"
 #include "sensitivity/sampled_gradients.hpp"
 #include "tests/laws/law_problems.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/differences.hpp"
-#include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::break_test {
@@ -124,8 +124,8 @@ const std::string sudden = R"({"type": "table", "times": [-1, 0],
                                "values": [0, {"variable": "force"}], "interpolation": "step"})";
 
 TEST(QuasiStaticStart, IsInEquilibriumWithWhatActsBeforeIt) {
-  const ProblemFile problem = loaded_cantilever(sudden, {"/simulation/end_time=0.6"});
-  const auto analysis = analyze(problem, start_design(problem));
+  const auto [problem, x, analysis] =
+      AtStart(loaded_cantilever(sudden, {"/simulation/end_time=0.6"}));
   const Eigen::MatrixXd& deflection = analysis->histories[0];
   EXPECT_NEAR(deflection(0, 0), sag, 1e-5 * std::abs(sag));
   // The first vibration has 25 periods a second and loses 40 % in each.
@@ -139,9 +139,8 @@ TEST(QuasiStaticStart, IsInEquilibriumWithWhatActsBeforeIt) {
 }
 
 TEST(QuasiStaticStart, StaysWhereItIsUnderALoadThatActsAlready) {
-  const ProblemFile problem = loaded_cantilever(
-      R"({"type": "table", "times": [0, 1], "values": [{"variable": "force"}, {"variable": "force"}]})");
-  const auto analysis = analyze(problem, start_design(problem));
+  const auto [problem, x, analysis] = AtStart(loaded_cantilever(
+      R"({"type": "table", "times": [0, 1], "values": [{"variable": "force"}, {"variable": "force"}]})"));
   const double loaded = sag - 50.0 / (3 * stiffness);
   for (const char* name : {"sag", "end"}) {
     EXPECT_NEAR(values_of(*analysis)(response_index(problem, name)), loaded,
@@ -194,12 +193,10 @@ TEST(DriveTable, StaysBetweenItsValuesUnlessItIsASpline) {
 /// It began with 14 degrees a second.
 TEST(DriveTable, OfTheRobotArmStartsAtRest) {
   for (const char* interpolation : {"spline", "monotone"}) {
-    const ProblemFile problem = sample_problem(
+    const auto [problem, x, analysis] = AtStart(sample_problem(
         "robot_arm", {std::string("/scene/joints/turntable/drive/interpolation=") + interpolation,
-                      "/simulation/end_time=10 ms"});
-    const auto analysis = analyze(problem, start_design(problem));
-    State start;
-    analysis->trajectory.states->load(0, start);
+                      "/simulation/end_time=10 ms"}));
+    State start = state_of(analysis->trajectory, 0);
     EXPECT_LE(start.v.lpNorm<Eigen::Infinity>(), 1e-12) << interpolation;
   }
 }
@@ -229,8 +226,7 @@ ProblemFile cubic_motion(const std::vector<std::string>& changes = {}) {
 
 /// 6 c at all instants, the first and the last as well.
 TEST(Jerk, OfACubicMotionIsConstant) {
-  const ProblemFile problem = cubic_motion();
-  const auto analysis = analyze(problem, start_design(problem));
+  const auto [problem, x, analysis] = AtStart(cubic_motion());
   for (const Reduction& reduction : analysis->reductions) EXPECT_NEAR(reduction.value, 12.0, 1e-7);
   for (const ExactMethod method : {ExactMethod::direct, ExactMethod::adjoint}) {
     const Eigen::MatrixXd gradients =
@@ -245,9 +241,7 @@ TEST(Jerk, OfACubicMotionIsConstant) {
 TEST(Jerk, AtACornerOfADriveIsToldWhereItRings) {
   const std::string corner =
       R"(/scene/joints/rail/drive={"type": "expression", "value": "= c * 10 m/s^3 * max(0 s, t - 100 ms)^3"})";
-  const ProblemFile ringing = cubic_motion({corner});
-  const Eigen::VectorXd x = start_design(ringing);
-  const auto analysis = analyze(ringing, x);
+  const auto [ringing, x, analysis] = AtStart(cubic_motion({corner}));
   EXPECT_GT(analysis->reductions[0].value, 1.2 * 120.0);
   const Monitors monitors = monitor(analysis->model, analysis->trajectory);
   const std::vector<Finding> found = check_jerks_at_corners({ringing, x, *analysis, monitors});

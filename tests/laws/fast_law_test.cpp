@@ -5,17 +5,16 @@
 #include "core/trust/fast_laws.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/laws/law_problems.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/parameter_name.hpp"
-#include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::fast_law_test {
 namespace {
 
 std::vector<Finding> findings_about(const ProblemFile& problem) {
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [x, analysis] = started(problem);
   const Monitors monitors = monitor(analysis->model, analysis->trajectory);
   return check_fast_laws(TrustedRun{problem, x, *analysis, monitors});
 }
@@ -165,16 +164,13 @@ TEST(DampedStart, DoesNotRingWhateverTheMeshAndTheDampingOfTheScheme) {
 
 /// Without damping that is stiff in a step, the start is that of the equations.
 TEST(DampedStart, TakesTheAccelerationsOfTheEquationsWhereTheStepResolvesTheDamping) {
-  const ProblemFile problem =
+  const auto [problem, x, analysis] = AtStart(
       released_rod({"/scene/bodies/rod/elements=1", "/scene/bodies/rod/damping/stiffness=1e-4",
-                    "/effects/axial_elasticity=off"});
-  const auto analysis = analyze(problem, start_design(problem));
-  State start;
-  analysis->trajectory.states->load(0, start);
+                    "/effects/axial_elasticity=off"}));
+  State start = state_of(analysis->trajectory, 0);
   const DampedStart gentle(analysis->model.mechanism, start, generalized_alpha(8e-6, 0.5), 0.0);
   EXPECT_EQ(gentle.a(), start.a);
-  const ProblemFile stiff = released_rod({"/scene/bodies/rod/elements=32"});
-  const auto other = analyze(stiff, start_design(stiff));
+  const auto [stiff, x, other] = AtStart(released_rod({"/scene/bodies/rod/elements=32"}));
   other->trajectory.states->load(0, start);
   const DampedStart damped(other->model.mechanism, start, generalized_alpha(2e-3, 0.5), 0.0);
   EXPECT_LT(damped.a().lpNorm<Eigen::Infinity>(), 0.1 * start.a.lpNorm<Eigen::Infinity>());

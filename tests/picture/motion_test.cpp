@@ -12,6 +12,7 @@
 #include "picture/section_outline.hpp"
 #include "picture/thinned.hpp"
 #include "tests/picture/picture_problems.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/parameter_name.hpp"
 #include "tests/support/test.hpp"
 
@@ -55,8 +56,7 @@ TEST(Motion, OfARigidArmIsACircle) {
 class MotionOfBeams : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(MotionOfBeams, EqualsTheResponsesOfTheSamePlaces) {
-  const ProblemFile problem = turning_arm(GetParam());
-  const auto analysis = analyze(problem, start_design(problem));
+  const auto [problem, x, analysis] = AtStart(turning_arm(GetParam()));
   const Motion motion = sample_motion(problem.scene, *analysis, all_steps(*analysis));
   const BodyTrack& arm = motion.bodies.front();
   for (Eigen::Index i = 0; i < motion.time.size(); ++i) {
@@ -69,8 +69,7 @@ TEST_P(MotionOfBeams, EqualsTheResponsesOfTheSamePlaces) {
 
 /// No place sees more than the largest stress of the body, and the clamped end sees it.
 TEST_P(MotionOfBeams, HasTheLargestStressOfTheBody) {
-  const ProblemFile problem = turning_arm(GetParam());
-  const auto analysis = analyze(problem, start_design(problem));
+  const auto [problem, x, analysis] = AtStart(turning_arm(GetParam()));
   const Motion motion = sample_motion(problem.scene, *analysis, all_steps(*analysis));
   const double largest = analysis->histories[0].maxCoeff();
   EXPECT_NEAR(motion.bodies.front().stress.maxCoeff(), largest, 1e-9 * largest);
@@ -83,9 +82,8 @@ INSTANTIATE_TEST_SUITE_P(Beams, MotionOfBeams,
                          named_by_value());
 
 TEST(FramesOfMotion, AreCloseTogetherAndHaveThePeaks) {
-  const ProblemFile problem =
-      turning_arm(R"("frame": "tangent")", {"/scene/joints/hub/drive/speed=60"});
-  const auto analysis = analyze(problem, start_design(problem));
+  const auto [problem, x, analysis] =
+      AtStart(turning_arm(R"("frame": "tangent")", {"/scene/joints/hub/drive/speed=60"}));
   const std::vector<int> steps = frames_of_motion(*analysis, 1000);
   const Motion motion = sample_motion(problem.scene, *analysis, steps);
   EXPECT_EQ(steps.front(), 0);
@@ -103,8 +101,7 @@ TEST(FramesOfMotion, AreCloseTogetherAndHaveThePeaks) {
 }
 
 TEST(FramesOfMotion, AreNoMoreThanAskedForAndThePeaks) {
-  const ProblemFile problem = turning_arm(R"("frame": "tangent")");
-  const auto analysis = analyze(problem, start_design(problem));
+  const auto [problem, x, analysis] = AtStart(turning_arm(R"("frame": "tangent")"));
   const std::size_t peaks = 4 * 3;  // four responses, up to three samples each
   EXPECT_LE(frames_of_motion(*analysis, 20).size(), 20 + 1 + peaks);
 }
@@ -157,8 +154,8 @@ const Companion& find(const Companions& companions, const std::string& name) {
 /// A ball on a circle needs m ω² r; the arm at constant speed has ½ (m_arm (L²/3 + h²/12) + m r²)
 /// ω². The scheme is of second order: of relative size (ωh)² = 1e-6 here, times ten.
 TEST(Companions, AreForcesAndEnergiesOfTheMechanism) {
-  const ProblemFile problem = turning_arm(R"("rigid": true)", {"/simulation/step=5e-5"});
-  const auto analysis = analyze(problem, start_design(problem));
+  const auto [problem, x, analysis] =
+      AtStart(turning_arm(R"("rigid": true)", {"/simulation/step=5e-5"}));
   const Companions companions = find_companions(problem, *analysis);
   const double mass = 7850.0 * 0.4 * 0.01 * 0.02, speed = 20.0, tolerance = 1e-5;
   const double force = 0.3 * speed * speed * 0.4;
@@ -170,10 +167,9 @@ TEST(Companions, AreForcesAndEnergiesOfTheMechanism) {
 }
 
 TEST(Companions, DoNotRepeatWhatTheFileAsksFor) {
-  const ProblemFile problem = turning_arm(
+  const auto [problem, x, analysis] = AtStart(turning_arm(
       R"("frame": "tangent")",
-      {R"(/responses/hub_force={"type": "reaction-force", "joint": "hub", "direction": "magnitude", "over_time": "max"})"});
-  const auto analysis = analyze(problem, start_design(problem));
+      {R"(/responses/hub_force={"type": "reaction-force", "joint": "hub", "direction": "magnitude", "over_time": "max"})"}));
   for (const Companion& one : find_companions(problem, *analysis).all) {
     EXPECT_NE(one.settings.name, "force in the joint hub");
     EXPECT_EQ(one.value, std::abs(one.history(one.peak)));
@@ -291,8 +287,7 @@ double volume(const SweptSurface& surface) {
 }
 
 SweptSurface surface_of(const ProblemFile& problem, int step) {
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [x, analysis] = started(problem);
   const Motion motion = sample_motion(problem.scene, *analysis, {0, step});
   return swept_beam(std::get<BeamBody>(problem.scene.bodies.front().shape),
                     Design<double>(x.begin(), x.end()), motion.bodies.front(), 1);

@@ -9,7 +9,7 @@
 #include "optimization/design/design_solve.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/problems/loaded_crank.hpp"
-#include "tests/support/problem_runs.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/test.hpp"
 
 /// Responses of joints, springs, motors and sections in closed form.
@@ -290,8 +290,7 @@ TEST(ExpressionOfResponses, IsTheStrokeOfASliderCrank) {
 }
 
 TEST(ExpressionOfResponses, HasTheGradientOfTheStroke) {
-  const ProblemFile problem = problem_of(slider_crank());
-  const auto analysis = analyze(problem, start_design(problem));
+  const auto [problem, x, analysis] = AtStart(problem_of(slider_crank()));
   const Eigen::MatrixXd gradients = direct_gradients(*analysis);
   const Eigen::Index stroke = response_index(problem, "stroke");
   EXPECT_NEAR(gradients(stroke, 0), 2.0, 1e-5);
@@ -299,9 +298,7 @@ TEST(ExpressionOfResponses, HasTheGradientOfTheStroke) {
 }
 
 TEST(ExpressionOfResponses, HasOneGradientByAllMethods) {
-  const ProblemFile problem = problem_of(slider_crank());
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [problem, x, analysis] = AtStart(problem_of(slider_crank()));
   const Eigen::Index cost = response_index(problem, "cost");
   const auto by = [&](GradientMethod method) -> Eigen::RowVectorXd {
     return gradients(problem, x, *analysis, method).row(cost);
@@ -316,8 +313,7 @@ TEST(ExpressionOfResponses, HasOneGradientByAllMethods) {
 TEST(ExpressionOfResponses, FollowsTheChainRuleThroughOtherExpressions) {
   Json document = slider_crank();
   document["responses"]["twice"] = {{"type", "expression"}, {"value", "2*stroke*mass - rod*mass"}};
-  const ProblemFile problem = problem_of(document);
-  const auto analysis = analyze(problem, start_design(problem));
+  const auto [problem, x, analysis] = AtStart(problem_of(document));
   const Eigen::MatrixXd g = direct_gradients(*analysis);
   const auto row = [&](const char* name) -> Eigen::RowVectorXd {
     return g.row(response_index(problem, name));
@@ -334,9 +330,7 @@ TEST(ExpressionOfResponses, FollowsTheChainRuleThroughOtherExpressions) {
 TEST(ExpressionOfResponses, HasAnErrorBarFromItsParts) {
   Json document = slider_crank();
   document["responses"]["sum"] = {{"type", "expression"}, {"value", "3*effort + 2 N*right"}};
-  const ProblemFile problem = problem_of(document);
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [problem, x, analysis] = AtStart(problem_of(document));
   const Monitors monitors = monitor(analysis->model, analysis->trajectory);
   const Trust trust = judge_run({problem, x, *analysis, monitors});
   const auto bar = [&](const char* name) { return *trust.errors[response_index(problem, name)]; };

@@ -14,6 +14,7 @@
 #include "core/trust/refined_runs.hpp"
 #include "core/trust/resolution.hpp"
 #include "sensitivity/gradients.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/parameter_name.hpp"
 #include "tests/support/test.hpp"
 
@@ -221,8 +222,7 @@ TEST(RandomEffects, ThatAreLeftOutChangeNoResponseByMoreThanTheTolerance) {
     if (!scene.analysis) continue;
     ProblemFile complete = scene.problem;
     complete.effects = {};
-    const Eigen::VectorXd x = start_design(complete);
-    const auto everything = analyze(complete, x);
+    const auto [x, everything] = started(complete);
     for (const double tolerance : {0.1, 1e-2, 1e-3}) {
       ProblemFile lean = complete;
       lean.effects.tolerance = tolerance;

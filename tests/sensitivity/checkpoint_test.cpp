@@ -10,7 +10,7 @@
 #include "sensitivity/gradients.hpp"
 #include "sensitivity/history_gradients.hpp"
 #include "sensitivity/method_choice.hpp"
-#include "tests/support/problem_runs.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/sample_scenes.hpp"
 #include "tests/support/test.hpp"
 
@@ -106,8 +106,7 @@ ProblemFile controlled(const std::vector<std::string>& more = {}) {
 /// The number of steps is not known beforehand, and much larger than that of the regular ones:
 /// checkpoints are given up on the way.
 TEST(Checkpoints, RepeatStepsThatFollowTheLocalError) {
-  const ProblemFile problem = controlled();
-  const auto whole = analyze(problem, start_design(problem));
+  const auto [problem, x, whole] = AtStart(controlled());
   ASSERT_GT(whole->trajectory.rejected_steps, 0);
   ASSERT_GT(whole->trajectory.steps(), 300);
   // A third of what all states take.
@@ -160,8 +159,7 @@ TEST(Checkpoints, AreKnownToTheChoiceOfTheMethod) {
   std::vector<std::string> overrides = {"/simulation/end_time=20 ms", "/simulation/step=0.1 ms",
                                         "/scene/joints/bearing/drive/ramp=20 ms",
                                         R"(/sensitivity={"memory": "60 kB"})"};
-  const ProblemFile problem = sample_problem("slider_crank", overrides);
-  const auto analysis = analyze(problem, start_design(problem));
+  const auto [problem, x, analysis] = AtStart(sample_problem("slider_crank", overrides));
   const auto all = response_values(*analysis);
   const MethodChoice choice = choose_method(*analysis, {all[1]});
   EXPECT_THAT(choice.reason, HasSubstr("simulated again"));

@@ -4,7 +4,7 @@
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/gradients.hpp"
 #include "sensitivity/sampled_gradients.hpp"
-#include "tests/support/problem_runs.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::frequency_sensitivity_test {
@@ -38,9 +38,7 @@ ProblemFile square_cantilever(const std::string& joints = "", const std::string&
 /// for the first mode and 7 times that for the second: its derivative by that thickness is ω/h, and
 /// by the other one zero. The mean of both is what modes in the order of frequencies have.
 TEST(FrequencyDirection, HasTheGradientOfItsPlaneWherePlanesCoincide) {
-  const ProblemFile problem = square_cantilever();
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [problem, x, analysis] = AtStart(square_cantilever());
   const Eigen::VectorXd values = values_of(*analysis);
   const Eigen::MatrixXd gradients = direct_gradients(*analysis) * x.asDiagonal();
   for (int i = 0; i < 7; ++i) {
@@ -69,9 +67,7 @@ TEST(FrequencyDirection, MayBeAVector) {
 /// They are smooth there: central differences of designs on both sides have one limit. 1e-6: what
 /// differences of fourth order with steps of 1e-3 leave of frequencies that are exact to 1e-12.
 TEST(FrequencyDirection, IsSmoothWherePlanesCoincide) {
-  const ProblemFile problem = square_cantilever();
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [problem, x, analysis] = AtStart(square_cantilever());
   const Eigen::VectorXd values = values_of(*analysis);
   const Eigen::MatrixXd direct = direct_gradients(*analysis) * x.asDiagonal();
   const Eigen::MatrixXd wide = central_differences(problem, x, 2e-3) * x.asDiagonal();
@@ -85,12 +81,10 @@ TEST(FrequencyDirection, IsSmoothWherePlanesCoincide) {
 
 /// Of two masts without a joint between them, whose frequencies all coincide in fours.
 TEST(FrequencyDirection, IsFoundAmongFourModesThatCoincide) {
-  const ProblemFile problem = square_cantilever(
+  const auto [problem, x, analysis] = AtStart(square_cantilever(
       R"j(, "second_root": {"type": "fixed", "bodies": ["ground", "other"], "at": [1, 0, 0]})j",
       R"j(, "other": {"type": "beam", "from": [1, 0, 0], "to": [1.4330127018922193, 0.25, 0],
-    "material": "steel", "elements": 4, "section": {"type": "rectangle", "width": "= w", "height": "= h"}})j");
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+    "material": "steel", "elements": 4, "section": {"type": "rectangle", "width": "= w", "height": "= h"}})j"));
   const Eigen::VectorXd values = values_of(*analysis);
   const Eigen::MatrixXd gradients = direct_gradients(*analysis) * x.asDiagonal();
   const int across = 3, second_across = 4, in_plane = 5;
@@ -207,7 +201,7 @@ TEST(DampedMode, OfBecksColumnGrowsBeyondItsCriticalLoads) {
 /// three-hundredth, or a thousandth, of the bar.
 TEST(FrequencyBesideShortElements, HasTheDerivativesOfABar) {
   for (const double gap : {3.0, 1.0}) {
-    const ProblemFile problem = problem_from(fmt::format(R"j({{"scene": {{
+    const auto [problem, x, analysis] = AtStart(problem_from(fmt::format(R"j({{"scene": {{
           "bodies": {{"bar": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
             "elements": 6, "section": {{"type": "rectangle", "width": "40 mm", "height": {{"variable": "h"}}}}}}}},
           "joints": {{
@@ -221,8 +215,7 @@ TEST(FrequencyBesideShortElements, HasTheDerivativesOfABar) {
         "variables": {{"h": {{"start": "20 mm", "lower": "5 mm", "upper": "90 mm"}},
                        "a": {{"start": "{} mm", "lower": "500.5 mm", "upper": "900 mm"}}}},
         "responses": {{"f": {{"type": "frequency"}}}}}})j",
-                                                         500.0 + gap));
-    const auto analysis = analyze(problem, start_design(problem));
+                                                                         500.0 + gap)));
     const double f = values_of(*analysis)(0);
     const Eigen::MatrixXd slopes = direct_gradients(*analysis);
     const double turning = std::pow(std::numbers::pi * 0.02, 2) / 12;
@@ -352,8 +345,7 @@ TEST(DeflectionReferences, LeaveOutHowTheRigidMechanismMovesWithTheDesign) {
             "against": "rigid-mechanism", "direction": "y", "over_time": "final"})",
        R"(/responses/tip={"type": "position", "body": "crank", "at": 1, "direction": "y", "over_time": "final"})"});
   problem.simulation.newton_tolerance = 1e-12;
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [x, analysis] = started(problem);
   const Eigen::MatrixXd wide = central_differences(problem, x, 2e-4) * x.asDiagonal(),
                         narrow = central_differences(problem, x, 1e-4) * x.asDiagonal();
   const Eigen::MatrixXd best = (4.0 * narrow - wide) / 3.0;

@@ -12,10 +12,10 @@
 #include "core/response/analysis.hpp"
 #include "sensitivity/direct.hpp"
 #include "sensitivity/gradients.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/dense_algebra.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/model_state.hpp"
-#include "tests/support/problem_runs.hpp"
 #include "tests/support/sample_scenes.hpp"
 #include "tests/support/test.hpp"
 
@@ -413,11 +413,9 @@ TEST(SplitSteps, AreDifferentiatedAsTheyRan) {
 /// A mechanism in motion sets out with velocities that belong to the size of the first step. Where
 /// that fails, the halves have to set out from the initial values, not from where it did.
 TEST(SplitSteps, OfTheFirstStepSetOutFromTheInitialValues) {
-  const ProblemFile problem =
+  const auto [problem, x, split] = AtStart(
       sample_problem("hard/dead_centres", {"/simulation/step=16 ms", "/simulation/end_time=64 ms",
-                                           "/simulation/max_newton_iterations=4"});
-  const Eigen::VectorXd x = start_design(problem);
-  const auto split = analyze(problem, x);
+                                           "/simulation/max_newton_iterations=4"}));
   ASSERT_LT(split->trajectory.time(1), 0.01) << "the first step was to be split";
   ProblemFile patient = with_steps_of(split->trajectory, problem);
   patient.simulation.instants.assign(split->trajectory.time.begin(), split->trajectory.time.end());

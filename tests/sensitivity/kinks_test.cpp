@@ -6,7 +6,7 @@
 #include "core/response/analysis.hpp"
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/gradients.hpp"
-#include "tests/support/problem_runs.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/sample_scenes.hpp"
 #include "tests/support/test.hpp"
 
@@ -64,8 +64,7 @@ TEST(GradientDifference, IsWholeWhereOneOfThemVanishes) {
 
 TEST(Kinks, AreTheSameByTheWayOfGradients) {
   for (const ExactMethod method : {ExactMethod::direct, ExactMethod::adjoint}) {
-    const ProblemFile problem = block_with(0.2);
-    const auto analysis = analyze(problem, start_design(problem));
+    const auto [problem, x, analysis] = AtStart(block_with(0.2));
     const GradientsAndKinks both = gradients_and_kinks(*analysis, problem.variables, method);
     const Eigen::MatrixXd gradients =
         sampled_gradients(*analysis, response_values(*analysis), method);
@@ -161,9 +160,7 @@ class ReducedBodies : public testing::TestWithParam<int> {};
 /// models. The round bars have pairs of equal frequencies in space.
 TEST_P(ReducedBodies, HaveTheGradientsOfModelsThatAreReducedAnew) {
   const SampleScene sample = all_samples()[GetParam()];
-  const ProblemFile problem = problem_of(sample);
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [problem, x, analysis] = AtStart(problem_of(sample));
   const Eigen::MatrixXd direct = direct_gradients(*analysis) * x.asDiagonal();
   Eigen::MatrixXd best = Eigen::MatrixXd::Ones(direct.rows(), direct.cols());
   for (double step : {1e-3, 1e-4}) {

@@ -6,17 +6,15 @@
 #include "sensitivity/sampled_gradients.hpp"
 #include "studies/noise.hpp"
 #include "tests/studies/quick_problem.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/files.hpp"
-#include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::derivative_check_test {
 namespace {
 
 TEST(DerivativeCheck, AgreesForEveryResponseOfASampleProblem) {
-  const ProblemFile problem = test::quick_problem();
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [problem, x, analysis] = AtStart(test::quick_problem());
   const auto checks = check_derivatives(problem, x, *analysis);
   ASSERT_EQ(checks.responses.size(), problem.responses.size());
   ASSERT_EQ(checks.directions.size(), 1u);
@@ -30,9 +28,7 @@ TEST(DerivativeCheck, AgreesForEveryResponseOfASampleProblem) {
 }
 
 TEST(DerivativeCheck, FindsThatDirectAndAdjointAreTheSameUpToRoundOff) {
-  const ProblemFile problem = test::quick_problem();
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [problem, x, analysis] = AtStart(test::quick_problem());
   const auto checks = check_derivatives(problem, x, *analysis);
   for (std::size_t i = 0; i < checks.responses.size(); ++i) {
     EXPECT_LT(checks.responses[i].adjoint_error, 1e-10) << problem.responses[i].name;
@@ -91,12 +87,10 @@ TEST(DerivativeCheck, FindsDirectAndAdjointAsFarApartAsRoundOffMovesTheMotion) {
 /// An energy balance and a drift of constraints are what errors leave: differences of them say
 /// nothing of the gradient where Newton's method is loose, and must not say that it is wrong.
 TEST(DerivativeCheck, DoesNotBlameResponsesThatAreNoise) {
-  const ProblemFile problem = test::quick_problem(
+  const auto [problem, x, analysis] = AtStart(test::quick_problem(
       {"/simulation/newton_tolerance=1e-4", R"(/responses/balance={"type": "energy-balance"})",
        R"(/responses/drift={"type": "constraint-drift", "over_time": "max-abs"})",
-       R"(/responses/rate={"type": "constraint-drift", "level": "velocity", "over_time": "max-abs"})"});
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+       R"(/responses/rate={"type": "constraint-drift", "level": "velocity", "over_time": "max-abs"})"}));
   const auto checks = check_derivatives(problem, x, *analysis);
   for (std::size_t i = 0; i < checks.responses.size(); ++i) {
     const JudgedDerivative& worst = checks.responses[i].worst();
@@ -137,8 +131,7 @@ ProblemFile tight_problem() {
 TEST(DerivativeCheck, WouldFindTheDerivativesRightWithATightTolerance) {
   ProblemFile problem = tight_problem();
   problem.simulation.newton_tolerance = 1e-13;
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [x, analysis] = started(problem);
   const Eigen::VectorXd values = values_of(*analysis);
   const Eigen::MatrixXd direct =
       sampled_gradients(*analysis, response_values(*analysis), ExactMethod::direct);
@@ -150,9 +143,7 @@ TEST(DerivativeCheck, WouldFindTheDerivativesRightWithATightTolerance) {
 }
 
 TEST(DerivativeCheck, BlamesALooseNewtonToleranceAndNotTheDerivatives) {
-  const ProblemFile problem = loose_problem(), tight = tight_problem();
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [problem, x, analysis] = AtStart(loose_problem(), tight = tight_problem());
   const auto tight_analysis = analyze(tight, x);
   const auto checks = check_derivatives(problem, x, *analysis);
   const auto tight_checks = check_derivatives(tight, x, *tight_analysis);
@@ -252,9 +243,7 @@ TEST(DerivativeCheck, FindsTheOneVariableWhoseDerivativeIsWrongByHalves) {
 /// Every response that counts (a relative change along the direction moves it by a hundredth of
 /// that), with an error put into one of its derivatives, against the same differences and noise.
 TEST(DerivativeCheck, FindsErrorsPutIntoDerivativesOfASimulation) {
-  const ProblemFile problem = test::quick_problem();
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [problem, x, analysis] = AtStart(test::quick_problem());
   const Eigen::MatrixXd gradients =
       sampled_gradients(*analysis, response_values(*analysis), ExactMethod::direct);
   const auto checks = check_derivatives(problem, x, *analysis);

@@ -11,8 +11,8 @@
 #include "studies/noise.hpp"
 #include "studies/stability.hpp"
 #include "tests/studies/quick_problem.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/files.hpp"
-#include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::uncertainty_test {
@@ -411,9 +411,7 @@ TEST(Stability, RefusesABadFileBeforeAnyIsSimulated) {
 class MethodComparison : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    const ProblemFile problem = test::quick_problem();
-    const Eigen::VectorXd x = start_design(problem);
-    const auto analysis = analyze(problem, x);
+    const auto [problem, x, analysis] = AtStart(test::quick_problem());
     compared_ = compare_methods(problem, x, *analysis);
   }
 

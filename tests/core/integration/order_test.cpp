@@ -5,6 +5,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/integration/simulate.hpp"
 #include "core/model/model.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/model_state.hpp"
 #include "tests/support/sample_beams.hpp"
@@ -343,8 +344,7 @@ double energy_drift(double step) {
   options.spectral_radius = 0.95;
   options.newton_tolerance = 1e-11;
   const Trajectory trajectory = simulate(model.mechanism, options);
-  State state;
-  trajectory.states->load(0, state);
+  State state = state_of(trajectory, 0);
   const double start = energy_of(model, state);
   double drift = 0.0;
   for (int i = 0; i <= trajectory.steps(); ++i) {

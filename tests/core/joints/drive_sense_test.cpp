@@ -8,6 +8,7 @@
 #include "core/integration/simulate.hpp"
 #include "core/joints/joint_linearization.hpp"
 #include "core/joints/joint_residual.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/model_state.hpp"
 #include "tests/support/parameter_name.hpp"
@@ -112,8 +113,7 @@ double turn_of(const Scene& scene, EffectChoice spatial, double end_time) {
             spatial == EffectChoice::automatic);
   const Trajectory trajectory =
       simulate(model.mechanism, {{.end_time = end_time, .step = 1e-3, .spectral_radius = 0.8}});
-  State state;
-  trajectory.states->load(trajectory.steps(), state);
+  State state = last_state(trajectory);
   const FrameMotion<double> motion = frame_of(model.body("second"), state);
   return std::remainder(std::atan2(motion.A(1, 0), motion.A(0, 0)) - 1.9, 2 * std::acos(-1.0));
 }
@@ -160,8 +160,7 @@ TEST(Drive, OfBothFreedomsOfACylindricalJointMakesAScrew) {
   Model model = build_model(scene, {}, {}, {});
   const Trajectory trajectory =
       simulate(model.mechanism, {{.end_time = 0.1, .step = 1e-3, .spectral_radius = 0.8}});
-  State state;
-  trajectory.states->load(trajectory.steps(), state);
+  State state = last_state(trajectory);
   const FrameMotion<double> motion = frame_of(model.body("second"), state);
   const double angle = 1.9 - 20.0 * 0.01;
   EXPECT_NEAR(motion.A(0, 0), std::cos(angle), 1e-9);

@@ -9,7 +9,7 @@
 #include "core/trust/stability.hpp"
 #include "tests/core/start/quasi_static_beam.hpp"
 #include "tests/core/trust/trust_scenes.hpp"
-#include "tests/support/problem_runs.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::turning_stability_test {
@@ -297,8 +297,7 @@ TEST(TurningAxes, GiveARotatingBeamItsFrequenciesInAnyFrame) {
   for (const char* frame :
        {R"("frame": "tangent")", R"("frame": "chord")", R"("frame": "mean-axis")",
         R"("frame": "tangent-end")", R"("frames": 2)"}) {
-    const ProblemFile problem = blade(frame);
-    const auto analysis = analyze(problem, start_design(problem));
+    const auto [problem, x, analysis] = AtStart(blade(frame));
     const Eigen::VectorXd found = frequencies(*analysis);
     EXPECT_NEAR(found(0), std::sqrt(flap + 1.193 * square), 0.003 * found(0)) << frame;
     EXPECT_NEAR(found(1), std::sqrt(lag + 0.193 * square), 0.003 * found(1)) << frame;
@@ -306,8 +305,7 @@ TEST(TurningAxes, GiveARotatingBeamItsFrequenciesInAnyFrame) {
 }
 
 TEST(TurningAxes, LeaveTheFrequenciesOfAMechanismAtRest) {
-  const ProblemFile problem = blade(R"("frame": "chord")", 0.0);
-  const auto analysis = analyze(problem, start_design(problem));
+  const auto [problem, x, analysis] = AtStart(blade(R"("frame": "chord")", 0.0));
   const Eigen::VectorXd found = frequencies(*analysis);
   EXPECT_NEAR(found(0), analysis->mechanism_frequencies(0), 1e-9 * found(0));
   EXPECT_NEAR(found(5), analysis->mechanism_frequencies(5), 1e-9 * found(5));
@@ -315,8 +313,7 @@ TEST(TurningAxes, LeaveTheFrequenciesOfAMechanismAtRest) {
 
 TEST(Frequencies, AreDoubtedWhereTheAxesMatter) {
   const auto findings = [](const ProblemFile& problem) {
-    const Eigen::VectorXd x = start_design(problem);
-    const auto analysis = analyze(problem, x);
+    const auto [x, analysis] = started(problem);
     return check_frequencies({problem, x, *analysis, Monitors{}});
   };
   EXPECT_TRUE(findings(blade(R"("frame": "tangent")")).empty());
@@ -332,7 +329,7 @@ TEST(Frequencies, AreDoubtedWhereTheAxesMatter) {
 TEST(Frequencies, AreDoubtedWhereAFollowerForceMakesThemGrow) {
   const auto findings = [](double load) {
     const double stiffness = 2.1e11 * 0.013 * std::pow(0.01, 3) / 12;
-    const ProblemFile problem = problem_from(fmt::format(R"({{"scene": {{
+    const auto [problem, x, analysis] = AtStart(problem_from(fmt::format(R"({{"scene": {{
           "materials": {{"m": {{"young": 2.1e11, "poisson": 0.3, "density": 7850}}}},
           "bodies": {{"b": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "m",
             "section": {{"type": "rectangle", "width": 0.01, "height": 0.013}}, "elements": 8}}}},
@@ -341,9 +338,7 @@ TEST(Frequencies, AreDoubtedWhereAFollowerForceMakesThemGrow) {
             "direction": [-1, 0, 0], "value": {}}}}}}},
         "simulation": {{"end_time": 1e-3, "step": 1e-4, "initial_state": "quasi-static"}},
         "responses": {{"first": {{"type": "frequency"}}}}}})",
-                                                         load * stiffness));
-    const Eigen::VectorXd x = start_design(problem);
-    const auto analysis = analyze(problem, x);
+                                                                         load * stiffness)));
     return check_stability({problem, x, *analysis, Monitors{}});
   };
   EXPECT_TRUE(findings(20.0).empty());

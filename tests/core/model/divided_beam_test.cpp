@@ -4,9 +4,9 @@
 #include "core/response/monitors.hpp"
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/gradients.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/bent_cantilever.hpp"
 #include "tests/support/differences.hpp"
-#include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::divided_beam_test {
@@ -190,8 +190,7 @@ TEST(DividedBeam, HasExactGradients) {
       problem.effects.spatial_motion = EffectChoice::on;
       std::get<BeamBody>(problem.scene.bodies[1].shape).reduction = CraigBampton{2, {}};
     }
-    const Eigen::VectorXd x = start_design(problem);
-    const auto analysis = analyze(problem, x);
+    const auto [x, analysis] = started(problem);
     const auto gradients_by = [&](GradientMethod method) {
       return Eigen::MatrixXd(gradients(problem, x, *analysis, method) * x.asDiagonal());
     };

@@ -14,6 +14,7 @@
 #include "core/trust/initial_motion.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/core/trust/trust_scenes.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/sample_scenes.hpp"
@@ -64,8 +65,7 @@ ProblemFile released(ReferenceCondition frame, std::vector<InitialDeflection> de
 
 /// Of the first channel of a response.
 double value_at(const Analysis& analysis, int step, std::size_t response = 0) {
-  State state;
-  analysis.trajectory.states->load(step, state);
+  State state = state_of(analysis.trajectory, step);
   Signal& signal = *analysis.responses[response].history()->signal;
   Eigen::VectorXd values(signal.channels());
   signal.observe(state, values);
@@ -143,8 +143,7 @@ TEST(InitialDeflections, HaveGradients) {
     problem.variables.push_back({"bow", bow, 0.0, 1e-3, ""});
     problem.variables.push_back({"rate", rate, 0.0, 1.0, ""});
     for (double at : {1.0, 0.25}) problem.responses.push_back(deflection_at(at, OverTime::rms));
-    const Eigen::VectorXd x = start_design(problem);
-    const auto analysis = analyze(problem, x);
+    const auto [x, analysis] = started(problem);
     const Eigen::MatrixXd direct = gradients(problem, x, *analysis, GradientMethod::direct);
     const Eigen::MatrixXd adjoint = gradients(problem, x, *analysis, GradientMethod::adjoint);
     EXPECT_LE(relative_difference(adjoint * x.asDiagonal(), direct * x.asDiagonal()), 1e-9);
@@ -175,8 +174,7 @@ TEST(InitialDeflections, BetweenFixedPinsStretchTheWholeBeam) {
     energy.type = ResponseType::elastic_energy;
     problem.responses = {axial, energy};
     const auto analysis = analyze(problem, start_design(problem));
-    State start;
-    analysis->trajectory.states->load(0, start);
+    State start = state_of(analysis->trajectory, 0);
     Signal& stress = *analysis->responses[0].history()->signal;
     Eigen::VectorXd values(stress.channels());
     stress.observe(start, values);

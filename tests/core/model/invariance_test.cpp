@@ -3,9 +3,9 @@
 #include "core/model/state_in_space.hpp"
 #include "core/response/analysis.hpp"
 #include "core/response/full_mechanism.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/model_state.hpp"
-#include "tests/support/problem_runs.hpp"
 #include "tests/support/sample_scenes.hpp"
 #include "tests/support/test.hpp"
 
@@ -99,8 +99,7 @@ End end_of(const SampleScene& sample, const Scene& scene) {
   SimulationOptions options{0.03, 1e-3, 0.8};
   options.newton_tolerance = 1e-13;
   const Trajectory trajectory = simulate(model.mechanism, options);
-  State state;
-  trajectory.states->load(trajectory.steps(), state);
+  State state = last_state(trajectory);
   End end;
   for (const BodyModel& body : model.bodies) {
     for (double at : {0.0, 1.0}) end.points.push_back(position_of(body, state, at));
@@ -356,8 +355,7 @@ TEST(StateInSpace, HasTheAccelerationsOfTheMotionInThePlane) {
   const Design<double> design(x.begin(), x.end());
   const auto analysis = analyze(problem, x);
   const auto space = make_full_mechanism(problem, design, design);
-  State state;
-  analysis->trajectory.states->load(330, state);
+  State state = state_of(analysis->trajectory, 330);
   const std::optional<State> here = state_in_space(analysis->model, state, space->model);
   ASSERT_TRUE(here);
   EXPECT_GT(here->q.size(), state.q.size());
@@ -383,8 +381,7 @@ TEST(StateInSpace, IsNoneWhereThePlaneLeavesTheStretchOut) {
   const Design<double> design(x.begin(), x.end());
   const auto analysis = analyze(problem, x);
   const auto space = make_full_mechanism(problem, design, design);
-  State state;
-  analysis->trajectory.states->load(1, state);
+  State state = state_of(analysis->trajectory, 1);
   EXPECT_FALSE(state_in_space(analysis->model, state, space->model));
 }
 

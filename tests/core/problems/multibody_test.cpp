@@ -9,10 +9,10 @@
 #include "core/model/model.hpp"
 #include "core/response/analysis.hpp"
 #include "sensitivity/direct.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/flexible_slider_crank.hpp"
 #include "tests/support/model_state.hpp"
-#include "tests/support/problem_runs.hpp"
 #include "tests/support/sample_scenes.hpp"
 #include "tests/support/test.hpp"
 
@@ -293,8 +293,7 @@ TEST(FlexibleSliderCrank, WithFourModesIsThatOfTheTestSet) {
   using namespace simeon;
   FourModes rod;
   const Trajectory trajectory = simulate(rod.mechanism, options_of(0.1, 5e-7));
-  State state;
-  trajectory.states->load(trajectory.steps(), state);
+  State state = last_state(trajectory);
   Eigen::VectorXd found(9);
   found << state.q(FourModes::rod + 2), state.q(FourModes::slider),
       state.q.segment(FourModes::rod_modes, 4), state.v(FourModes::rod + 2),
@@ -319,8 +318,7 @@ TEST(FlexibleSliderCrank, WithElementsComesCloseToTheTestSet) {
   guess.v.segment(rod.elastic_offset(), z.rows()) = z * start_rates;
   guess.q(slider.frame.offset) += q4;
   const Trajectory trajectory = simulate(model.mechanism, options_of(0.1, 5e-6));
-  State state;
-  trajectory.states->load(trajectory.steps(), state);
+  State state = last_state(trajectory);
   Eigen::Vector2d sines = Eigen::Vector2d::Zero();  // (2/N) Σ vᵢ sin(kπ i/N)
   for (int node = 1; node < elements; ++node) {
     const Modes modes = modes_at(rod.beam.node_position(node));

@@ -8,9 +8,9 @@
 #include "core/response/monitors.hpp"
 #include "sensitivity/gradients.hpp"
 #include "sensitivity/sampled_gradients.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/model_state.hpp"
-#include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"
 
 /// Forces that are spread along a stretch, beside closed forms of beams.
@@ -94,8 +94,7 @@ void expect_same_histories(const ProblemFile& problem, const Analysis& expected,
 }
 
 void expect_space_as_plane(const Json& document) {
-  const ProblemFile planar = problem_of(document, "auto");
-  const auto plane = analyze(planar, start_design(planar));
+  const auto [planar, x, plane] = AtStart(problem_of(document, "auto"));
   const auto space = analyze(problem_of(document, "on"), start_design(planar));
   ASSERT_LT(plane->model.mechanism.system->coordinates(),
             space->model.mechanism.system->coordinates());
@@ -248,9 +247,8 @@ TEST(ElasticRotation, AboutASkewLocalAxisIsThatOfThePlane) {
   const Json skew = skew_arm(1);
   Json straight = skew;
   straight["scene"]["bodies"]["boom"].erase("reference");
-  const ProblemFile planar = problem_of(straight, "auto"), spatial = problem_of(skew, "on");
-  const auto expected = analyze(planar, start_design(planar));
-  const auto found = analyze(spatial, start_design(spatial));
+  const auto [planar, x, expected] = AtStart(problem_of(straight, "auto"));
+  const auto [spatial, start, found] = AtStart(problem_of(skew, "on"));
   EXPECT_GE(largest_rotation(*expected), 0.1);
   expect_same_histories(planar, *expected, *found);
 }
@@ -285,9 +283,7 @@ TEST(ElasticRotation, HasTheGradientsOfDifferencesAndOfBothMethods) {
                            {"stiffness", {{"start", 2000.0}, {"lower", 100.0}, {"upper", 1e4}}}};
   // Maxima over time have kinks.
   for (Json& response : document["responses"]) response["over_time"] = "final";
-  const ProblemFile problem = problem_of(document, "auto");
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [problem, x, analysis] = AtStart(problem_of(document, "auto"));
   EXPECT_GE(largest_rotation(*analysis), 0.1);
   const Eigen::MatrixXd direct = gradients(problem, x, *analysis, GradientMethod::direct);
   const Eigen::MatrixXd adjoint = gradients(problem, x, *analysis, GradientMethod::adjoint);
@@ -345,8 +341,7 @@ TEST(ElasticRotation, DoesNotDependOnHowTheSceneStands) {
   Json there = here;
   turn(there["scene"],
        Eigen::AngleAxisd(1.1, Eigen::Vector3d(0.48, -0.6, 0.64)).toRotationMatrix());
-  const ProblemFile problem = problem_of(here, "auto");
-  const auto expected = analyze(problem, start_design(problem));
+  const auto [problem, x, expected] = AtStart(problem_of(here, "auto"));
   EXPECT_GE(largest_rotation(*expected), 0.1);
   const auto found = analyze(problem_of(there, "auto"), start_design(problem));
   expect_same_histories(problem, *expected, *found);
@@ -359,8 +354,7 @@ TEST(ElasticRotation, KeepsTheBalanceOfEnergy) {
     Json document = inclined_wrist();
     document["simulation"]["step"] = step;
     document["simulation"]["spectral_radius"] = 1.0;
-    const ProblemFile problem = problem_of(document, "auto");
-    const auto analysis = analyze(problem, start_design(problem));
+    const auto [problem, x, analysis] = AtStart(problem_of(document, "auto"));
     return monitor(analysis->model, analysis->trajectory).energy_error;
   };
   const double coarse = error_with(2e-4), fine = error_with(1e-4);
@@ -457,9 +451,7 @@ TEST(SpreadForce, HasExactGradients) {
   for (const std::vector<std::string>& overrides : {std::vector<std::string>{},
                                                     {"/scene/bodies/b/shear=true"},
                                                     {shares, "/scene/bodies/b/frames=2"}}) {
-    const ProblemFile problem = problem_of(overrides);
-    const Eigen::VectorXd x = start_design(problem);
-    const auto analysis = analyze(problem, x);
+    const auto [problem, x, analysis] = AtStart(problem_of(overrides));
     const auto values = response_values(*analysis);
     for (const ExactMethod method : {ExactMethod::direct, ExactMethod::adjoint}) {
       const Eigen::MatrixXd gradients = sampled_gradients(*analysis, values, method);

@@ -7,7 +7,7 @@
 #include "core/base/error.hpp"
 #include "core/response/fatigue_damage.hpp"
 #include "sensitivity/gradients.hpp"
-#include "tests/support/problem_runs.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::fatigue_test {
@@ -169,9 +169,7 @@ TEST(Fatigue, OfAPressedBarIsThatOfItsAmplitude) {
 
 /// ∂(F₁/(A S_e) + F₀/(A S_u)), with respect to the width, S_u and S_e.
 TEST(Fatigue, HasTheGradientOfItsClosedForm) {
-  const ProblemFile problem = pulled_bar("goodman", constant_force);
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [problem, x, analysis] = AtStart(pulled_bar("goodman", constant_force));
   const double area = width * height;
   const double a = force_amplitude / area / endurance, m = constant_force / area / ultimate;
   const Eigen::Vector3d expected(-(a + m) / width, -m / ultimate, -a / endurance);
@@ -386,8 +384,7 @@ double bar_damage(double width) {
 }
 
 void expect_damage(const ProblemFile& problem, double cycles) {
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [x, analysis] = started(problem);
   // Eight times the 1e-5 of vibrations in the stress.
   EXPECT_NEAR(analysis->reductions[0].value / (cycles * bar_damage(0.02)), 1.0, 1e-4);
   const double slope = cycles * (bar_damage(0.02 + 1e-7) - bar_damage(0.02 - 1e-7)) / 2e-7;

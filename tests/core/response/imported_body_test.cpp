@@ -11,9 +11,9 @@
 #include "sensitivity/constant_gradients.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/core/response/exchange.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/parameter_name.hpp"
-#include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::imported_body_test {
@@ -419,9 +419,7 @@ TEST_F(Exchange, HasGradientsByItsNumbersThatAddUpToThoseByVariables) {
   document["simulation"]["end_time"] = 2e-3;
   document["scene"]["bodies"]["rod"]["elements"] = 2;
   document["responses"].erase("crank_stress");
-  const ProblemFile problem = read("imported.json", exchanged(document));
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [problem, x, analysis] = AtStart(read("imported.json", exchanged(document)));
   const Eigen::MatrixXd expected = gradients(problem, x, *analysis, GradientMethod::adjoint);
   const ConstantGradients found = constant_gradients(problem, x, "rod");
   const auto& rod = std::get<ImportedBody>(problem.scene.bodies[1].shape);

@@ -5,8 +5,8 @@
 #include "core/trust/sideways_buckling.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/core/trust/trust_scenes.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/parameter_name.hpp"
-#include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"
 
 /// A thin bar of 1.2 m, 2 mm × 40 mm, on edge: it bends in the plane x–y.
@@ -316,9 +316,7 @@ class GradientsOfLateralBuckling
 };
 
 TEST_P(GradientsOfLateralBuckling, OfBothMethodsAndOfDifferencesAgree) {
-  const ProblemFile problem = swinging();
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [problem, x, analysis] = AtStart(swinging());
   for (const Reduction& reduction : analysis->reductions) EXPECT_GT(reduction.value, 0.01);
   const Eigen::MatrixXd direct =
       gradients(problem, x, *analysis, GradientMethod::direct) * x.asDiagonal();
@@ -353,9 +351,7 @@ TEST(GradientsOfFittings, OfBothMethodsAndOfDifferencesAgree) {
                     "direction": [-1, 1, 0], "value": 3})"};
   mast.bodies = rigid("top", "[1.5, 0, 0]");
   for (const Bar& bar : {strut, mast}) {
-    const ProblemFile problem = problem_of(bar);
-    const Eigen::VectorXd x = start_design(problem);
-    const auto analysis = analyze(problem, x);
+    const auto [problem, x, analysis] = AtStart(problem_of(bar));
     EXPECT_GT(analysis->reductions[0].value, 0.1);
     const auto scaled = [&](const Eigen::MatrixXd& slopes) {
       return Eigen::MatrixXd(slopes * x.asDiagonal());

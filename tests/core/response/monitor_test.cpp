@@ -7,10 +7,10 @@
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/core/response/response_samples.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/dense.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/model_state.hpp"
-#include "tests/support/problem_runs.hpp"
 #include "tests/support/sample_scenes.hpp"
 #include "tests/support/test.hpp"
 
@@ -338,15 +338,14 @@ double value_of(const Analysis& analysis, const std::string& name) {
 
 /// stiff_rod turns a crank of 0.001 kg m² at 60 rad/s and moves a slider of 0.2 kg.
 TEST(KineticEnergyResponse, IsThatOfTurningAndOfTranslation) {
-  const ProblemFile problem = sample_problem(
+  const auto [problem, x, analysis] = AtStart(sample_problem(
       "hard/stiff_rod",
       {response_of("crank", R"({"type": "kinetic-energy", "body": "crank", "over_time": "final"})"),
        response_of("slider",
                    R"({"type": "kinetic-energy", "body": "slider", "over_time": "final"})"),
        response_of(
            "speed",
-           R"({"type": "velocity", "body": "slider", "direction": "x", "over_time": "final"})")});
-  const auto analysis = analyze(problem, start_design(problem));
+           R"({"type": "velocity", "body": "slider", "direction": "x", "over_time": "final"})")}));
   EXPECT_NEAR(value_of(*analysis, "crank"), 0.5 * 0.001 * 60 * 60, 1e-8);  // a drive of index 3
   const double speed = value_of(*analysis, "speed");
   EXPECT_NEAR(value_of(*analysis, "slider"), 0.5 * 0.2 * speed * speed, 1e-14);
@@ -474,9 +473,7 @@ TEST_P(DriftGradient, IsThatOfCentralDifferences) {
         level, fmt::format(R"({{"type": "constraint-drift", "level": "{}", "over_time": "{}"}})",
                            level, GetParam())));
   }
-  const ProblemFile problem = sample_problem("hard/dead_centres", overrides);
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [problem, x, analysis] = AtStart(sample_problem("hard/dead_centres", overrides));
   const Eigen::VectorXd direct = direct_gradients(*analysis).col(0);
   Eigen::Vector2d best = Eigen::Vector2d::Ones();
   for (const double step : {4e-2, 2e-2, 1e-2}) {
@@ -499,11 +496,9 @@ INSTANTIATE_TEST_SUITE_P(OverTime, DriftGradient,
                          });
 
 TEST(DriftGradientOfIndex3, VanishesWithTheDrift) {
-  const ProblemFile problem = sample_problem(
+  const auto [problem, x, analysis] = AtStart(sample_problem(
       "hard/dead_centres",
-      {response_of("drift", R"({"type": "constraint-drift", "over_time": "max-abs"})")});
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+      {response_of("drift", R"({"type": "constraint-drift", "over_time": "max-abs"})")}));
   const Eigen::Index drift = response_index(problem, "drift");
   EXPECT_LE(value_of(*analysis, "drift"), 1e-11);  // measured 1.7e-12 [m]
   EXPECT_LE(std::abs(direct_gradients(*analysis)(drift, 0)) * x(0), 1e-11);

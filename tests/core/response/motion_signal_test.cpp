@@ -16,8 +16,8 @@
 #include "core/response/reduction.hpp"
 #include "core/response/validity.hpp"
 #include "core/response/whole_turns.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/model_state.hpp"
-#include "tests/support/problem_runs.hpp"
 #include "tests/support/sample_scenes.hpp"
 #include "tests/support/test.hpp"
 
@@ -170,8 +170,7 @@ TEST(NotFinite, IsAFailedSimulationThatNamesTheFirstResponseAndItsTime) {
 }
 
 TEST(NotFinite, IsAFailureOfTheMonitorsToo) {
-  const ProblemFile problem = short_crank("7850");
-  const auto analysis = analyze(problem, start_design(problem));
+  const auto [problem, x, analysis] = AtStart(short_crank("7850"));
   analysis->trajectory.columns().v()(0, 7) = 1e200;
   EXPECT_THAT(failure_of([&] { monitor(analysis->model, analysis->trajectory); }),
               HasSubstr("energy of the mechanism is not finite at t = 0.000175 s"));
@@ -179,12 +178,10 @@ TEST(NotFinite, IsAFailureOfTheMonitorsToo) {
 
 /// The shortest beam of the slider-crank is 120 mm long: 0.12 mm are allowed.
 TEST(PulledApartJoint, FailsBeyondAThousandthOfTheShortestBeam) {
-  const ProblemFile problem = short_crank("7850");
-  const auto analysis = analyze(problem, start_design(problem));
+  const auto [problem, x, analysis] = AtStart(short_crank("7850"));
   SimulationOptions options{1e-3, 2.5e-5};
   ConstraintGuard guard(analysis->model, options);
-  State state;
-  analysis->trajectory.states->load(0, state);
+  State state = state_of(analysis->trajectory, 0);
   const int crank = analysis->model.body("crank").frame.offset;
   EXPECT_EQ(failure_of([&] { guard.see(0, state); }), "");
   state.q(crank) += 0.11e-3;
@@ -196,10 +193,8 @@ TEST(PulledApartJoint, FailsBeyondAThousandthOfTheShortestBeam) {
 
 /// Index 1 promises accelerations only; Newton's method with a loose tolerance promises little.
 TEST(PulledApartJoint, IsJudgedByWhatTheFormulationPromises) {
-  const ProblemFile problem = short_crank("7850");
-  const auto analysis = analyze(problem, start_design(problem));
-  State state;
-  analysis->trajectory.states->load(0, state);
+  const auto [problem, x, analysis] = AtStart(short_crank("7850"));
+  State state = state_of(analysis->trajectory, 0);
   state.q(analysis->model.body("crank").frame.offset) += 0.2e-3;
   SimulationOptions options{1e-3, 2.5e-5};
   options.newton_tolerance = 1e-4;

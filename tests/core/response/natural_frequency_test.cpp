@@ -9,8 +9,8 @@
 #include "sensitivity/gradients.hpp"
 #include "tests/core/response/response_samples.hpp"
 #include "tests/core/trust/trust_scenes.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/differences.hpp"
-#include "tests/support/problem_runs.hpp"
 #include "tests/support/sample_scenes.hpp"
 #include "tests/support/test.hpp"
 
@@ -258,8 +258,7 @@ TEST(FrequencyUnderALoad, IsThatOfThePressedColumnThoughItStartsUndeformed) {
   const double free = std::pow(std::numbers::pi / column_length, 2) *
                       std::sqrt(bending / (7850 * column_width * column_height));
   for (const double share : {0.5, 0.95, 1.5}) {
-    const ProblemFile problem = column(share * euler);
-    const auto analysis = analyze(problem, start_design(problem));
+    const auto [problem, x, analysis] = AtStart(column(share * euler));
     const double expected = std::copysign(std::sqrt(std::abs(1 - share)), 1 - share) * free;
     EXPECT_NEAR(values_of(*analysis)(0), expected, 2e-3 * std::abs(expected)) << share;
     const double slope = -free * free / (2 * std::abs(expected) * euler);
@@ -416,8 +415,7 @@ TEST(FrequencyOfAMechanism, OfARoundSectionComesTwiceWithOneGradient) {
   std::string text = cantilever(R"({"type": "circle", "diameter": {"variable": "d"}})",
                                 R"({"rotary_inertia": "off"})", 4);
   text.insert(1, R"("variables": {"d": {"start": 0.02, "lower": 0.01, "upper": 0.03}},)");
-  const ProblemFile problem = problem_from(text);
-  const auto analysis = analyze(problem, start_design(problem));
+  const auto [problem, x, analysis] = AtStart(problem_from(text));
   const Eigen::VectorXd found = values_of(*analysis);
   const Eigen::MatrixXd gradient = direct_gradients(*analysis);
   EXPECT_NEAR(found(0) / found(2), 1.0, 1e-7);
@@ -435,8 +433,7 @@ TEST(FrequencyOfAPlanarMechanism, HasTheGradientOfTheModeOutOfThePlane) {
       R"({"rotary_inertia": "off"})", 1);
   text.insert(1, R"("variables": {"b": {"start": 0.01, "lower": 0.005, "upper": 0.03},
                                   "h": {"start": 0.03, "lower": 0.005, "upper": 0.05}},)");
-  const ProblemFile problem = problem_from(text);
-  const auto analysis = analyze(problem, start_design(problem));
+  const auto [problem, x, analysis] = AtStart(problem_from(text));
   const Eigen::MatrixXd gradient = direct_gradients(*analysis);
   for (Eigen::Index i = 0; i < 2; ++i) {
     const double value = values_of(*analysis)(i);
@@ -467,8 +464,7 @@ TEST(FrequencyOfAMechanism, HasTheGradientOfDifferences) {
       overrides.push_back(responses + "}");
       ProblemFile problem = sample_problem("four_bar", overrides);
       problem.simulation.newton_tolerance = 1e-13;
-      const Eigen::VectorXd x = start_design(problem);
-      const auto analysis = analyze(problem, x);
+      const auto [x, analysis] = started(problem);
       const Eigen::VectorXd found = values_of(*analysis);
       ASSERT_EQ(found.size(), 6);
       for (Eigen::Index i = 1; i < 6; ++i) EXPECT_GT(found(i), 1.001 * found(i - 1));

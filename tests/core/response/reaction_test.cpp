@@ -6,10 +6,10 @@
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/core/response/response_samples.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/dense.hpp"
 #include "tests/support/dense_algebra.hpp"
 #include "tests/support/parameter_name.hpp"
-#include "tests/support/problem_runs.hpp"
 #include "tests/support/sample_scenes.hpp"
 #include "tests/support/test.hpp"
 
@@ -253,8 +253,7 @@ TEST(LeastNorm, SharesATorqueBetweenTwoDrives) {
 /// λ₀, at any λ₀ along the way of redundant mechanisms in space.
 TEST(LeastNorm, IsThePseudoinverseOfAllConstraints) {
   for (const char* name : {"hard/bricard", "hard/redundant_slider_crank"}) {
-    const ProblemFile problem = sample_problem(name, {"/simulation/end_time=0.3"});
-    const auto analysis = analyze(problem, start_design(problem));
+    const auto [problem, x, analysis] = AtStart(sample_problem(name, {"/simulation/end_time=0.3"}));
     Mechanism& mechanism = analysis->model.mechanism;
     System& system = *mechanism.system;
     const int n = system.coordinates(), m = system.multipliers();
@@ -316,8 +315,7 @@ class GradientOfLeastNorm : public testing::TestWithParam<Formulation> {};
 TEST_P(GradientOfLeastNorm, IsThatOfDifferencesAndOfTheAdjoint) {
   ProblemFile problem = falling_door();
   problem.simulation.formulation = GetParam();
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [x, analysis] = started(problem);
   ASSERT_EQ(analysis->model.mechanism.system->left_out().size(), 5u);
   const auto values = response_values(*analysis);
   const auto scaled = [&](const Eigen::MatrixXd& gradient) -> Eigen::MatrixXd {

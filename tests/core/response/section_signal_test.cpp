@@ -10,9 +10,9 @@
 #include "core/section/rectangle_section.hpp"
 #include "core/trust/round_off.hpp"
 #include "tests/core/response/response_samples.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/dense.hpp"
 #include "tests/support/dense_algebra.hpp"
-#include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"
 
 /// Section forces on both sides of a load.
@@ -340,9 +340,7 @@ TEST(SectionForces, ThatVanishAreRoundOff) {
   }
   responses += R"(, "f": {"type": "stress", "body": "bar", "at": 1, "over_time": "max"},
                     "g": {"type": "stress", "body": "bar", "at": 0.5, "over_time": "max"})";
-  const ProblemFile problem = supported_beam(responses, 1, 0.1);
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [problem, x, analysis] = AtStart(supported_beam(responses, 1, 0.1));
   const Monitors monitors = monitor(analysis->model, analysis->trajectory);
   EXPECT_EQ(find_round_off(TrustedRun{problem, x, *analysis, monitors}),
             (std::vector<bool>{false, true, true, true, false, false, true, false}));

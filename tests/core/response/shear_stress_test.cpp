@@ -3,8 +3,8 @@
 #include "core/response/analysis.hpp"
 #include "core/response/buckling_signal.hpp"
 #include "sensitivity/gradients.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/parameter_name.hpp"
-#include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::shear_stress_test {
@@ -129,10 +129,8 @@ TEST(ShearStress, AddsThatOfTorsion) {
 /// Central differences of simulated designs, 1e-4 of a variable: errors of 1e-7.
 TEST(ShearStress, HasTheGradientOfDifferences) {
   for (const std::string& section : {rectangle, circle, tube, ellipse, box, i_beam}) {
-    const ProblemFile problem =
-        cantilever(section, {.y = force, .z = 0.4 * force, .torque = torque});
-    const Eigen::VectorXd x = start_design(problem);
-    const auto analysis = analyze(problem, x);
+    const auto [problem, x, analysis] =
+        AtStart(cantilever(section, {.y = force, .z = 0.4 * force, .torque = torque}));
     const Eigen::VectorXd found = gradients(problem, x, *analysis, GradientMethod::direct).row(0);
     for (Eigen::Index i = 0; i < x.size(); ++i) {
       const auto at = [&](double factor) {
@@ -222,9 +220,8 @@ TEST_P(Meshes, GiveTheStressBesideAnAxialForce) {
 
 /// ∂(0.24 F L/W): the node at the load moves with the length.
 TEST_P(Meshes, GiveTheGradient) {
-  const ProblemFile problem = supported_beam(
-      GetParam(), 0.0, R"("type": "force", "direction": [0, -1, 0], "value": "100 N")");
-  const auto analysis = analyze(problem, start_design(problem));
+  const auto [problem, x, analysis] = AtStart(supported_beam(
+      GetParam(), 0.0, R"("type": "force", "direction": [0, -1, 0], "value": "100 N")"));
   const Eigen::MatrixXd gradient = direct_gradients(*analysis);
   const double stress = 100.0 * a * b / length / modulus;
   EXPECT_NEAR(gradient(0, 0), stress / length, 1e-6 * stress / length);

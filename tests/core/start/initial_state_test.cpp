@@ -11,8 +11,8 @@
 #include "sensitivity/gradients.hpp"
 #include "sensitivity/initial_sensitivity.hpp"
 #include "tests/core/start/quasi_static_beam.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/differences.hpp"
-#include "tests/support/problem_runs.hpp"
 #include "tests/support/sample_scenes.hpp"
 #include "tests/support/test.hpp"
 
@@ -174,8 +174,7 @@ TEST(QuasiStaticStart, KeepsACantileverAtRestUnderItsWeight) {
 
 /// qL⁴/8EI falls with the square of the height.
 TEST(QuasiStaticStart, HasTheGradientOfTheSag) {
-  const ProblemFile problem = cantilever(true);
-  const auto analysis = analyze(problem, start_design(problem));
+  const auto [problem, x, analysis] = AtStart(cantilever(true));
   const Eigen::MatrixXd gradient = direct_gradients(*analysis);
   const double expected = -2 * analysis->reductions[0].value / height;
   EXPECT_NEAR(gradient(0, 0), expected, 1e-6 * std::abs(expected));
@@ -419,8 +418,7 @@ TEST(QuasiStaticStart, OfClampedMembersCoupledAtTheirTipsIsFound) {
       "responses": {{"x": {{"type": "mass"}}, "y": {{"type": "position", "body": "one", "at": 1,
                                                 "direction": "y", "over_time": "max-abs"}}}}}})",
         type, std::string(type) == "revolute" ? "0, 0, 1" : "1, 0, 0");
-    const ProblemFile problem = problem_from(text);
-    const auto analysis = analyze(problem, start_design(problem));
+    const auto [problem, x, analysis] = AtStart(problem_from(text));
     const double inertia = 0.02 * std::pow(0.03, 3) / 12;
     EXPECT_NEAR(analysis->reductions[1].value * 6 * young * inertia / 10.0, 1.0, 1e-4) << type;
   }

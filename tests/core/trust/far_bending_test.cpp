@@ -3,8 +3,8 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/trust/tension_layers.hpp"
 #include "tests/core/trust/trust_scenes.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/bent_cantilever.hpp"
-#include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::far_bending_test {
@@ -205,8 +205,7 @@ TEST(TautMembers, AreDoubtedWhereElementsAreLongerThanBendingReaches) {
   const double pi = std::numbers::pi, inertia = pi * 1e-12 / 4, area = pi * 1e-6;
   const double k = std::sqrt(1000.0 / (2.1e11 * inertia));
   const double stress = 1000.0 / area + 20.0 * std::tanh(k) / k * 1e-3 / inertia;
-  const ProblemFile coarse = wire(1000.0, 20.0, 4);
-  const auto analysis = analyze(coarse, start_design(coarse));
+  const auto [coarse, x, analysis] = AtStart(wire(1000.0, 20.0, 4));
   EXPECT_LT(analysis->reductions[0].value, 0.6 * stress);
   const Finding finding = only(findings_of(coarse, check_tension_layers));
   EXPECT_TRUE(finding.is_serious);

@@ -5,6 +5,7 @@
 #include "core/trust/laws_over_coordinates.hpp"
 #include "core/trust/not_modelled.hpp"
 #include "tests/core/trust/trust_scenes.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/parameter_name.hpp"
 #include "tests/support/test.hpp"
 
@@ -96,8 +97,7 @@ class SlightlyTiltedHinges : public TiltedHinges {};
 /// The door falls like a pendulum, from rest at the horizontal: the force of both hinges together
 /// is below 1.5 m g + m g (vertical), each carries at most all of it.
 TEST_P(NearlyAlignedHinges, Swing) {
-  const ProblemFile problem = read_scene(text_);
-  const auto analysis = analyze(problem, start_design(problem));
+  const auto [problem, x, analysis] = AtStart(read_scene(text_));
   EXPECT_THAT(analysis->model.mechanism.system->left_out(), SizeIs(5));
   EXPECT_LE(analysis->reductions[0].value, 3.0 * 10 * 9.81);
   EXPECT_THAT(findings_of(problem, check_misaligned_joints), IsEmpty());

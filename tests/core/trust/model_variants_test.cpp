@@ -4,6 +4,7 @@
 #include "core/trust/neglected_effects.hpp"
 #include "core/trust/resolution.hpp"
 #include "tests/core/trust/trust_scenes.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::model_variants_test {
@@ -153,8 +154,8 @@ TEST(BucklingOfWhatIsLeftOut, IsThatOfTheCompleteMechanism) {
   const double critical = std::pow(std::numbers::pi / 2, 2) * 2.1e11 * 1e-8 / 12;
   for (const char* spatial_motion : {"auto", "on"}) {
     for (double share : {0.6, 1.02}) {
-      const ProblemFile lean = pressed_column(share * critical, spatial_motion, 1e-2);
-      const auto analysis = analyze(lean, start_design(lean));
+      const auto [lean, x, analysis] =
+          AtStart(pressed_column(share * critical, spatial_motion, 1e-2));
       EXPECT_FALSE(analysis->model.bodies[0].is_elastic);
       const std::vector<std::string> told =
           buckling_of(check_run(lean, start_design(lean), *analysis));
@@ -169,9 +170,7 @@ TEST(BucklingOfWhatIsLeftOut, IsThatOfTheCompleteMechanism) {
 
 /// Of the largest energy, one percent may be missing.
 TEST(EnergyBalance, IsDoubtedAboveOnePercent) {
-  const ProblemFile problem = read_scene(crank_rocker(driven, closed));
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [problem, x, analysis] = AtStart(read_scene(crank_rocker(driven, closed)));
   Monitors monitors = monitor(analysis->model, analysis->trajectory);
   monitors.energy_error = 0.0098;
   EXPECT_THAT(check_energy_balance(TrustedRun{problem, x, *analysis, monitors}), IsEmpty());
@@ -196,7 +195,7 @@ TEST(EnergyBalance, IsNotDoubtedWhereNothingMoves) {
 /// An error of a small vibration is not hidden by where a scene stands.
 TEST(EnergyBalance, IsAskedOfSmallMotionsFarFromTheOrigin) {
   const auto error_at = [](double height) {
-    const ProblemFile problem = read_scene(fmt::format(
+    const auto [problem, x, analysis] = AtStart(read_scene(fmt::format(
         R"({{"scene": {{"gravity": [0, -9.81, 0],
               "bodies": {{"block": {{"type": "rigid", "at": [0, {0}, 0], "mass": 1,
                                     "inertia": [1, 1, 1, 0, 0, 0], "velocity": [1e-3, 0, 0]}}}},
@@ -205,8 +204,7 @@ TEST(EnergyBalance, IsAskedOfSmallMotionsFarFromTheOrigin) {
               "loads": {{"spring": {{"type": "joint", "joint": "guide", "stiffness": 1e4}}}}}},
             "simulation": {{"end_time": 0.2, "step": 0.01, "spectral_radius": 0.5}},
             "responses": {{"mass": {{"type": "mass"}}}}}})",
-        height));
-    const auto analysis = analyze(problem, start_design(problem));
+        height)));
     return monitor(analysis->model, analysis->trajectory).energy_error;
   };
   const double near = error_at(0.0);

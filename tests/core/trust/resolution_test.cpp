@@ -10,7 +10,7 @@
 #include "core/trust/refined_runs.hpp"
 #include "core/trust/round_off.hpp"
 #include "tests/core/trust/trust_scenes.hpp"
-#include "tests/support/problem_runs.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::resolution_test {
@@ -182,9 +182,8 @@ TEST(Resolution, KnowsTheOrderOfTheScheme) {
 /// The motion that repeats itself is found again beside one of other steps: the same one as from the
 /// start, and nothing is differentiated for it.
 TEST(Refinement, FindsPeriodicMotionsBesideTheOneThatIsKnown) {
-  const ProblemFile problem = sample_problem("running_press", {"/simulation/step== turn/250"});
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [problem, x, analysis] =
+      AtStart(sample_problem("running_press", {"/simulation/step== turn/250"}));
   const ProblemFile coarse = refined(problem, {2.0, 1.0});
   const auto alone = analyze(coarse, x), beside = analyze(coarse, x, &analysis->trajectory);
   EXPECT_GT(alone->trajectory.periodic->differentiations, 0);
@@ -292,11 +291,9 @@ TEST(Resolution, IsNotAskedOfATorqueThatHoldsNothing) {
 /// beam as a slow one, at any such step. The energy tells.
 TEST(EnergyBalance, IsSeriousWhereSuddenLoadsLookSlow) {
   const auto findings = [](const std::string& end, const std::string& step) {
-    const ProblemFile problem =
+    const auto [problem, x, analysis] = AtStart(
         problem_from(cantilever, {sudden, "/simulation/spectral_radius=0",
-                                  "/simulation/end_time=" + end, "/simulation/step=" + step});
-    const Eigen::VectorXd x = start_design(problem);
-    const auto analysis = analyze(problem, x);
+                                  "/simulation/end_time=" + end, "/simulation/step=" + step}));
     return check_energy_balance(
         {problem, x, *analysis, monitor(analysis->model, analysis->trajectory)});
   };

@@ -1,7 +1,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/section/section_properties.hpp"
 #include "tests/core/trust/trust_scenes.hpp"
-#include "tests/support/problem_runs.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::shear_range_test {
@@ -110,7 +110,7 @@ TEST(ShearRange, OfAFrequencyIsThatOfItsMode) {
 /// A square of 150 mm and 250 mm, clamped at both ends: without shear its torsion is the lowest mode,
 /// with it bending has passed that. Told is what becomes of the lowest frequency.
 TEST(ShearRange, OfAFrequencyCountsModesThatPassOthers) {
-  const ProblemFile problem = problem_from(R"({"scene": {
+  const auto [problem, x, analysis] = AtStart(problem_from(R"({"scene": {
       "materials": {"s": {"young": 210e9, "poisson": 0.3, "density": 7850}},
       "bodies": {"b": {"type": "beam", "from": [0, 0, 0], "to": [0.5, 0, 0], "material": "s",
         "section": {"type": "rectangle", "width": 0.25, "height": 0.15}, "elements": 8, "frame": "chord"}},
@@ -118,9 +118,7 @@ TEST(ShearRange, OfAFrequencyCountsModesThatPassOthers) {
                  "e": {"type": "fixed", "bodies": ["ground", "b"], "at": [0.5, 0, 0]}},
       "loads": {"Q": {"type": "force", "body": "b", "at": [0.25, 0, 0], "direction": [0, 1, 0], "value": 1000}}},
     "simulation": {"end_time": 2e-6, "step": 1e-6, "initial_state": "quasi-static"},
-    "responses": {"f": {"type": "frequency"}}})");
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+    "responses": {"f": {"type": "frequency"}}})"));
   ProblemFile sheared = problem;
   std::get<BeamBody>(sheared.scene.bodies[0].shape).has_shear = true;
   const double with_shear = values_of(*analyze(sheared, x))(0);
@@ -175,11 +173,9 @@ TEST(ShearRange, OfBucklingIsThatOfThePlaneThatBucklesFirst) {
 /// A slider-crank of stubby members in space: its three revolute joints hold the loop three times
 /// against motion across, where nothing pulls. Its torque is that of its inertia.
 TEST(ShearRange, DoesNotConcernTheForcesOfAPlanarLoopInSpace) {
-  const ProblemFile problem = sample_problem(
+  const auto [problem, x, analysis] = AtStart(sample_problem(
       "slider_crank", {"/effects/spatial_motion=on", "/simulation/step=0.2 ms",
-                       "/simulation/end_time=60 ms", "/simulation/resolution_check=false"});
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+                       "/simulation/end_time=60 ms", "/simulation/resolution_check=false"}));
   const std::vector<Finding> found = check_variants({problem, x, *analysis, Monitors{}});
   ASSERT_FALSE(found.empty());
   for (const Finding& finding : found) {
@@ -192,7 +188,7 @@ TEST(ShearRange, DoesNotConcernTheForcesOfAPlanarLoopInSpace) {
 /// 12EI/L³ / (1 + 12EI/(κGAL²)) a metre: forces and stresses are as wrong as its stiffness.
 TEST(ShearRange, ConcernsTheForcesOfWhatIsHeldMoreThanItNeeds) {
   const auto findings = [](const std::string& response) {
-    const ProblemFile problem = problem_from(
+    const auto [problem, x, analysis] = AtStart(problem_from(
         R"({"scene": {"materials": {"m": {"young": 2.1e11, "poisson": 0.3, "density": 7850}},
             "bodies": {"b": {"type": "beam", "from": [0, 0, 0], "to": [0.2, 0, 0], "material": "m",
               "section": {"type": "rectangle", "width": 0.05, "height": 0.1}, "elements": 4}},
@@ -200,9 +196,7 @@ TEST(ShearRange, ConcernsTheForcesOfWhatIsHeldMoreThanItNeeds) {
                        "ram": {"type": "prismatic", "bodies": ["ground", "b"], "at": [0.2, 0, 0], "axis": [0, 1, 0],
                                "drive": {"type": "polynomial", "coefficients": [0, 1e-5]}}}},
           "simulation": {"end_time": 1, "step": 0.25}, "responses": {"asked": )" +
-        response + "}}");
-    const Eigen::VectorXd x = start_design(problem);
-    const auto analysis = analyze(problem, x);
+        response + "}}"));
     return check_variants({problem, x, *analysis, Monitors{}});
   };
   const double phi = 12 * 2.6 * 0.25 / 12 / rectangle_shear_coefficient(nu);
