@@ -15,10 +15,11 @@ namespace {
 using Invariants = InProgramFolder;
 
 TEST_F(Invariants, OfOneBodyAreOneFile) {
-  const ProgramRun run = folder_.run(
-      {"invariants", problem("slider_crank"), "--body", "rod", "-o", "rod.json", "--json"});
-  ASSERT_EQ(run.exit_code, 0) << run.err;
-  const nlohmann::json written = run.document().at("bodies");
+  const nlohmann::json written =
+      exits(0, folder_.run({"invariants", problem("slider_crank"), "--body", "rod", "-o",
+                            "rod.json", "--json"}))
+          .document()
+          .at("bodies");
   ASSERT_EQ(written.size(), 1U);
   EXPECT_EQ(written[0].at("file"), "rod.json");
   EXPECT_EQ(written[0].at("variables"), nlohmann::json({"rod_width", "rod_height"}));
@@ -32,8 +33,7 @@ TEST_F(Invariants, OfOneBodyAreOneFile) {
 }
 
 TEST_F(Invariants, OfAllElasticBodiesAreARunFolder) {
-  const ProgramRun run = folder_.run({"invariants", problem("slider_crank")});
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = exits(0, folder_.run({"invariants", problem("slider_crank")}));
   for (const char* name :
        {"bodies/crank.json", "bodies/rod.json", "run_card.json", "result.json"}) {
     EXPECT_TRUE(std::filesystem::exists(folder_.path() / "runs" / "slider_crank-invariants" / name))
@@ -69,8 +69,7 @@ TEST_F(Invariants, TakeThePlaceOfTheBeam) {
   std::ofstream(folder_.path() / "linear.json") << document;
   EXPECT_THAT(run({"check", "linear.json"}).out, HasSubstr("rod_bow"));
   const ProgramRun moved =
-      folder_.run_quick({"gradient", "imported.json", "--method", "central-difference"});
-  EXPECT_EQ(moved.exit_code, 2);
+      exits(2, folder_.run_quick({"gradient", "imported.json", "--method", "central-difference"}));
   EXPECT_THAT(moved.err, HasSubstr("imported.json: /scene/bodies/rod/file is known at the design"));
 }
 
@@ -89,8 +88,7 @@ TEST_F(Invariants, HoldPointsAtTheirPlaces) {
   scene["bodies"]["slider"]["at"] = scene["joints"]["slider_pin"]["at"] = reach;
   scene["joints"]["guide"]["at"] = reach;
   std::ofstream(folder_.path() / "moved.json") << document;
-  const ProgramRun run = folder_.run({"check", "moved.json"});
-  EXPECT_EQ(run.exit_code, 2);
+  const ProgramRun run = exits(2, folder_.run({"check", "moved.json"}));
   EXPECT_THAT(run.err,
               HasSubstr("/scene/joints/slider_pin/at must be at a place of the body \"rod\""));
   EXPECT_THAT(run.err, HasSubstr("with the variable \"reach\" at its lower bound"));
@@ -122,10 +120,9 @@ TEST_F(Invariants, ThatGetThickerMoveInAPlane) {
   document["variables"].erase("rod_height");
   std::ofstream(folder_.path() / "crank.json") << document;
   const auto values = [&](const std::string& motion) {
-    const ProgramRun run =
-        folder_.run_quick({"simulate", "crank.json", "--json", "--no-report", "--no-checks",
-                           "--overwrite", "--set", "/effects/spatial_motion=" + motion});
-    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const ProgramRun run = exits(
+        0, folder_.run_quick({"simulate", "crank.json", "--json", "--no-report", "--no-checks",
+                              "--overwrite", "--set", "/effects/spatial_motion=" + motion}));
     return run.document();
   };
   const auto plane = values("auto"), space = values("on");
@@ -156,8 +153,7 @@ TEST_F(Invariants, HaveGradientsOfTheirOwn) {
     return folder_.run_quick(
         {"gradient", "crank.json", "--json", "--no-checks", "--by-invariants", body});
   };
-  const ProgramRun found = run("rod");
-  ASSERT_EQ(found.exit_code, 0) << found.err;
+  const ProgramRun found = exits(0, run("rod"));
   const nlohmann::json bow = found.document().at("by_invariants").at("responses").at("rod_bow");
   EXPECT_EQ(bow.at("unit"), "m");
   const auto body = read_json(made);
@@ -178,9 +174,7 @@ TEST_F(Invariants, HaveGradientsOfTheirOwn) {
 
 TEST_F(Invariants, RefuseWhatHasNone) {
   const auto complaint = [&](const std::vector<std::string>& words) {
-    const ProgramRun run = folder_.run(joined({"invariants", problem("slider_crank")}, words));
-    EXPECT_EQ(run.exit_code, 2);
-    return run.err;
+    return exits(2, folder_.run(joined({"invariants", problem("slider_crank")}, words))).err;
   };
   EXPECT_THAT(complaint({"--body", "slider"}), HasSubstr("\"slider\" is rigid"));
   EXPECT_THAT(complaint({"--body", "rood"}), HasSubstr("there is no body \"rood\""));
@@ -235,9 +229,7 @@ class GeneratedBody : public ComparedRuns {
 
 TEST_F(GeneratedBody, IsMadeWithPermissionOnly) {
   line("check");
-  const ProgramRun refused = run_line(folder_.path(), "check rod.json");
-  EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_THAT(unwrapped(refused.err),
+  EXPECT_THAT(unwrapped(exits(2, run_line(folder_.path(), "check rod.json")).err),
               AllOf(HasSubstr("rod.json: /scene/bodies/rod/generator"), HasSubstr("planar_rod.py"),
                     HasSubstr("--allow-programs")));
   EXPECT_FALSE(fs::exists(folder_.path() / "calls"));
@@ -285,9 +277,7 @@ TEST_F(GeneratedBody, FailuresAreToldWithDesignAndReason) {
   document_["scene"]["bodies"]["rod"]["generator"]["time_limit"] = "0.2 s";
   for (const auto& [command, expected] : failures) {
     set_command(command);
-    const ProgramRun failed = run("simulate", "--no-report");
-    EXPECT_EQ(failed.exit_code, 2);
-    EXPECT_THAT(unwrapped(failed.err),
+    EXPECT_THAT(unwrapped(exits(2, run("simulate", "--no-report")).err),
                 AllOf(HasSubstr("rod.json: /scene/bodies/rod/generator"),
                       HasSubstr("rod_height = 0.03 m"), HasSubstr(expected)));
   }
@@ -298,9 +288,7 @@ TEST_F(GeneratedBody, FailsAtADesignAsASimulation) {
   set_command(planar_rod + " - --elements $((5 - $(wc -l <calls)))");
   std::ofstream(folder_.path() / "design.json")
       << R"({"crank_width": 0.02, "crank_height": 0.03, "rod_height": 0.02})";
-  const ProgramRun failed = run("simulate", "--no-report --design design.json");
-  EXPECT_EQ(failed.exit_code, 3) << failed.err;
-  EXPECT_THAT(unwrapped(failed.err),
+  EXPECT_THAT(unwrapped(exits(3, run("simulate", "--no-report --design design.json")).err),
               AllOf(HasSubstr("rod_height = 0.02 m"),
                     HasSubstr("9 coordinates where it had 12 at the start")));
 }
@@ -323,8 +311,7 @@ class GeneratedOptimum : public GeneratedBody {
 
 /// With Pleuel's own beam, the same body to round-off, that is there for every design.
 TEST_F(GeneratedOptimum, IsThatOfABodyThatIsAlwaysThere) {
-  const ProgramRun made = run("optimize", "--json --no-report");
-  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const ProgramRun made = exits(0, run("optimize", "--json --no-report"));
   EXPECT_LE(calls(), 8);
   document_["scene"]["bodies"]["rod"] = {
       {"type", "beam"},
@@ -337,8 +324,7 @@ TEST_F(GeneratedOptimum, IsThatOfABodyThatIsAlwaysThere) {
       {"frame", "chord"},
       {"damping", {{"stiffness", "1e-5 s"}}}};
   document_["responses"]["rod_bow"]["at"] = 0.5;
-  const ProgramRun beam = run("optimize", "--json --no-report --overwrite");
-  ASSERT_EQ(beam.exit_code, 0) << beam.err;
+  const ProgramRun beam = exits(0, run("optimize", "--json --no-report --overwrite"));
   const double expected = beam.document().at("objective").at("value");
   EXPECT_NEAR(made.document().at("objective").at("value"), expected, 1e-4 * expected);
 }
@@ -361,9 +347,7 @@ TEST_F(GeneratedOptimum, WhereNoBodyCanBeMadeIsNotVerified) {
       "x=$(cat); h=$(echo \"$x\" | sed 's/.*rod_height\":\\([0-9.e-]*\\).*/\\1/'); "
       "awk \"BEGIN{exit !($h < 0.02)}\" && { echo too thin >&2; exit 1; }; echo \"$x\" | " +
       planar_rod + " - --elements 4");
-  const ProgramRun failed = run("optimize", "--no-report");
-  EXPECT_EQ(failed.exit_code, 4);
-  EXPECT_THAT(unwrapped(failed.out),
+  EXPECT_THAT(unwrapped(exits(4, run("optimize", "--no-report")).out),
               AllOf(HasSubstr("too thin: the next step is shorter"),
                     HasSubstr("the last design that bodies were made for is judged")));
 }
@@ -375,13 +359,14 @@ TEST(SolidRod, IsVerifiedAfterFewCallsOfTheFiniteElementProgram) {
   const ProgramFolder folder;
   ::setenv("PLEUEL", PLEUEL_PROGRAM, 1);  // that the generator reduces with
   const std::string file = source_folder() + "/problems/conrod/block.json";
-  const ProgramRun run = folder.run_line(
-      "optimize '" + file +
-      "' --allow-programs --no-report --json"
-      R"( --set '/variables={"height": {"start": "30 mm", "lower": "6 mm", "upper": "60 mm"}}')"
-      R"( --set '/scene/bodies/rod/generator/variables={"height": "m"}')"
-      R"( --set '/constraints={"stiffness": {"response": "rod_bow", "upper": "0.2 mm"}}')");
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = exits(
+      0,
+      folder.run_line(
+          "optimize '" + file +
+          "' --allow-programs --no-report --json"
+          R"( --set '/variables={"height": {"start": "30 mm", "lower": "6 mm", "upper": "60 mm"}}')"
+          R"( --set '/scene/bodies/rod/generator/variables={"height": "m"}')"
+          R"( --set '/constraints={"stiffness": {"response": "rod_bow", "upper": "0.2 mm"}}')"));
   EXPECT_EQ(run.document().at("status"), "verified");
   const fs::directory_iterator bodies(folder.path() / "runs" / "bodies");
   EXPECT_LE(std::distance(begin(bodies), end(bodies)), 12);

@@ -13,8 +13,8 @@ namespace {
 using Check = InProgramFolder;
 
 TEST_F(Check, FindsTheDerivativesOfEveryResponseRight) {
-  const ProgramRun run = folder_.run_quick({"check", problem("slider_crank_round"), "--json"});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run =
+      exits(0, folder_.run_quick({"check", problem("slider_crank_round"), "--json"}));
   const nlohmann::json document = run.document();
   ASSERT_EQ(document.at("responses").size(), 8u);  // those of the file
   for (const auto& [name, response] : document.at("responses").items()) {
@@ -41,10 +41,9 @@ TEST_F(Check, WarnsOfNoiseAboveTheTolerance) {
 }
 
 TEST_F(Check, NamesTheToleranceWhereDerivativesOnlySeemWrong) {
-  const ProgramRun run =
-      folder_.run({"check", problem("four_bar"), "--set", "/simulation/step=1 ms", "--set",
-                   "/simulation/end_time=30 ms", "--set", "/simulation/newton_tolerance=1e-3"});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = exits(
+      0, folder_.run({"check", problem("four_bar"), "--set", "/simulation/step=1 ms", "--set",
+                      "/simulation/end_time=30 ms", "--set", "/simulation/newton_tolerance=1e-3"}));
   EXPECT_THAT(run.out, Not(HasSubstr("DIFFERS")));
   EXPECT_THAT(run.out, HasSubstr("/simulation/newton_tolerance is 0.001"));
 }
@@ -97,17 +96,17 @@ TEST_F(Check, WarnsOfAnUnstableScheme) {
                                           "--set", "/simulation/end_time=10 ms",
                                           "--set", "/simulation/spectral_radius=1"};
   EXPECT_THAT(folder_.run(check).err, HasSubstr("unstable"));
-  const ProgramRun stabilized =
-      folder_.run(joined(check, {"--set", "/simulation/formulation=stabilized-index-2"}));
-  EXPECT_EQ(stabilized.exit_code, 0) << stabilized.err;
-  EXPECT_THAT(stabilized.err, Not(HasSubstr("unstable")));
+  EXPECT_THAT(
+      exits(0, folder_.run(joined(check, {"--set", "/simulation/formulation=stabilized-index-2"})))
+          .err,
+      Not(HasSubstr("unstable")));
 }
 
 TEST_F(Check, NeedsNoVariables) {
-  const ProgramRun run =
-      folder_.run({"check", problem("slider_crank_exudyn"), "--set", "/simulation/end_time=10 ms"});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("a valid problem"));
+  EXPECT_THAT(exits(0, folder_.run({"check", problem("slider_crank_exudyn"), "--set",
+                                    "/simulation/end_time=10 ms"}))
+                  .out,
+              HasSubstr("a valid problem"));
 }
 
 // Every command that shows numbers shows what speaks against them.
@@ -158,9 +157,8 @@ TEST_F(Warnings, OfALimitWithoutItsUnitComeBeforeTheSearch) {
 /// A sentence that is true of many runs is said once, with all of them behind it.
 TEST_F(Warnings, ThatManyRunsShareNameAllOfThem) {
   const ProgramRun run =
-      folder_.run({"stability", problem("hard/dead_centres"), "-o", "run", "--set",
-                   "/scene/gravity=[0, -981, 0]", "--set", "/simulation/end_time=4 ms"});
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+      exits(0, folder_.run({"stability", problem("hard/dead_centres"), "-o", "run", "--set",
+                            "/scene/gravity=[0, -981, 0]", "--set", "/simulation/end_time=4 ms"}));
   const auto document = folder_.result("run");
   std::string all;
   for (const auto& formulation : document.at("formulations")) {
@@ -207,9 +205,8 @@ TEST_F(Warnings, AreLookedForAsCloselyAsIsAskedFor) {
     EXPECT_EQ(response.at("value"), all.at("responses").at(name).at("value")) << name;
     EXPECT_FALSE(none.at("responses").at(name).contains("error")) << name;
   }
-  const ProgramRun both =
-      folder_.run({"simulate", problem("slider_crank_round"), "--no-checks", "--all-checks"});
-  EXPECT_EQ(both.exit_code, 2);
+  const ProgramRun both = exits(
+      2, folder_.run({"simulate", problem("slider_crank_round"), "--no-checks", "--all-checks"}));
 }
 
 /// The words of a report stay within a hundred columns; only what a shell is to read is not broken.
@@ -296,17 +293,15 @@ TEST_F(Show, DrawsBodiesRedThatNothingMoves) {
     "simulation": {"end_time": 0.1, "step": 1e-3},
     "responses": {"reach": {"type": "position", "body": "link", "at": 1, "direction": "x", "over_time": "final"}}
   })";
-  const ProgramRun run = folder_.run({"show", "loose.json", "-o", "page.html", "--json"});
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = exits(0, folder_.run({"show", "loose.json", "-o", "page.html", "--json"}));
   EXPECT_EQ(run.document().at("unheld_bodies"), json({"link"}));
 }
 
 TEST_F(Show, SaysWhatStartsBent) {
   const ProgramRun run =
-      folder_.run({"show", problem("slider_crank_round"), "-o", "bent.html", "--set",
-                   R"(/scene/bodies/rod/initial_deflections=[{"at": ["210 mm", 0, 0], )"
-                   R"("direction": [0, 1, 0], "displacement": "2 mm"}])"});
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+      exits(0, folder_.run({"show", problem("slider_crank_round"), "-o", "bent.html", "--set",
+                            R"(/scene/bodies/rod/initial_deflections=[{"at": ["210 mm", 0, 0], )"
+                            R"("direction": [0, 1, 0], "displacement": "2 mm"}])"}));
   const json bodies = data_of(folder_.path() / "bent.html").at("picture").at("scene").at("bodies");
   EXPECT_EQ(named(bodies, "rod").at("starts_bent").at("displacement"), 0.002);
   EXPECT_FALSE(named(bodies, "crank").contains("starts_bent"));
@@ -322,8 +317,7 @@ TEST_F(Show, SaysWhichJointsABodySlidesOn) {
 }
 
 TEST_F(Show, DrawsTheMechanismBeforeAnythingIsSimulated) {
-  const ProgramRun run = folder_.run({"show", problem("four_bar"), "-o", "page.html"});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = exits(0, folder_.run({"show", problem("four_bar"), "-o", "page.html"}));
   EXPECT_THAT(run.out, HasSubstr("Drawn in page.html"));
   const json picture = data_of(folder_.path() / "page.html").at("picture");
   const json& geometry = picture.at("designs")[0].at("geometry");
@@ -337,8 +331,8 @@ TEST_F(Show, DrawsTheMechanismBeforeAnythingIsSimulated) {
 // report.html of check and gradient.
 
 TEST_F(Check, WritesAPageIfAFolderIsNamed) {
-  const ProgramRun run = folder_.run_quick({"check", problem("slider_crank_round"), "-o", "one"});
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run =
+      exits(0, folder_.run_quick({"check", problem("slider_crank_round"), "-o", "one"}));
   const json data = data_of(folder_.path() / "one/report.html");
   EXPECT_EQ(data.at("card").at("command"), "check");
   EXPECT_TRUE(data.at("result").at("responses").at("crank_stress").contains("derivatives"));
@@ -347,10 +341,10 @@ TEST_F(Check, WritesAPageIfAFolderIsNamed) {
 
 TEST(GradientReport, ComparesAllMethods) {
   const ProgramFolder folder;
-  const ProgramRun run =
-      folder.run_quick({"gradient", problem("slider_crank_round"), "--compare", "-o", "one"});
-  ASSERT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_THAT(run.out, HasSubstr("Effort and accuracy of the methods"));
+  EXPECT_THAT(exits(0, folder.run_quick(
+                           {"gradient", problem("slider_crank_round"), "--compare", "-o", "one"}))
+                  .out,
+              HasSubstr("Effort and accuracy of the methods"));
   const json result = data_of(folder.path() / "one/report.html").at("result");
   // Two exact ones, and two differences with seven steps each.
   EXPECT_EQ(result.at("comparison").size(), 2u + 2u * 7u);
@@ -375,8 +369,7 @@ const char* const pushed = R"j({"name": "pushed", "scene": {
 TEST(Peaks, AreShownWithTimeAndPlace) {
   const ProgramFolder folder;
   std::ofstream(folder.path() / "pushed.json") << pushed;
-  const ProgramRun run = folder.run({"simulate", "pushed.json", "-o", "run"});
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = exits(0, folder.run({"simulate", "pushed.json", "-o", "run"}));
   const json responses = folder.result("run").at("responses");
   for (const auto& [name, share] : {std::pair("root", 0.0), std::pair("quarter", 0.25)}) {
     const json& peak = responses.at(name).at("peak");

@@ -18,8 +18,7 @@ using ::testing::Eq;
 /// Exit code 2, one line that begins with the program's name, nothing on standard output.
 void expect_complaint(const std::vector<std::string>& words, const std::string& part) {
   const ProgramFolder folder;
-  const ProgramRun run = folder.run(words);
-  EXPECT_EQ(run.exit_code, 2);
+  const ProgramRun run = exits(2, folder.run(words));
   EXPECT_THAT(run.err, AllOf(StartsWith("pleuel: "), HasSubstr(part)));
   EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1);
   EXPECT_THAT(run.out, Eq(""));
@@ -64,11 +63,11 @@ TEST_F(BadInput, LongTextsAreToldByTheirBeginnings) {
 }
 
 TEST_F(BadInput, SeveralMistakesAreALineEach) {
-  const ProgramRun run =
+  const ProgramRun run = exits(
+      2,
       run_program(TemporaryFolder().path(),
                   {"simulate", problem("slider_crank"), "--set", "/scene/bodies/crank/elements=0",
-                   "--set", "/scene/bodies/rod/elements=0", "--set", "/simulation/step=-1 s"});
-  EXPECT_EQ(run.exit_code, 2);
+                   "--set", "/scene/bodies/rod/elements=0", "--set", "/simulation/step=-1 s"}));
   EXPECT_THAT(run.err, AllOf(StartsWith("pleuel: 3 mistakes:\n"),
                              HasSubstr("\n" + problem("slider_crank") +
                                        ": /scene/bodies/crank/elements must be "),
@@ -139,8 +138,7 @@ TEST_F(BadInput, StudyWithoutSettingsNamesFileAndPointer) {
 }
 
 TEST_F(BadInput, WithJsonTheErrorIsADocument) {
-  const ProgramRun run = folder_.run({"check", "nothing.json", "--json"});
-  EXPECT_EQ(run.exit_code, 2);
+  const ProgramRun run = exits(2, folder_.run({"check", "nothing.json", "--json"}));
   const nlohmann::json error = run.document().at("error");
   EXPECT_EQ(error.at("exit_code"), 2);
   EXPECT_THAT(error.at("message").get<std::string>(), HasSubstr("nothing.json"));
@@ -149,18 +147,16 @@ TEST_F(BadInput, WithJsonTheErrorIsADocument) {
 TEST(SimulationFailure, HasItsOwnExitCodeAndSaysWhen) {
   const ProgramFolder folder;
   // One Newton iteration is too few for any step of a mechanism that moves.
-  const ProgramRun run = folder.run_quick(
-      {"simulate", problem("slider_crank_round"), "--set", "/simulation/max_newton_iterations=1"});
-  EXPECT_EQ(run.exit_code, 3);
+  const ProgramRun run =
+      exits(3, folder.run_quick({"simulate", problem("slider_crank_round"), "--set",
+                                 "/simulation/max_newton_iterations=1"}));
   EXPECT_THAT(run.err, AllOf(StartsWith("pleuel: "), HasSubstr("t = ")));
 }
 
 using Help = InProgramFolder;
 
 TEST_F(Help, IsNoError) {
-  const ProgramRun run = folder_.run({"--help"});
-  EXPECT_EQ(run.exit_code, 0);
-  EXPECT_THAT(run.out, HasSubstr("optimize"));
+  EXPECT_THAT(exits(0, folder_.run({"--help"})).out, HasSubstr("optimize"));
 }
 
 TEST_F(Help, FitsIntoAHundredColumns) {
@@ -218,8 +214,7 @@ TEST_F(Completion, OfZshHasTheSameCommandsWithWhatTheyDo) {
 }
 
 TEST_F(Completion, KnowsWhichShellsThereAre) {
-  const ProgramRun run = folder_.run({"completion", "fish"});
-  EXPECT_EQ(run.exit_code, 2);
+  const ProgramRun run = exits(2, folder_.run({"completion", "fish"}));
   EXPECT_THAT(run.err, HasSubstr("known are bash, zsh"));
 }
 
@@ -253,8 +248,7 @@ TEST_F(ProgressLine, IsOnATerminalWhileTheWorkTakesLong) {
 }
 
 TEST_F(ProgressLine, IsNotInAFile) {
-  const ProgramRun run = folder_.run_line(sampled(64));
-  EXPECT_EQ(run.exit_code, 0);
+  const ProgramRun run = exits(0, folder_.run_line(sampled(64)));
   EXPECT_THAT(run.err, Not(HasSubstr("\x1b")));
   EXPECT_THAT(run.err, HasSubstr("  64 of 64 samples\n"));
 }
@@ -272,8 +266,7 @@ class Starter : public testing::TestWithParam<std::string> {
 };
 
 TEST_P(Starter, HasAVerifiedOptimumThatIsLighter) {
-  const ProgramRun optimum = run({"optimize", "begin.json", "--json", "--no-report"});
-  EXPECT_EQ(optimum.exit_code, 0) << optimum.err;
+  const ProgramRun optimum = exits(0, run({"optimize", "begin.json", "--json", "--no-report"}));
   const nlohmann::json document = optimum.document();
   EXPECT_EQ(document.at("status"), "verified");
   EXPECT_LT(document.at("objective").at("value"), document.at("objective").at("start"));
@@ -281,8 +274,7 @@ TEST_P(Starter, HasAVerifiedOptimumThatIsLighter) {
 }
 
 TEST_P(Starter, IsCheckedWithoutWarning) {
-  const ProgramRun check = run({"check", "begin.json", "--json"});
-  EXPECT_EQ(check.exit_code, 0) << check.err;
+  const ProgramRun check = exits(0, run({"check", "begin.json", "--json"}));
   EXPECT_EQ(check.document().at("warnings"), nlohmann::json::array());
   EXPECT_EQ(check.document().at("rigid_motion").at("free"), 0);
   for (const auto& [name, response] : check.document().at("responses").items()) {
@@ -305,8 +297,7 @@ INSTANTIATE_TEST_SUITE_P(OfEachKind, Starter, testing::ValuesIn(kinds), [](const
 using New = InProgramFolder;
 
 TEST_F(New, AloneListsTheKindsALineEach) {
-  const ProgramRun run = folder_.run({"new"});
-  EXPECT_EQ(run.exit_code, 0);
+  const ProgramRun run = exits(0, folder_.run({"new"}));
   for (const std::string& kind : kinds) {
     EXPECT_THAT(run.out, ContainsRegex("\n  " + kind + " +a [^\n]+\n"));
   }
@@ -323,8 +314,7 @@ TEST_F(New, ReplacesNoWorkWithoutBeingTold) {
                  schema = folder_.path() / "problem.schema.json";
   std::ofstream(file) << "mine";
   std::ofstream(schema) << "mine, too";
-  const ProgramRun refused = folder_.run({"new", "press", "mine.json"});
-  EXPECT_EQ(refused.exit_code, 2);
+  const ProgramRun refused = exits(2, folder_.run({"new", "press", "mine.json"}));
   EXPECT_EQ(refused.err, "pleuel: mine.json: is there already; --overwrite replaces it\n");
   EXPECT_EQ(read_file(file), "mine");
   EXPECT_EQ(folder_.run({"new", "press", "other.json"}).exit_code, 0);
@@ -336,14 +326,12 @@ TEST_F(New, ReplacesNoWorkWithoutBeingTold) {
 
 TEST_F(New, SaysOnceWhyItCannotWrite) {
   std::ofstream(folder_.path() / "file") << "";
-  const ProgramRun run = folder_.run({"new", "press", "file/mine.json"});
-  EXPECT_EQ(run.exit_code, 2);
+  const ProgramRun run = exits(2, folder_.run({"new", "press", "file/mine.json"}));
   EXPECT_EQ(run.err, "pleuel: file: cannot be created: Not a directory\n");
 }
 
 TEST_F(New, NamesTheKindThatWasProbablyMeant) {
-  const ProgramRun run = folder_.run({"new", "fourbar", "mine.json"});
-  EXPECT_EQ(run.exit_code, 2);
+  const ProgramRun run = exits(2, folder_.run({"new", "fourbar", "mine.json"}));
   EXPECT_THAT(run.err, HasSubstr("did you mean \"four-bar\"?"));
   EXPECT_TRUE(fs::is_empty(folder_.path()));
 }
@@ -363,9 +351,8 @@ using Show = InProgramFolder;
 TEST_F(Show, IsInWordsWhereNoPageIsBuilt) {
   folder_.run({"new", "press"});
   const std::string no_page = "PLEUEL_REPORT_TEMPLATE=nowhere";
-  const ProgramRun run = folder_.run_line("backends >/dev/null; export " + no_page + "; " +
-                                          PLEUEL_PROGRAM + " show press.json");
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = exits(0, folder_.run_line("backends >/dev/null; export " + no_page + "; " +
+                                                   PLEUEL_PROGRAM + " show press.json"));
   EXPECT_THAT(run.out, HasSubstr("Rigid motion: "));
   EXPECT_THAT(run.out, HasSubstr("No drawing: the template of pages is not built"));
   EXPECT_FALSE(fs::exists(folder_.path() / "runs"));

@@ -18,8 +18,7 @@ std::vector<std::string> quick_optimization(const std::vector<std::string>& more
 using Optimize = InProgramFolder;
 
 TEST_F(Optimize, GivesADocumentWithTheDocumentedKeys) {
-  const ProgramRun run = folder_.run(quick_optimization({"--json"}));
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = exits(0, folder_.run(quick_optimization({"--json"})));
   const nlohmann::json document = run.document();
   for (const char* key :
        {"status", "message", "backend", "objective", "variables", "constraints", "kkt_residual",
@@ -66,9 +65,7 @@ TEST_F(Optimize, FitsAScreen) {
 /// Whatever makes the gradients, the optimum is the same: within the tolerance of the optimizer.
 TEST_F(Optimize, MayUseAnyGradients) {
   const auto optimum = [&](const std::vector<std::string>& more) {
-    const ProgramRun run = folder_.run(quick_optimization(joined({"--json"}, more)));
-    EXPECT_EQ(run.exit_code, 0) << run.err;
-    return run.document();
+    return exits(0, folder_.run(quick_optimization(joined({"--json"}, more)))).document();
   };
   const nlohmann::json chosen = optimum({});
   EXPECT_EQ(chosen.at("gradients").at("method"), "direct");
@@ -104,8 +101,7 @@ void expect_number_shown(const std::string& word, double value, double digits = 
 
 /// The document in SI, the tables in mm and MPa.
 TEST_F(Optimize, ShowsTheNumbersOfItsDocumentInUnitsOfTheUser) {
-  const ProgramRun run = folder_.run(quick_optimization({"-o", "run", "--verbose"}));
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = exits(0, folder_.run(quick_optimization({"-o", "run", "--verbose"})));
   const auto document = folder_.result("run");
   EXPECT_THAT(run.out, HasSubstr("VERIFIED"));
   for (const auto& [name, variable] : document.at("variables").items()) {
@@ -183,10 +179,10 @@ TEST_F(Optimize, StartsInItsTablesWhereTheRunBegan) {
 }
 
 TEST_F(Optimize, CannotVerifyWhatNoDesignCanKeep) {
-  const ProgramRun run =
+  const ProgramRun run = exits(
+      4,
       folder_.run(quick_optimization({"--json", "--set", "/constraints/rod_stiffness/upper=1e-9 mm",
-                                      "--set", "/optimizer/max_iterations=10"}));
-  EXPECT_EQ(run.exit_code, 4) << run.err;
+                                      "--set", "/optimizer/max_iterations=10"})));
   const nlohmann::json document = run.document();
   EXPECT_EQ(document.at("status"), "infeasible");
   const std::string message = document.at("message");
@@ -208,27 +204,27 @@ TEST_F(Optimize, CannotVerifyWhatNoDesignCanKeep) {
 }
 
 TEST_F(Optimize, WithoutTimeToFinishItIsNotVerified) {
-  const ProgramRun run = folder_.run(quick_optimization({"--set", "/optimizer/max_iterations=2"}));
-  EXPECT_EQ(run.exit_code, 4) << run.err;
+  const ProgramRun run =
+      exits(4, folder_.run(quick_optimization({"--set", "/optimizer/max_iterations=2"})));
   EXPECT_THAT(run.out, HasSubstr("NOT VERIFIED"));
 }
 
 /// Coarser steps have room, half of them do not.
 TEST_F(Optimize, NamesTheRunThatWouldTellItsErrors) {
-  const ProgramRun run =
-      folder_.run({"optimize", problem("slider_crank_round"), "--set", "/simulation/step=0.4 ms",
-                   "--set", R"(/sensitivity={"memory": "60 kB"})", "--no-report"});
-  EXPECT_EQ(run.exit_code, 4) << run.err;
+  const ProgramRun run = exits(
+      4, folder_.run({"optimize", problem("slider_crank_round"), "--set", "/simulation/step=0.4 ms",
+                      "--set", R"(/sensitivity={"memory": "60 kB"})", "--no-report"}));
   EXPECT_THAT(unwrapped(run.out),
               AllOf(HasSubstr("A run that would tell failed: /sensitivity/memory is too little"),
                     Not(HasSubstr("nan"))));
 }
 
 TEST_F(Optimize, AStartThatCannotBeSimulatedIsASimulationFailure) {
-  const ProgramRun run =
-      folder_.run(quick_optimization({"--json", "--set", "/simulation/max_newton_iterations=1"}));
-  EXPECT_EQ(run.exit_code, 3) << run.err;
-  EXPECT_EQ(run.document().at("status"), "failed");
+  EXPECT_EQ(exits(3, folder_.run(quick_optimization(
+                         {"--json", "--set", "/simulation/max_newton_iterations=1"})))
+                .document()
+                .at("status"),
+            "failed");
 }
 
 /// Rubber at 30 rad/s bends too far for linear elasticity, wherever one iteration leads.
@@ -344,8 +340,7 @@ using Report = InProgramFolder;
 
 /// Peaks of each case's own history, as in the result.
 TEST_F(Report, OfLoadCasesHasThePicturesOfAll) {
-  const ProgramRun run = folder_.run({"optimize", problem("two_loads"), "-o", "run"});
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = exits(0, folder_.run({"optimize", problem("two_loads"), "-o", "run"}));
   const fs::path page = folder_.path() / "run/report.html";
   const json data = data_of(page);
   const json& picture = data.at("picture");
@@ -366,8 +361,7 @@ TEST_F(Report, OfLoadCasesHasThePicturesOfAll) {
   EXPECT_EQ(picture.at("units").at("responses").at("rod_bow [fast]").at("name"), "mm");
   EXPECT_EQ(picture.at("units").at("limits").at("rod_strength [heavy]").at("name"), "MPa");
   fs::remove(page);
-  const ProgramRun again = folder_.run({"report", "run"});
-  EXPECT_EQ(again.exit_code, 0) << again.err;
+  const ProgramRun again = exits(0, folder_.run({"report", "run"}));
   EXPECT_EQ(data_of(page).at("picture"), picture);
 }
 
@@ -376,8 +370,7 @@ TEST_F(OptimizationReport, CanBeMadeLater) {
   const fs::path page = folder() / "one/report.html";
   const json before = data_of(page).at("picture");
   fs::remove(page);
-  const ProgramRun run = run_program(folder(), {"report", "one"});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = exits(0, run_program(folder(), {"report", "one"}));
   EXPECT_EQ(data_of(page).at("picture"), before);
 }
 
@@ -399,8 +392,7 @@ TEST_F(Report, IsOfTheEffectsThatTheResultNames) {
   }
   EXPECT_EQ(turned, 2);
   std::ofstream(result) << document.dump();
-  const ProgramRun run = folder_.run({"report", "one"});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = exits(0, folder_.run({"report", "one"}));
   EXPECT_FALSE(data_of(page).at("picture") == drawn);
 }
 
@@ -449,11 +441,11 @@ TEST_F(OptimizationReport, OfADamagedResultIsRefused) {
 TEST_F(OptimizationReport, OfADamagedTrajectorySaysWhatIsMissing) {
   const std::string whole = read_file(folder() / "one/trajectory-optimum.csv");
   const std::size_t within_a_line = whole.find('\n', 3000) + 10;
-  const ProgramRun torn =
-      report_with(folder(), "trajectory-optimum.csv", whole.substr(0, within_a_line));
-  EXPECT_EQ(torn.exit_code, 0) << torn.err;
-  EXPECT_THAT(unwrapped(torn.out), HasSubstr("Note: histories have no error bands: "
-                                             "copy/trajectory-optimum.csv: is damaged: line "));
+  EXPECT_THAT(unwrapped(exits(0, report_with(folder(), "trajectory-optimum.csv",
+                                             whole.substr(0, within_a_line)))
+                            .out),
+              HasSubstr("Note: histories have no error bands: "
+                        "copy/trajectory-optimum.csv: is damaged: line "));
   const std::size_t cut = whole.find('\n', whole.size() / 2) + 1;
   EXPECT_THAT(unwrapped(report_with(folder(), "trajectory-optimum.csv", whole.substr(0, cut)).out),
               HasSubstr("instants, the simulation has"));
@@ -461,8 +453,8 @@ TEST_F(OptimizationReport, OfADamagedTrajectorySaysWhatIsMissing) {
 
 TEST_F(OptimizationReport, NamesFilesThatAreTooLargeForAPage) {
   EXPECT_EQ(data_of(folder() / "one/report.html").at("left_out"), json::array());
-  const ProgramRun run = report_with(folder(), "history.csv", std::string(3'100'000, '\n'));
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run =
+      exits(0, report_with(folder(), "history.csv", std::string(3'100'000, '\n')));
   const json data = data_of(folder() / "copy/report.html");
   EXPECT_EQ(data.at("left_out"), json::array({"history.csv"}));
   EXPECT_FALSE(data.at("files").contains("history.csv"));
@@ -473,8 +465,7 @@ TEST_F(OptimizationReport, IsNotPromisedWhereItCannotBeWritten) {
   fs::copy(folder() / "one", folder() / "blocked");
   fs::remove(folder() / "blocked/report.html");
   fs::create_directory(folder() / "blocked/report.html");
-  const ProgramRun run = run_program(folder(), {"report", "blocked"});
-  EXPECT_EQ(run.exit_code, 1);
+  const ProgramRun run = exits(1, run_program(folder(), {"report", "blocked"}));
   EXPECT_THAT(run.out, Not(HasSubstr("Report:")));
   EXPECT_THAT(run.err, HasSubstr("blocked/report.html cannot be written"));
 }
@@ -495,8 +486,7 @@ TEST_F(Report, DrawsLimitsOnlyIntoHistoriesThatTheyAreOf) {
       {"type", "fatigue-damage"}, {"body", "rod"}, {"criterion", "goodman"}};
   file["constraints"]["life"] = {{"response", "damage"}, {"upper", 1e-6}};
   std::ofstream(folder_.path() / "swept.json") << file;
-  const ProgramRun run = folder_.run_quick({"simulate", "swept.json", "-o", "one"});
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = exits(0, folder_.run_quick({"simulate", "swept.json", "-o", "one"}));
   const json responses = data_of(folder_.path() / "one/report.html").at("picture").at("responses");
   EXPECT_EQ(responses.at("swept").at("limits_history"), false);
   EXPECT_EQ(responses.at("swept").at("unit").at("name"), "mm s");
@@ -522,9 +512,9 @@ TEST_F(Report, WithoutTemplateIsOneSentence) {
   std::string words;
   for (const std::string& word : simulate("one")) words += "'" + word + "' ";
   const ProgramRun run =
-      folder_.run_line(words + "; export PLEUEL_REPORT_TEMPLATE=/nowhere; '" PLEUEL_PROGRAM "' " +
-                       words + " --overwrite");
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+      exits(0, folder_.run_line(words +
+                                "; export PLEUEL_REPORT_TEMPLATE=/nowhere; '" PLEUEL_PROGRAM "' " +
+                                words + " --overwrite"));
   EXPECT_FALSE(fs::exists(folder_.path() / "one/report.html"));
   EXPECT_THAT(unwrapped(run.out), HasSubstr("No report.html: its template is not built"));
   EXPECT_THAT(unwrapped(run.out), HasSubstr("report one"));
@@ -536,22 +526,19 @@ TEST_F(Report, HoldsNamesThatLookLikeTags) {
   json file = read_json(problem("slider_crank_round"));
   file["name"] = name;
   std::ofstream(folder_.path() / "tags.json") << file;
-  const ProgramRun run = folder_.run_quick({"simulate", "tags.json", "-o", "one"});
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = exits(0, folder_.run_quick({"simulate", "tags.json", "-o", "one"}));
   const std::string page = read_file(folder_.path() / "one/report.html");
   EXPECT_EQ(data_of(folder_.path() / "one/report.html").at("picture").at("name"), name);
   EXPECT_EQ(page.find("<script>alert"), std::string::npos);
 }
 
 TEST_F(Report, OfAnUnknownFolderIsRefused) {
-  const ProgramRun run = folder_.run({"report", "nothing"});
-  EXPECT_EQ(run.exit_code, 2);
+  const ProgramRun run = exits(2, folder_.run({"report", "nothing"}));
   EXPECT_THAT(run.err, HasSubstr("nothing/run_card.json: there is no such file"));
 }
 
 TEST_F(Report, OfTooLongANameIsASentence) {
-  const ProgramRun run = folder_.run(joined(simulate(std::string(300, 'a')), {}));
-  EXPECT_EQ(run.exit_code, 2);
+  const ProgramRun run = exits(2, folder_.run(joined(simulate(std::string(300, 'a')), {})));
   EXPECT_THAT(run.err, HasSubstr("File name too long"));
   EXPECT_THAT(run.err, Not(HasSubstr("fault of the program")));
   EXPECT_LT(run.err.size(), 250u);

@@ -197,8 +197,7 @@ class Mpi : public ComparedRuns {
 
   /// As one process and its worker does it.
   void run_alone(const std::string& words) const {
-    const ProgramRun run = folder_.run_line(words + " --jobs 1 -o alone");
-    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const ProgramRun run = exits(0, folder_.run_line(words + " --jobs 1 -o alone"));
   }
 };
 
@@ -206,8 +205,7 @@ TEST_F(Mpi, DoesNotChangeTheAnswerOfSeveralStarts) {
   const std::string words = quick_run("optimize") + " --no-report --starts 4";
   run_alone(words);
   for (const int ranks : {2, 3, 4}) {
-    const ProgramRun run = run_ranks(ranks, fmt::format("{} -o with{}", words, ranks));
-    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const ProgramRun run = exits(0, run_ranks(ranks, fmt::format("{} -o with{}", words, ranks)));
     EXPECT_THAT(run.err, HasSubstr(fmt::format("{} ranks on 1 machine, ", ranks)));
     expect_same(fmt::format("with{}", ranks), "alone", "history.csv");
   }
@@ -217,8 +215,7 @@ TEST_F(Mpi, DoesNotChangeTheFront) {
   const std::string words = quick_run("pareto") + " --no-report --set /pareto/points=4";
   run_alone(words);
   for (const int ranks : {2, 3}) {
-    const ProgramRun run = run_ranks(ranks, fmt::format("{} -o with{}", words, ranks));
-    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const ProgramRun run = exits(0, run_ranks(ranks, fmt::format("{} -o with{}", words, ranks)));
     expect_same(fmt::format("with{}", ranks), "alone", "pareto.csv");
   }
 }
@@ -226,8 +223,7 @@ TEST_F(Mpi, DoesNotChangeTheFront) {
 TEST_F(Mpi, DoesNotChangeWhatComesIntoTheGapsOfAFront) {
   const std::string words = quick_run("pareto") + " --no-report --set /pareto/points=3 --gap 25%";
   run_alone(words);
-  const ProgramRun run = run_ranks(2, words + " -o with2");
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = exits(0, run_ranks(2, words + " -o with2"));
   expect_same("with2", "alone", "pareto.csv");
 }
 
@@ -235,8 +231,7 @@ TEST_F(Mpi, DoesNotChangeSamples) {
   const std::string words = quick_run("uncertainty") + samples + " --no-report";
   run_alone(words);
   for (const int ranks : {2, 3}) {
-    const ProgramRun run = run_ranks(ranks, fmt::format("{} -o with{}", words, ranks));
-    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const ProgramRun run = exits(0, run_ranks(ranks, fmt::format("{} -o with{}", words, ranks)));
     expect_same(fmt::format("with{}", ranks), "alone", "uncertainty.csv");
   }
 }
@@ -265,31 +260,25 @@ TEST_F(Mpi, EndsInGoodOrderAndGoesOn) {
   EXPECT_EQ(run.out, "4\n");  // and no process is left
   EXPECT_THAT(unwrapped(read_file(folder_.path() / "out")), HasSubstr("To go on from there: "));
   run_alone(words);
-  const ProgramRun again = run_ranks(3, words + " -o run --resume");
-  EXPECT_EQ(again.exit_code, 0) << again.err;
+  const ProgramRun again = exits(0, run_ranks(3, words + " -o run --resume"));
   EXPECT_THAT(again.out, HasSubstr("evaluations were known from run/run.sqlite"));
   expect_same("run", "alone", "history.csv");
 }
 
 TEST_F(Mpi, BadInputEndsAllRanks) {
-  const ProgramRun run = run_ranks(3, "optimize none.json");
-  EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err, HasSubstr("none.json"));
+  EXPECT_THAT(exits(2, run_ranks(3, "optimize none.json")).err, HasSubstr("none.json"));
 }
 
 /// Nothing of MPI is needed to say so.
 TEST(WithoutMpi, MpirunIsAnsweredByAMessage) {
   const ProgramFolder folder;
-  const ProgramRun run =
-      folder.run_line("--version >/dev/null; cp " PLEUEL_PROGRAM
-                      " .; OMPI_COMM_WORLD_SIZE=2 OMPI_COMM_WORLD_RANK=0 ./pleuel backends");
-  EXPECT_EQ(run.exit_code, 2);
+  const ProgramRun run = exits(
+      2, folder.run_line("--version >/dev/null; cp " PLEUEL_PROGRAM
+                         " .; OMPI_COMM_WORLD_SIZE=2 OMPI_COMM_WORLD_RANK=0 ./pleuel backends"));
   EXPECT_THAT(unwrapped(run.err), AllOf(HasSubstr("mpirun started 2 of these"),
                                         HasSubstr("libopenmpi-dev"), HasSubstr("--jobs")));
-  const ProgramRun alone = folder.run_line(
-      "--version >/dev/null; OMPI_COMM_WORLD_SIZE=1 "
-      "OMPI_COMM_WORLD_RANK=0 ./pleuel backends");
-  EXPECT_EQ(alone.exit_code, 0) << alone.err;
+  const ProgramRun alone = exits(0, folder.run_line("--version >/dev/null; OMPI_COMM_WORLD_SIZE=1 "
+                                                    "OMPI_COMM_WORLD_RANK=0 ./pleuel backends"));
 }
 
 }  // namespace

@@ -24,6 +24,12 @@ struct ProgramRun {
   nlohmann::json document() const;
 };
 
+/// A run; a test failure if it ended with another code.
+inline ProgramRun exits(int code, ProgramRun run) {
+  EXPECT_EQ(run.exit_code, code) << run.out << run.err;
+  return run;
+}
+
 /// Runs `pleuel words…` with this folder as the current one.
 ProgramRun run_program(const std::filesystem::path& folder, const std::vector<std::string>& words);
 

@@ -32,12 +32,11 @@ TEST_F(ReadBackSentences, OfSimulate) {
 /// One step that is too long: Newton's method needs it in two halves.
 TEST_F(ReadBackSentences, OfStepsThatWereSplit) {
   const auto report = [&](const std::string& step) {
-    const ProgramRun run =
-        folder_.run(joined(joined({"simulate", file, "-o", "run", "--overwrite"}, quick()),
-                           {"--set", "/simulation/resolution_check=false", "--set",
-                            "/simulation/max_newton_iterations=3", "--set",
-                            "/simulation/step=" + step, "--set", "/simulation/end_time=2 ms"}));
-    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const ProgramRun run = exits(
+        0, folder_.run(joined(joined({"simulate", file, "-o", "run", "--overwrite"}, quick()),
+                              {"--set", "/simulation/resolution_check=false", "--set",
+                               "/simulation/max_newton_iterations=3", "--set",
+                               "/simulation/step=" + step, "--set", "/simulation/end_time=2 ms"})));
     return std::pair(unwrapped(run.out), folder_.result("run"));
   };
   const auto [split, of_split] = report("2 ms");
