@@ -3,7 +3,11 @@
 #include <optional>
 #include <sstream>
 
+#include <unistd.h>
+
 #include "cli/commands/progress_line.hpp"
+#include "cli/text/table.hpp"
+#include "cli/text/wrapped_text.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/test.hpp"
@@ -168,6 +172,45 @@ TEST_F(Help, FitsIntoAHundredColumns) {
       EXPECT_LE(std::count_if(line.begin(), line.end(), is_character), 100) << line;
     }
   }
+}
+
+TEST(WrappedText, FillsItsLinesToTheLastCharacter) {
+  EXPECT_EQ(wrapped("one two six", "  ", 7), "one two\n  six");
+  EXPECT_EQ(wrapped("one two six", "  ", 6), "one\n  two\n  six");
+}
+
+TEST(LineWidth, IsWhatTheScreenHas) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");  // the width is asked for once
+  for (const auto& [columns, width] : {std::pair("", 100), {"40", 80}, {"90", 90}, {"500", 160}}) {
+    const auto leave_with_width = [columns = columns] {
+      ::close(STDOUT_FILENO);
+      ::setenv("COLUMNS", columns, 1);
+      std::exit(static_cast<int>(line_width()));
+    };
+    EXPECT_EXIT(leave_with_width(), testing::ExitedWithCode(width), "") << columns;
+  }
+}
+
+/// The last column has 24 characters then, as few as can be read; with one less it is as it is.
+TEST(Table, BreaksTextsWhereALineCannotHoldThem) {
+  const std::string once(12, 'a'), again(12, 'b');
+  for (const bool is_broken : {true, false}) {
+    const std::string key(line_width() - (is_broken ? 28 : 27), 'k'), end = is_broken ? "\n" : " ";
+    Table table({left_aligned("key"), left_aligned("text")});
+    table.add_row({key, once + " " + again});
+    EXPECT_EQ(table.text(), "  " + padded("key", key.size(), Table::Align::left) + "  text\n  " +
+                                key + "  " + once + end +
+                                (is_broken ? std::string(key.size() + 4, ' ') : "") + again + "\n");
+  }
+}
+
+TEST(Table, IsDividedWhereALineCannotHoldItsColumns) {
+  const std::string wide(line_width() / 2, '7');
+  Table table({left_aligned("name"), wide, wide});
+  table.add_row({"rod", "1", "2"});
+  const std::string row = "  rod   " + std::string(wide.size() - 1, ' ');
+  EXPECT_EQ(table.text(),
+            "  name  " + wide + "\n" + row + "1\n\n  name  " + wide + "\n" + row + "2\n");
 }
 
 // What a shell offers for a word that is begun.

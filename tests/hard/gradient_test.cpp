@@ -7,6 +7,7 @@
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/hard/hard_problems.hpp"
+#include "tests/optimization/known_problems.hpp"
 #include "tests/support/at_start.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/test.hpp"
@@ -229,11 +230,9 @@ ProblemFile impossible_designs(const std::string& crank_length) {
 
 /// The easy start is next to the optimum, on the side from which no step leads into what locks.
 TEST_P(HardOptimization, FindsTheOptimumAcrossDesignsThatCannotBeSimulated) {
-  const Result easy = optimize(impossible_designs("90 mm"), "nlopt-slsqp");
-  ASSERT_EQ(easy.status, Status::verified) << easy.message;
+  const Result easy = verified(optimize(impossible_designs("90 mm"), "nlopt-slsqp"));
   ASSERT_EQ(count_failures(easy.history), 0);
-  const Result hard = optimize(impossible_designs("30 mm"), GetParam());
-  EXPECT_EQ(hard.status, Status::verified) << hard.message;
+  const Result hard = verified(optimize(impossible_designs("30 mm"), GetParam()));
   EXPECT_GT(count_failures(hard.history), 0) << "the search met no impossible design";
   // Measured 7e-8.
   EXPECT_NEAR(hard.evaluation.objective / easy.evaluation.objective, 1.0, 1e-6);
@@ -251,8 +250,7 @@ TEST_P(HardOptimization, FailsOnlyWhereTheMechanismLocks) {
 
 TEST_P(HardOptimization, FindsTheOptimumFromAnImpossibleStart) {
   const Result easy = optimize(impossible_designs("90 mm"), "nlopt-slsqp");
-  const Result result = optimize(impossible_designs("120 mm"), GetParam());
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+  const Result result = verified(optimize(impossible_designs("120 mm"), GetParam()));
   EXPECT_NEAR(result.evaluation.objective / easy.evaluation.objective, 1.0, 1e-6);
   EXPECT_THAT(result.message, HasSubstr("the start cannot be evaluated"));
 }
@@ -278,8 +276,7 @@ ProblemFile least_bow(const std::vector<std::string>& more = {}) {
 
 TEST_P(HardOptimization, EndsExactlyAtTheBoundsThatHoldIt) {
   const ProblemFile problem = least_bow();
-  const Result result = optimize(problem, GetParam());
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+  const Result result = verified(optimize(problem, GetParam()));
   // Interior-point methods end beside bounds: within the tolerance of the optimizer.
   EXPECT_NEAR(result.x(0), problem.variables[0].lower, 1e-6 * problem.variables[0].lower);
   EXPECT_NEAR(result.x(1), problem.variables[1].upper, 1e-6 * problem.variables[1].upper);

@@ -71,8 +71,7 @@ class FailingEvaluations : public testing::TestWithParam<FailingCase> {
 // down from the start (deflection 1.0) it must run into them.
 TEST_P(FailingEvaluations, BesideTheOptimumDoNotHideIt) {
   FunctionProblem problem = fragile_cantilever(1.02, mishap_);
-  const Result result = solve(problem, options_);
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+  const Result result = verified(solve(problem, options_));
   EXPECT_NEAR(result.evaluation.objective, cantilever().optimum, 1e-3 * cantilever().optimum);
   EXPECT_LE(result.max_violation, 1e-4);
 }
@@ -299,8 +298,7 @@ TEST(Input, WithAllVariablesFixedTheStartIsJudgedAsItIs) {
                             [&](const Eigen::VectorXd& x, Request request) {
                               return known.problem.evaluate(x, request);
                             });
-    const Result result = solve(problem, {.backend = backend});
-    EXPECT_EQ(result.status, Status::verified) << result.message;
+    const Result result = verified(solve(problem, {.backend = backend}));
     EXPECT_EQ(result.x, Eigen::VectorXd::Constant(5, 6.0));
     EXPECT_EQ(result.evaluations, 1);
   }

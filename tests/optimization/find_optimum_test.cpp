@@ -60,8 +60,7 @@ TEST_P(FindOptimum, ComesIntoLimitsThatAreExceededAMillionTimes) {
                             result << x[0] + 20.0 * x[1], 1.0 / (a * a), 1.0 / (a * a * b * b);
                             return result;
                           }));
-  const Result result = find_optimum(problem, options_);
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+  const Result result = verified(find_optimum(problem, options_));
   // a b ≥ 10 and a ≥ 10: a + 20 b has its minimum on a b = 10 at a = √200, b = 10/√200.
   EXPECT_NEAR(result.evaluation.objective, 2.0 * std::sqrt(200.0), 2e-3);
   EXPECT_EQ(result.backend, GetParam());
@@ -94,8 +93,7 @@ TEST_P(FindOptimum, LeavesAStartThatCannotBeEvaluated) {
                             }
                             return evaluation;
                           });
-  const Result result = find_optimum(fragile, options_);
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+  const Result result = verified(find_optimum(fragile, options_));
   EXPECT_NEAR(result.evaluation.objective, known.optimum, 1e-3 * known.optimum);
   EXPECT_TRUE(result.history.front().has_failed());
   EXPECT_THAT(result.message, HasSubstr("the start cannot be evaluated"));
@@ -150,8 +148,7 @@ FunctionProblem failing_for_a_while(int failures) {
 TEST(FindOptimumByOthers, GoesOnWhereABackendIsLost) {
   FunctionProblem problem = failing_for_a_while(35);
   const Result result =
-      find_optimum(problem, {.backend = "nlopt-slsqp", .other_backends = {"nlopt-mma"}});
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+      verified(find_optimum(problem, {.backend = "nlopt-slsqp", .other_backends = {"nlopt-mma"}}));
   EXPECT_EQ(result.backend, "nlopt-mma");
   ASSERT_EQ(result.parts.size(), 2u);
   EXPECT_EQ(result.parts[0].method, "nlopt-slsqp");
@@ -262,8 +259,7 @@ class KnownOptimum : public testing::TestWithParam<Case> {
 // 0.1 % of the objective, limits kept to 1e-4; measured are 8e-5 (MMA on the spring, whose optimum
 // is flat) and 2e-7.
 TEST_P(KnownOptimum, IsReachedAndVerified) {
-  const Result result = solve(known_.problem, options_);
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+  const Result result = verified(solve(known_.problem, options_));
   EXPECT_NEAR(result.evaluation.objective, known_.optimum, 1e-3 * std::abs(known_.optimum));
   EXPECT_LE(result.max_violation, 1e-4);
 }
@@ -365,8 +361,7 @@ TEST_P(Noise, IsNotChased) {
                             return evaluation;
                           });
   SolveOptions options{.backend = GetParam()};
-  const Result result = solve(problem, options);
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+  const Result result = verified(solve(problem, options));
   EXPECT_NEAR(result.evaluation.objective, known.optimum, 1e-5 * known.optimum);
   int tiny_steps = 0;
   for (const EvaluationRecord& record : result.history) {

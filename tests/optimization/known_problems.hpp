@@ -11,6 +11,12 @@
 
 namespace pleuel::test {
 
+/// What a search found; a test failure if it is not verified.
+inline Result verified(const Result& result) {
+  EXPECT_EQ(result.status, Status::verified) << result.message;
+  return result;
+}
+
 /// A problem with published optimum.
 struct KnownProblem {
   std::string name;

@@ -39,8 +39,7 @@ class SmallPart : public testing::TestWithParam<std::string> {};
 TEST_P(SmallPart, IsAsGoodAsTheLargeOne) {
   for (const double part : {0.02, 1e-3, 1e-4}) {
     KnownProblem known = two_beams(part);
-    const Result result = solve(known.problem, {.backend = GetParam()});
-    EXPECT_EQ(result.status, Status::verified) << result.message;
+    const Result result = verified(solve(known.problem, {.backend = GetParam()}));
     EXPECT_NEAR(result.x[0] * result.x[1], std::sqrt(0.5), 1e-4) << part;
     // The variable residual leaves 1e-4 of a part: kkt_audit.hpp.
     EXPECT_NEAR(result.x[2] * result.x[3], std::sqrt(0.5), 1e-3) << part;
@@ -65,8 +64,7 @@ TEST_P(SmallPart, MayHaveItsMinimumInside) {
                             }
                             return values;
                           }));
-  const Result result = solve(problem, {.backend = GetParam()});
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+  const Result result = verified(solve(problem, {.backend = GetParam()}));
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(result.x[i] / units[i], 1.0, 0.02) << i;
 }
 
@@ -82,8 +80,7 @@ TEST_P(SmallPart, MayBeHeldByDependentLimits) {
         values << x[0] + 1.1 * x[1], x[0] + 2.0 * x[1], 2.0 * x[0] + x[1], x[0] + x[1], x[0] + x[1];
         return values;
       }));
-  const Result result = solve(problem, {.backend = GetParam()});
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+  const Result result = verified(solve(problem, {.backend = GetParam()}));
   EXPECT_NEAR(result.evaluation.objective, 2.1, 1e-4 * 2.1);
 }
 
@@ -97,8 +94,7 @@ TEST_P(SmallPart, MayBeNothingAtAll) {
         values << x[0], 1.0 / x[0], x[2];
         return values;
       }));
-  const Result result = solve(problem, {.backend = GetParam()});
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+  const Result result = verified(solve(problem, {.backend = GetParam()}));
   EXPECT_NEAR(result.evaluation.objective, 1.0, 1e-4);
 }
 
@@ -225,8 +221,7 @@ TEST(Verdict, BesideAKinkIsNotVerified) {
 TEST(Polish, FinishesAnAnswerThatIsNearlyAnOptimum) {
   KnownProblem known = cantilever();
   SolveOptions options{.backend = "nlopt-mma", .tolerance = 1e-3, .max_restarts = 0};
-  const Result polished = solve(known.problem, options);
-  EXPECT_EQ(polished.status, Status::verified) << polished.message;
+  const Result polished = verified(solve(known.problem, options));
   EXPECT_EQ(polished.backend, "nlopt-mma");
   EXPECT_EQ(polished.polished_with, "nlopt-slsqp");
   EXPECT_THAT(polished.message, HasSubstr("polished with nlopt-slsqp"));

@@ -2,6 +2,8 @@
 #include "optimization/backends.hpp"
 #include "optimization/design/design_solve.hpp"
 #include "optimization/design/peak_problem.hpp"
+#include "tests/optimization/known_problems.hpp"
+#include "tests/problems/loaded_crank.hpp"
 #include "tests/support/parameter_name.hpp"
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"
@@ -45,9 +47,7 @@ double closed_form(double b) {
 /// The share falls as b⁻³: an error of 1e-3 of sixteen elements is a third of that in b. Stress alone
 /// would be content with 0.4 mm.
 TEST(LateralLimit, SizesAFlatBar) {
-  DesignProblem design(flat_bar());
-  const Result result = solve_design(design, SolveOptions());
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+  const Result result = verified_optimum(flat_bar(), SolveOptions());
   double low = 1e-4, high = 0.02;
   for (int i = 0; i < 100; ++i) {
     const double middle = 0.5 * (low + high);
@@ -276,9 +276,7 @@ TEST(FatigueLimit, IsDividedBySegmentsOnly) {
 
 /// Both segments at their limit: A = (F_a/S_e + F_m/S_u)/0.5, 110 mm² and 55 mm².
 TEST(FatigueLimit, SizesBothSegments) {
-  DesignProblem design(stepped_bar());
-  const Result result = solve_design(design, SolveOptions());
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+  const Result result = verified_optimum(stepped_bar(), SolveOptions());
   EXPECT_NEAR(result.x(0) * 0.01, (4e3 / 100e6 + 6e3 / 400e6) / 0.5, 1e-8);
   EXPECT_NEAR(result.x(1) * 0.01, (2e3 / 100e6 + 3e3 / 400e6) / 0.5, 1e-8);
 }

@@ -119,10 +119,8 @@ Json twins() {
 }
 
 TEST(LoadCases, HaveTheOptimumOfTheMechanismCopiedForEach) {
-  DesignProblem cases(problem_of(test::loaded_crank())), copies(problem_of(twins()));
-  const Result one = solve_design(cases, {}), other = solve_design(copies, {});
-  EXPECT_EQ(one.status, Status::verified) << one.message;
-  EXPECT_EQ(other.status, Status::verified) << other.message;
+  const Result one = verified_optimum(problem_of(test::loaded_crank()));
+  const Result other = verified_optimum(problem_of(twins()));
   // Optima are found to 1e-6 of the objective.
   EXPECT_NEAR(one.evaluation.objective, other.evaluation.objective,
               1e-5 * other.evaluation.objective);
@@ -132,8 +130,7 @@ TEST(LoadCases, HaveTheOptimumOfTheMechanismCopiedForEach) {
 
 TEST(LoadCases, OfTheShippedProblemDecideALimitEach) {
   DesignProblem design(sample_problem("two_loads"));
-  const Result result = solve_design(design, {});
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+  const Result result = verified(solve_design(design, {}));
   // Found from two starts with nlopt-slsqp, nlopt-mma and ipopt.
   EXPECT_NEAR(result.evaluation.objective, 0.61849, 1e-4);
   std::map<std::string, double> prices;
@@ -193,9 +190,8 @@ TEST(LoadCases, HaveTheSameDigitsWhateverTheNumberOfJobs) {
   const ProblemFile file = problem_of(eight_speeds());
   ASSERT_EQ(file.cases.size(), 8u);
   DesignProblem one(file, 1), two(file, 2);
-  const Result with_one = solve_design(one, {}), with_two = solve_design(two, {});
-  EXPECT_EQ(with_one.status, Status::verified) << with_one.message;
-  EXPECT_EQ(with_two.status, Status::verified) << with_two.message;
+  const Result with_one = verified(solve_design(one, {}));
+  const Result with_two = verified(solve_design(two, {}));
   EXPECT_EQ(with_one.x, with_two.x);
   EXPECT_EQ(with_one.evaluation.constraints, with_two.evaluation.constraints);
   EXPECT_EQ(with_one.evaluations, with_two.evaluations);
@@ -366,8 +362,7 @@ double height_of_cantilever() {
 
 TEST(AcrossCases, LimitTheDifferenceOfTwoDeflectionsOfACantilever) {
   DesignProblem design(problem_of(cantilever()));
-  const Result result = solve_design(design, {});
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+  const Result result = verified(solve_design(design, {}));
   EXPECT_NEAR(result.x(0), height_of_cantilever(), 1e-6 * height_of_cantilever());
   ASSERT_FALSE(result.response_errors.empty());
   const ProblemFile& file = design.file();
@@ -501,9 +496,8 @@ TEST(AcrossCases, LimitTheLargestOfTwoAsBothDo) {
   DesignProblem largest(problem_of(document));
   document["constraints"]["strength"]["response"] = "stress";
   DesignProblem both(problem_of(document));
-  const Result one = solve_design(largest, {}), other = solve_design(both, {});
-  EXPECT_EQ(one.status, Status::verified) << one.message;
-  EXPECT_EQ(other.status, Status::verified) << other.message;
+  const Result one = verified(solve_design(largest, {}));
+  const Result other = verified(solve_design(both, {}));
   // Optima are found to 1e-6 of the objective.
   EXPECT_NEAR(one.evaluation.objective, other.evaluation.objective,
               1e-5 * other.evaluation.objective);
@@ -512,8 +506,7 @@ TEST(AcrossCases, LimitTheLargestOfTwoAsBothDo) {
 TEST(AcrossCases, HaveTheSameDigitsWhateverTheNumberOfJobs) {
   const ProblemFile file = problem_of(stiff_crank());
   DesignProblem one(file, 1), two(file, 2);
-  const Result with_one = solve_design(one, {}), with_two = solve_design(two, {});
-  EXPECT_EQ(with_one.status, Status::verified) << with_one.message;
+  const Result with_one = verified(solve_design(one, {})), with_two = solve_design(two, {});
   EXPECT_EQ(with_one.x, with_two.x);
   EXPECT_EQ(with_one.evaluation.constraints, with_two.evaluation.constraints);
   EXPECT_EQ(with_one.constraint_multipliers, with_two.constraint_multipliers);

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "optimization/design/design_solve.hpp"
+#include "tests/optimization/known_problems.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test {
@@ -42,11 +43,9 @@ inline nlohmann::ordered_json loaded_crank() {
 }
 
 /// What a search from the start of a problem file ends with: an optimum, or a failure of the test.
-inline Result verified_optimum(const ProblemFile& file) {
+inline Result verified_optimum(const ProblemFile& file, const SolveOptions& options = {}) {
   DesignProblem design(file);
-  const Result result = solve_design(design, {});
-  EXPECT_EQ(result.status, Status::verified) << result.message;
-  return result;
+  return verified(solve_design(design, options));
 }
 
 }  // namespace pleuel::test

@@ -6,6 +6,7 @@
 #include "optimization/backends.hpp"
 #include "optimization/design/design_solve.hpp"
 #include "optimization/design/peak_problem.hpp"
+#include "tests/optimization/known_problems.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"
@@ -53,8 +54,7 @@ TEST(MinMax, MeetsTheKinkOfTheLargestResponse) {
 
 TEST(MinMax, MaximizesTheSmallestAlike) {
   const Result result =
-      optimized(bar(R"j("objective": {"maximize": "= min(1 m^2 - f, 1 m^2 - g)"})j"));
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+      verified(optimized(bar(R"j("objective": {"maximize": "= min(1 m^2 - f, 1 m^2 - g)"})j")));
   EXPECT_NEAR(-result.evaluation.objective, 1.0 - best_value, 1e-4);
 }
 
@@ -82,8 +82,7 @@ TEST(MinMax, LimitsEachOfItsParts) {
   DesignProblem design(file);
   PeakProblem peaks(design, 4);
   EXPECT_EQ(peaks.constraints().size(), 2u);
-  const Result result = optimized(file);
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+  const Result result = verified(optimized(file));
   EXPECT_NEAR(result.x(0), 0.3 - std::sqrt(0.2), 1e-4);
 }
 

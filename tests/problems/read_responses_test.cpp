@@ -344,16 +344,9 @@ TEST(ExpressionOfResponses, WithoutFiniteValueSaysSo) {
   Json document = slider_crank();
   document["responses"]["root"] = {{"type", "expression"}, {"value", "sqrt(left - right)"}};
   const ProblemFile problem = problem_of(document);
-  try {
-    analyze(problem, start_design(problem));
-    FAIL() << "nothing was said";
-  } catch (const SimulationError& error) {
-    EXPECT_NE(std::string(error.what())
-                  .find("the response \"root\" has no finite value there: "
-                        "\"sqrt(left - right)\", with left = "),
-              std::string::npos)
-        << error.what();
-  }
+  EXPECT_THAT(thrown<SimulationError>([&] { started(problem); }),
+              HasSubstr("the response \"root\" has no finite value there: "
+                        "\"sqrt(left - right)\", with left = "));
 }
 
 TEST(ExpressionOfResponses, WithoutDerivativeSaysSoWhereItIsAsked) {

@@ -5,6 +5,8 @@
 #include "optimization/design/margin_problem.hpp"
 #include "optimization/design/optimum_error.hpp"
 #include "studies/uncertainty.hpp"
+#include "tests/optimization/known_problems.hpp"
+#include "tests/problems/loaded_crank.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"
@@ -42,8 +44,7 @@ Eigen::Index worst_row(const Evaluation& evaluation, const DesignProblem& proble
 /// knows what the optimizer did.
 TEST(RobustConstraints, LeaveTheDeviationsThatAreAskedFor) {
   DesignProblem problem(robust_problem());
-  const Result result = solve_design(problem, {.backend = "nlopt-slsqp"});
-  ASSERT_EQ(result.status, Status::verified) << result.message;
+  const Result result = verified(solve_design(problem, {.backend = "nlopt-slsqp"}));
 
   ProblemFile at_optimum = problem.file();
   for (Eigen::Index i = 0; i < result.x.size(); ++i) {
@@ -148,14 +149,11 @@ TEST(RobustConstraints, TellMarginsOfFrequenciesThatCoincide) {
 }
 
 TEST(RobustConstraints, CostMassThatPlainLimitsDoNot) {
-  DesignProblem robust(robust_problem());
   ProblemFile file = robust_problem();
   for (ConstraintSettings& constraint : file.constraints) constraint.deviations = 0.0;
-  DesignProblem plain(file);
   const SolveOptions options{.backend = "nlopt-slsqp"};
-  const Result with = solve_design(robust, options), without = solve_design(plain, options);
-  ASSERT_EQ(with.status, Status::verified) << with.message;
-  ASSERT_EQ(without.status, Status::verified) << without.message;
+  const Result with = verified_optimum(robust_problem(), options);
+  const Result without = verified_optimum(file, options);
   EXPECT_GT(with.evaluation.objective, 1.01 * without.evaluation.objective);
 }
 
@@ -181,18 +179,17 @@ const char* const two_peaks = R"({
 /// At the bound of a the highest peak keeps its margin, and the lower one does not.
 TEST(RobustConstraints, HoldForLowerPeaksThatScatterMore) {
   for (const char* upper : {"98 mm", "99.9 mm"}) {
-    DesignProblem problem(problem_from(two_peaks, {std::string("/variables/a/upper=") + upper}));
-    const Result result = solve_design(problem, {.backend = "nlopt-slsqp"});
-    EXPECT_EQ(result.status, Status::verified) << result.message;
+    const Result result =
+        verified_optimum(problem_from(two_peaks, {std::string("/variables/a/upper=") + upper}),
+                         {.backend = "nlopt-slsqp"});
     EXPECT_NEAR(result.x(0), 0.096, 2e-5) << upper;
   }
 }
 
 /// Where both keep theirs the bound is the answer.
 TEST(RobustConstraints, LeaveABoundThatAllPeaksKeep) {
-  DesignProblem problem(problem_from(two_peaks, {"/variables/a/upper=95 mm"}));
-  const Result result = solve_design(problem, {.backend = "nlopt-slsqp"});
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+  const Result result = verified_optimum(problem_from(two_peaks, {"/variables/a/upper=95 mm"}),
+                                         {.backend = "nlopt-slsqp"});
   EXPECT_NEAR(result.x(0), 0.095, 1e-9);
 }
 
@@ -241,15 +238,13 @@ TEST(OptimumError, CoversTheOptimumOfFinerSteps) {
 /// 0.5 ms leave more than 1 % of the round slider-crank's mass: an optimum that is verified to that much
 /// where nobody asks for more.
 TEST(OptimumError, IsToldWhereNobodyAskedForLess) {
-  const Result coarse = optimum("slider_crank_round", {"/simulation/step=0.5 ms"});
-  EXPECT_EQ(coarse.status, Status::verified) << coarse.message;
+  const Result coarse = verified(optimum("slider_crank_round", {"/simulation/step=0.5 ms"}));
   EXPECT_GT(coarse.error->bound(), 0.01 * coarse.evaluation.objective);
 }
 
 TEST(OptimumError, IsComparedWithTheTargetOfTheFile) {
   const std::vector<std::string> step = {"/simulation/step=0.1 ms"};
-  const Result usual = optimum("slider_crank", step);
-  ASSERT_EQ(usual.status, Status::verified) << usual.message;
+  const Result usual = verified(optimum("slider_crank", step));
   EXPECT_THAT(usual.message, HasSubstr("steps and elements: to ±"));
   const Result strict =
       optimum("slider_crank", {step.front(), R"(/accuracy={"target": "0.0001 %"})"});

@@ -7,6 +7,7 @@
 #include "core/scene/problem_reader.hpp"
 #include "optimization/design/design_solve.hpp"
 #include "studies/priced_numbers.hpp"
+#include "tests/optimization/known_problems.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"
@@ -248,8 +249,7 @@ TEST(NumberPrices, AreThoseOfOptimizingAnew) {
     DesignProblem design(read_problem(path, overrides).complete());
     return solve_design(design, {});
   };
-  const Result result = optimum({coarse});
-  ASSERT_EQ(result.status, Status::verified);
+  const Result result = verified(optimum({coarse}));
   const PriceList list =
       number_prices({file, path, {coarse}}, read_problem(path, {coarse}).complete(), result.x);
   struct Case {

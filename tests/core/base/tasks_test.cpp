@@ -240,14 +240,10 @@ TEST(ParallelWork, IsDoneOnceEach) {
 
 TEST(ParallelWork, PassesOnTheFirstFailure) {
   for (int threads : {1, 4}) {
-    try {
-      for_each_in_parallel(20, threads, [](int i) {
-        if (i >= 3) throw std::runtime_error(std::to_string(i));
-      });
-      FAIL() << "nothing was thrown";
-    } catch (const std::runtime_error& error) {
-      EXPECT_STREQ(error.what(), "3");
-    }
+    const auto fail = [](int i) {
+      if (i >= 3) throw std::runtime_error(std::to_string(i));
+    };
+    EXPECT_EQ(thrown<std::runtime_error>([&] { for_each_in_parallel(20, threads, fail); }), "3");
   }
 }
 

@@ -210,12 +210,7 @@ TEST(Buckling, OfAPushedBarIsThatOfItsInertia) {
 
 void expect_error(const Model& model, const ResponseSettings& settings,
                   const std::string& message) {
-  try {
-    make_responses({settings}, model);
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_EQ(error.what(), message);
-  }
+  EXPECT_EQ(thrown<InputError>([&] { make_responses({settings}, model); }), message);
 }
 
 TEST(SectionForces, OfARigidBodyAreNotKnown) {

@@ -114,21 +114,18 @@ TEST(MoreFrames, AreNotToldOfElementsWithFramesOfTheirOwn) {
 /// A leaf of 1 m × 20 mm × 5 mm with a force of 8 N across its tip, which bends it by 61 mm, and one
 /// along it.
 std::vector<Finding> findings_of_leaf(double along, double place, int frames) {
-  return findings_of(
-      read_scene(fmt::format(
-          R"j({{"scene": {{"bodies": {{"leaf": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0],
-              "material": "steel", "section": {{"type": "rectangle", "width": "20 mm", "height": "5 mm"}},
-              "elements": 8, "frame": "tangent", "frames": {}}}}},
-            "joints": {{"clamp": {{"type": "fixed", "bodies": ["ground", "leaf"], "at": [0, 0, 0]}}}},
-            "loads": {{"across": {{"type": "force", "body": "leaf", "at": [1, 0, 0],
-                                   "direction": [0, 1, 0], "value": 8}},
-                       "along": {{"type": "force", "body": "leaf", "at": [1, 0, 0],
-                                  "direction": [1, 0, 0], "value": {}}}}}}},
-          "simulation": {{"end_time": 1e-3, "step": 1e-4, "initial_state": "quasi-static"}},
-          "responses": {{"pull": {{"type": "section-force", "body": "leaf", "at": {}, "part": "axial",
-                                   "over_time": "max"}}}}}})j",
-          frames, along, place)),
-      check_variants);
+  const OneBeam leaf{
+      .name = "leaf",
+      .section = rectangle(0.02, 0.005),
+      .elements = 8,
+      .more = fmt::format(R"("frame": "tangent", "frames": {})", frames),
+      .end_loads = {{8.0}, {along, "[1, 0, 0]"}},
+      .simulation = at_rest(1e-3, 1e-4),
+      .responses = fmt::format(
+          R"("pull": {{"type": "section-force", "body": "leaf", "at": {}, "part": "axial",
+                                   "over_time": "max"}})",
+          place)};
+  return findings_of(leaf.problem(), check_variants);
 }
 
 /// In its middle the section is turned by ¾ · P L²/(2 EI) = 0.07 rad, which makes 0.55 N of 8 N an axial
@@ -183,20 +180,16 @@ TEST(MoreFrames, ThatAResponseDoesNotAllowAreJudgedByRotations) {
 // A wire of 2 mm, clamped at one end, pulled and pushed across at the other.
 
 ProblemFile wire(double pull, double across, int elements, const std::string& type = "stress") {
-  return read_scene(fmt::format(
-      R"j({{"scene": {{"gravity": [0, 0, 0],
-        "materials": {{"steel": {{"young": 2.1e11, "poisson": 0.3, "density": 7850}}}},
-        "bodies": {{"wire": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "elements": {},
-                             "material": "steel", "frame": "tangent",
-                             "section": {{"type": "circle", "diameter": 0.002}}}}}},
-        "joints": {{"wall": {{"type": "fixed", "bodies": ["ground", "wire"], "at": [0, 0, 0]}}}},
-        "loads": {{"pull": {{"type": "force", "body": "wire", "at": [1, 0, 0],
-                            "direction": [1, 0, 0], "value": {}}},
-                  "across": {{"type": "force", "body": "wire", "at": [1, 0, 0],
-                              "direction": [0, -1, 0], "value": {}}}}}}},
-      "simulation": {{"end_time": 0.01, "step": 0.005, "initial_state": "quasi-static"}},
-      "responses": {{"s": {{"type": "{}", "body": "wire", "over_time": "max"}}}}}})j",
-      elements, pull, across, type));
+  return OneBeam{.name = "wire",
+                 .section = circle(0.002),
+                 .elements = elements,
+                 .more = R"("frame": "tangent")",
+                 .materials = plain_steel,
+                 .end_loads = {{pull, "[1, 0, 0]"}, {across, "[0, -1, 0]"}},
+                 .simulation = at_rest(0.01, 0.005),
+                 .responses = fmt::format(
+                     R"("s": {{"type": "{}", "body": "wire", "over_time": "max"}})", type)}
+      .problem();
 }
 
 /// N/A + F tanh(kL)/k · c/I with k = √(N/EI) = 78/m: 645 MPa. Elements of 250 mm see 336 MPa of it,

@@ -14,20 +14,16 @@ namespace {
 
 /// A clamped bar of 20 mm × 20 mm, drawn by 4 kN and bent by a force across its end.
 ProblemFile bar(double across, const std::string& axial) {
-  return read_scene(fmt::format(
-      R"j({{"scene": {{"gravity": [0, 0, 0],
-        "materials": {{"m": {{"young": 2.1e11, "poisson": 0.3, "density": 7850}}}},
-        "bodies": {{"bar": {{"type": "beam", "from": [0, 0, 0], "to": [0.5, 0, 0], "elements": 4, "material": "m",
-                            "section": {{"type": "rectangle", "width": 0.02, "height": 0.02}}}}}},
-        "joints": {{"wall": {{"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}}}},
-        "loads": {{"pull": {{"type": "force", "body": "bar", "at": [0.5, 0, 0],
-                            "direction": [1, 0, 0], "value": 4000}},
-                  "across": {{"type": "force", "body": "bar", "at": [0.5, 0, 0],
-                              "direction": [0, -1, 0], "value": {}}}}}}},
-      "effects": {{"axial_elasticity": "{}", "geometric_stiffening": "off"}},
-      "simulation": {{"end_time": 0.01, "step": 0.005, "initial_state": "quasi-static"}},
-      "responses": {{"s": {{"type": "stress", "body": "bar", "over_time": "max"}}}}}})j",
-      across, axial));
+  return OneBeam{
+      .name = "bar",
+      .to = "[0.5, 0, 0]",
+      .materials = plain_steel,
+      .end_loads = {{4000.0, "[1, 0, 0]"}, {across, "[0, -1, 0]"}},
+      .simulation = at_rest(0.01, 0.005),
+      .responses = R"("s": {"type": "stress", "body": "bar", "over_time": "max"})",
+      .rest = fmt::format(
+          R"("effects": {{"axial_elasticity": "{}", "geometric_stiffening": "off"}})", axial)}
+      .problem();
 }
 
 /// N/A = 10 MPa beside the bending stress F L/W = 3.75 MPa for 10 N.
@@ -56,18 +52,18 @@ using testing::Field;
 constexpr double frequency = 262.48526926, ratio = 0.02;
 
 ProblemFile shaken(double force, const std::string& damping) {
-  return read_scene(fmt::format(
-      R"({{"scene": {{"gravity": [0, 0, 0], "bodies": {{
-            "beam": {{"type": "beam", "from": [0, 0, 0], "to": [0.4, 0, 0], "material": "steel",
-              "elements": 8, "section": {{"type": "rectangle", "width": 0.02, "height": 0.008}},
-              "reduction": {{"modes": 4}}, "damping": {}}}}},
-          "joints": {{"wall": {{"type": "fixed", "bodies": ["ground", "beam"], "at": [0, 0, 0]}}}},
-          "loads": {{"push": {{"type": "force", "body": "beam", "at": [0.4, 0, 0], "direction": [0, 1, 0],
-            "value": {{"type": "harmonic", "amplitude": {}, "frequency": {}}}}}}}}},
-          "simulation": {{"end_time": {}, "step": {}, "initial_state": "periodic"}},
-          "responses": {{"tip": {{"type": "deflection", "body": "beam", "at": 1, "over_time": "max-abs"}}}}}})",
-      damping, force, frequency, 2.0 * std::numbers::pi / frequency,
-      2.0 * std::numbers::pi / frequency / 400.0));
+  const double period = 2.0 * std::numbers::pi / frequency;
+  return OneBeam{
+      .to = "[0.4, 0, 0]",
+      .section = rectangle(0.02, 0.008),
+      .elements = 8,
+      .more = R"("reduction": {"modes": 4}, "damping": )" + damping,
+      .end_loads = {{fmt::format(R"({{"type": "harmonic", "amplitude": {}, "frequency": {}}})",
+                                 force, frequency)}},
+      .simulation = time_loop(period, period / 400.0, R"("initial_state": "periodic")"),
+      .responses =
+          R"("tip": {"type": "deflection", "body": "beam", "at": 1, "over_time": "max-abs"})"}
+      .problem();
 }
 
 double tip(const ProblemFile& problem) {
@@ -96,16 +92,18 @@ TEST(ModalDamping, OfABeamThatBendsFarIsTold) {
 /// A pull of 200 N on a rod of 5 mm, 0.3 m long: of its Euler load π² E I/L² = 706 N, 28 %.
 TEST(LostStiffening, IsADoubtWhereAxialForcesAreLarge) {
   const auto problem_with = [](double force) {
-    return read_scene(fmt::format(
-        R"({{"scene": {{"materials": {{"m": {{"young": 2.1e11, "poisson": 0.3, "density": 7850}}}},
-          "bodies": {{"rod": {{"type": "beam", "from": [0, 0, 0], "to": [0.3, 0, 0], "material": "m",
-              "section": {{"type": "circle", "diameter": 0.005}}, "elements": 2, "frame": "chord"}}}},
-          "joints": {{"a": {{"type": "revolute", "bodies": ["ground", "rod"], "at": [0, 0, 0]}},
-                      "b": {{"type": "point-on-line", "bodies": ["ground", "rod"], "at": [0.3, 0, 0], "axis": [1, 0, 0]}}}},
-          "loads": {{"pull": {{"type": "force", "body": "rod", "at": [0.3, 0, 0], "direction": [1, 0, 0], "value": {}}}}}}},
-          "effects": {{"axial_elasticity": "off"}},
-          "simulation": {{"end_time": 0.01, "step": 0.001}}}})",
-        force));
+    return OneBeam{.name = "rod",
+                   .to = "[0.3, 0, 0]",
+                   .section = circle(0.005),
+                   .elements = 2,
+                   .more = R"("frame": "chord")",
+                   .materials = plain_steel,
+                   .joints = on_two_supports("rod", "[0.3, 0, 0]"),
+                   .end_loads = {{force, "[1, 0, 0]"}},
+                   .simulation = time_loop(0.01, 0.001),
+                   .responses = "",
+                   .rest = R"("effects": {"axial_elasticity": "off"})"}
+        .problem();
   };
   EXPECT_THAT(findings_of(problem_with(1.0), check_lost_stiffening), IsEmpty());
   // From one percent on.
@@ -121,20 +119,22 @@ TEST(LostStiffening, IsADoubtWhereAxialForcesAreLarge) {
 /// A square column of 1 m × 10 mm, clamped, pressed slowly at its tip, which moves by less than 1e-3 of
 /// its length: no response calls for its elasticity.
 ProblemFile pressed_column(double force, const char* spatial_motion, double tolerance) {
-  ProblemFile problem = read_scene(fmt::format(
-      R"j({{"scene": {{
-        "materials": {{"light": {{"young": 2.1e11, "poisson": 0.3, "density": 1}}}},
-        "bodies": {{"bar": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "elements": 6,
-                            "material": "light", "damping": {{"stiffness": 1e-4}},
-                            "section": {{"type": "rectangle", "width": 0.01, "height": 0.01}}}}}},
-        "joints": {{"wall": {{"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}}}},
-        "loads": {{"press": {{"type": "force", "body": "bar", "at": [1, 0, 0], "direction": [-1, 0, 0],
-                             "value": {{"type": "ramp", "to": {}, "end": 0.05}}}}}}}},
-      "effects": {{"spatial_motion": "{}", "tolerance": {}}},
-      "simulation": {{"end_time": 0.05, "step": 0.0025}},
-      "responses": {{"tip": {{"type": "position", "body": "bar", "at": 1, "direction": "x",
-                             "over_time": "final"}}}}}})j",
-      force, spatial_motion, tolerance));
+  ProblemFile problem =
+      OneBeam{
+          .name = "bar",
+          .material = "light",
+          .section = rectangle(0.01, 0.01),
+          .elements = 6,
+          .more = R"("damping": {"stiffness": 1e-4})",
+          .materials = light,
+          .end_loads = {{fmt::format(R"({{"type": "ramp", "to": {}, "end": 0.05}})", force),
+                         "[-1, 0, 0]"}},
+          .simulation = time_loop(0.05, 0.0025),
+          .responses =
+              R"("tip": {"type": "position", "body": "bar", "at": 1, "direction": "x", "over_time": "final"})",
+          .rest = fmt::format(R"("effects": {{"spatial_motion": "{}", "tolerance": {}}})",
+                              spatial_motion, tolerance)}
+          .problem();
   decide_effects(problem);
   return problem;
 }
@@ -181,14 +181,13 @@ TEST(EnergyBalance, IsDoubtedAboveOnePercent) {
 
 /// What does not move has no energy to be balanced: the last digits of its potential are none.
 TEST(EnergyBalance, IsNotDoubtedWhereNothingMoves) {
-  const ProblemFile problem = read_scene(R"({"scene": {
-      "gravity": [1.336, 8.616, -4.495],
-      "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": [0.0525, -0.3823, 0.2024],
-                         "material": "steel", "rigid": true, "elements": 1,
-                         "section": {"type": "circle", "diameter": 0.02}}},
-      "joints": {"wall": {"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}}},
-    "simulation": {"end_time": 0.15, "step": 0.0007673},
-    "responses": {"mass": {"type": "mass"}}})");
+  const ProblemFile problem = OneBeam{.to = "[0.0525, -0.3823, 0.2024]",
+                                      .section = circle(0.02),
+                                      .elements = 1,
+                                      .more = R"("rigid": true)",
+                                      .gravity = "[1.336, 8.616, -4.495]",
+                                      .simulation = time_loop(0.15, 0.0007673)}
+                                  .problem();
   EXPECT_THAT(findings_of(problem, check_energy_balance), IsEmpty());
 }
 

@@ -33,20 +33,18 @@ std::vector<Finding> findings_of_followed(const FollowedColumn& column) {
   constexpr double bending = 7e10 * 0.03 * 1e-6 / 12;
   const std::string value =
       fmt::format(fmt::runtime(column.value), column.press * bending, column.press * bending);
-  return findings_of(read_scene(fmt::format(R"({{"scene": {{"gravity": [0, 0, 0],
-      "materials": {{"m": {{"young": 7e10, "poisson": 0.3, "density": 2700}}}},
-      "bodies": {{"c": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "m",
-        "section": {{"type": "rectangle", "width": 0.03, "height": 0.01}}, "elements": 8,
-        "damping": {{"stiffness": {}}}}}{}}},
-      "joints": {{"wall": {{"type": "fixed", "bodies": ["ground", "c"], "at": [0, 0, 0]}}{}}},
-      "loads": {{"P": {{"type": "force", "body": "c", "at": [1, 0, 0], "direction": [-1, 0, 0],
-        "follows": true, "value": {}}}{}}}}},
-    "simulation": {{"end_time": {}, "step": 1e-3}},
-    "responses": {{"mass": {{"type": "mass"}}}}}})",
-                                            column.damping, column.bodies, column.joints, value,
-                                            column.loads, column.end_time),
-                                column.overrides),
-                     check_stability);
+  const OneBeam beam{.name = "c",
+                     .material = "aluminium",
+                     .section = rectangle(0.03, 0.01),
+                     .elements = 8,
+                     .more = fmt::format(R"("damping": {{"stiffness": {}}})", column.damping),
+                     .materials = plain_aluminium,
+                     .bodies = column.bodies,
+                     .joints = on_ground("wall", "fixed", "c", "[0, 0, 0]") + column.joints,
+                     .end_loads = {{value, "[-1, 0, 0]", R"("follows": true)", "P"}},
+                     .loads = column.loads,
+                     .simulation = time_loop(column.end_time, 1e-3)};
+  return findings_of(beam.problem(column.overrides), check_stability);
 }
 
 TEST(MotionStability, OfBecksColumnIsLostByFlutterOnly) {
@@ -63,10 +61,10 @@ TEST(MotionStability, OfBecksColumnIsLostBesideWhatFallsFaster) {
   const auto beside_pendulum = [](double press) {
     return findings_of_followed(
         {.press = press,
-         .bodies = R"(, "p": {"type": "rigid", "at": [5, 0.1, 0], "mass": 1,
+         .bodies = R"("p": {"type": "rigid", "at": [5, 0.1, 0], "mass": 1,
                      "inertia": [1e-4, 1e-4, 1e-4, 0, 0, 0]})",
          .joints = R"(, "pin": {"type": "revolute", "bodies": ["ground", "p"], "at": [5, 0, 0]})",
-         .loads = R"(, "dead": {"type": "force", "body": "p", "at": [5, 0.1, 0],
+         .loads = R"("dead": {"type": "force", "body": "p", "at": [5, 0.1, 0],
                                 "direction": [0, -1, 0], "value": 100},
                        "soft": {"type": "spring", "bodies": ["ground", "p"],
                                 "at": [[6, 0.1, 0], [5, 0.1, 0]], "stiffness": 1, "free_length": 1})"});
@@ -102,29 +100,21 @@ TEST(MotionStability, OfBecksColumnIsLostWhateverTheSteps) {
 /// are within 1 and 2 % of him.
 TEST(MotionStability, OfAColumnIsLostWhateverItsElements) {
   const auto findings = [&](const std::string& ends, double press) {
-    const auto end = [](const char* name, const std::string& type, double at) {
-      return fmt::format(R"j("{}": {{"type": {}, "bodies": ["ground", "bar"], "at": [{}, 0, 0]}})j",
-                         name, type, at);
-    };
-    const bool is_clamped = ends == "clamps";
-    return findings_of(
-        read_scene(fmt::format(R"j({{"scene": {{
-          "materials": {{"light": {{"young": 2.1e11, "poisson": 0.3, "density": 100}}}},
-          "bodies": {{"bar": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "elements": 1,
-                              "material": "light", "damping": {{"stiffness": 1e-4}},
-                              "section": {{"type": "rectangle", "width": 0.02, "height": 0.01}}}}}},
-          "joints": {{{}, {}}},
-          "loads": {{"press": {{"type": "force", "body": "bar", "at": [1, 0, 0], "direction": [-1, 0, 0],
-                               "value": {{"type": "ramp", "to": {}, "end": 0.05}}}}}}}},
-        "simulation": {{"end_time": 1, "step": 0.0025}},
-        "responses": {{"mass": {{"type": "mass"}}}}}})j",
-                               end("a", is_clamped ? R"("fixed")" : R"("revolute")", 0),
-                               end("b",
-                                   is_clamped ? R"("prismatic", "axis": [1, 0, 0])"
-                                              : R"("point-on-line", "axis": [1, 0, 0])",
-                                   1),
-                               press)),
-        check_stability);
+    const std::string first = "[0, 0, 0]", last = "[1, 0, 0]", along = R"("axis": [1, 0, 0])";
+    const std::string clamps = on_ground("a", "fixed", "bar", first) + ", " +
+                               on_ground("b", "prismatic", "bar", last, along);
+    const OneBeam bar{
+        .name = "bar",
+        .material = "light",
+        .section = rectangle(0.02, 0.01),
+        .elements = 1,
+        .more = R"("damping": {"stiffness": 1e-4})",
+        .materials = R"("light": {"young": 2.1e11, "poisson": 0.3, "density": 100})",
+        .joints = ends == "clamps" ? clamps : on_two_supports("bar"),
+        .end_loads = {{fmt::format(R"({{"type": "ramp", "to": {}, "end": 0.05}})", press),
+                       "[-1, 0, 0]"}},
+        .simulation = time_loop(1.0, 0.0025)};
+    return findings_of(bar.problem(), check_stability);
   };
   const double pins = std::numbers::pi * std::numbers::pi * 2.0 * stiffness;
   for (const auto& [ends, load] : {std::pair("pins", pins), std::pair("clamps", 4.0 * pins)}) {
@@ -142,19 +132,19 @@ TEST(MotionStability, OfAColumnIsLostWhateverItsElements) {
 std::vector<Finding> findings_of_pulsating(double share, double speed) {
   constexpr double bending = 7e10 * 0.01 * 1e-6 / 12, wave = 9.869604401089358;
   const double frequency = wave * std::sqrt(bending / (2700 * 1e-4));
-  return findings_of(read_scene(fmt::format(R"({{"scene": {{"gravity": [0, 0, 0],
-      "materials": {{"m": {{"young": 7e10, "poisson": 0.3, "density": 2700}}}},
-      "bodies": {{"c": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "m",
-        "section": {{"type": "rectangle", "width": 0.01, "height": 0.01}}, "elements": 6,
-        "damping": {{"stiffness": 1e-6}}}}}},
-      "joints": {{"a": {{"type": "revolute", "bodies": ["ground", "c"], "at": [0, 0, 0]}},
-        "l": {{"type": "point-on-line", "bodies": ["ground", "c"], "at": [1, 0, 0], "axis": [1, 0, 0]}}}},
-      "loads": {{"P": {{"type": "force", "body": "c", "at": [1, 0, 0], "direction": [-1, 0, 0],
-        "value": {{"type": "harmonic", "amplitude": {}, "frequency": {}}}}}}}}},
-    "simulation": {{"end_time": 0.5, "step": 5e-4}},
-    "responses": {{"mass": {{"type": "mass"}}}}}})",
-                                            share * wave * bending, speed * frequency)),
-                     check_stability);
+  const OneBeam strut{
+      .name = "c",
+      .material = "aluminium",
+      .section = rectangle(0.01, 0.01),
+      .elements = 6,
+      .more = R"("damping": {"stiffness": 1e-6})",
+      .materials = plain_aluminium,
+      .joints = on_two_supports("c"),
+      .end_loads = {{fmt::format(R"({{"type": "harmonic", "amplitude": {}, "frequency": {}}})",
+                                 share * wave * bending, speed * frequency),
+                     "[-1, 0, 0]"}},
+      .simulation = time_loop(0.5, 5e-4)};
+  return findings_of(strut.problem(), check_stability);
 }
 
 TEST(MotionStability, OfAStrutIsLostInParametricResonance) {
@@ -165,32 +155,29 @@ TEST(MotionStability, OfAStrutIsLostInParametricResonance) {
 
 /// Beyond the load of buckling, but for a twentieth of a period only.
 TEST(MotionStability, IsMentionedWhereItIsLostForTooShortATimeToHarm) {
-  const std::string pulse =
-      R"({"type": "half-sine", "amplitude": 600, "duration": 2e-3, "begin": 1e-3})";
-  std::string text = fmt::format(R"({{"scene": {{
-      "bodies": {{"bar": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "elements": 6,
-        "material": "steel", "damping": {{"stiffness": 1e-5}},
-        "section": {{"type": "rectangle", "width": 0.01, "height": 0.01}}}}}},
-      "joints": {{{}}},
-      "loads": {{"press": {{"type": "force", "body": "bar", "at": [1, 0, 0], "direction": [-1, 0, 0],
-        "value": {}}}}}}},
-    "effects": {{"spatial_motion": "on"}},
-    "simulation": {{"end_time": 0.02, "step": 1e-4}},
-    "responses": {{"mass": {{"type": "mass"}}}}}})",
-                                 clamp, pulse);
-  const Finding finding = only(findings_of(read_scene(text), check_stability));
+  const OneBeam bar{
+      .name = "bar",
+      .section = rectangle(0.01, 0.01),
+      .elements = 6,
+      .more = R"("damping": {"stiffness": 1e-5})",
+      .end_loads = {{R"({"type": "half-sine", "amplitude": 600, "duration": 2e-3, "begin": 1e-3})",
+                     "[-1, 0, 0]"}},
+      .simulation = time_loop(0.02, 1e-4),
+      .rest = R"("effects": {"spatial_motion": "on"})"};
+  const Finding finding = only(findings_of(bar.problem(), check_stability));
   EXPECT_FALSE(finding.is_serious) << finding.text;
 }
 
 std::vector<Finding> findings_of_pendulum(double tip, const std::string& start) {
-  return findings_of(read_scene(fmt::format(R"({{"scene": {{"gravity": [0, -9.81, 0],
-      "bodies": {{"rod": {{"type": "beam", "from": [0, 0, 0], "to": [0, {}, 0], "elements": 3,
-        "material": "steel", "section": {{"type": "circle", "diameter": 0.02}}}}}},
-      "joints": {{"p": {{"type": "revolute", "bodies": ["ground", "rod"], "at": [0, 0, 0]}}}}}},
-    "simulation": {{"end_time": 0.1, "step": 0.01, "initial_state": "{}"}},
-    "responses": {{"mass": {{"type": "mass"}}}}}})",
-                                            tip, start)),
-                     check_stability);
+  const OneBeam rod{
+      .name = "rod",
+      .to = fmt::format("[0, {}, 0]", tip),
+      .section = circle(0.02),
+      .elements = 3,
+      .joints = on_ground("p", "revolute", "rod", "[0, 0, 0]"),
+      .gravity = "[0, -9.81, 0]",
+      .simulation = time_loop(0.1, 0.01, fmt::format(R"("initial_state": "{}")", start))};
+  return findings_of(rod.problem(), check_stability);
 }
 
 /// Upside down it falls as exp(√(3g/2L) t), which its motion, exactly upright, does not show. Who does

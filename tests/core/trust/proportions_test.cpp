@@ -280,15 +280,14 @@ TEST(FarLimit, IsNoneThatIsBrokenByLessOrZero) {
 }
 
 std::vector<Finding> findings_at(const std::string& place) {
-  return findings_of(read_scene(fmt::format(R"j({{"scene": {{
-    "bodies": {{"bar": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel", "elements": 4,
-      "section": {{"type": "circle", "diameter": "40 mm"}}}}}},
-    "joints": {{"clamp": {{"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}}}},
-    "loads": {{"push": {{"type": "force", "body": "bar", "at": ["{}", 0, 0], "direction": [0, -1, 0], "value": 1}}}}}},
-  "simulation": {{"end_time": "2 ms", "step": "1 ms"}},
-  "responses": {{"mass": {{"type": "mass"}}}}}})j",
-                                            place)),
-                     check_lost_places);
+  const OneBeam bar{
+      .name = "bar",
+      .section = circle(0.04),
+      .loads = fmt::format(
+          R"("push": {{"type": "force", "body": "bar", "at": ["{}", 0, 0], "direction": [0, -1, 0], "value": 1}})",
+          place),
+      .simulation = time_loop(2e-3, 1e-3)};
+  return findings_of(bar.problem(), check_lost_places);
 }
 
 /// A thousandth of the element is 0.25 mm; a millionth of the length is rounding.
@@ -304,18 +303,19 @@ TEST(LostPlaces, AreToldBetweenRoundingAndAnElement) {
 // is 3.33 MPa about its strong axis and 10 MPa about the weak one.
 
 ProblemFile post(double aside, const std::string& more = "", double width = 0.01) {
-  return read_scene(fmt::format(
-      R"j({{"scene": {{"gravity": [0, 0, 0],
-        "bodies": {{"post": {{"type": "beam", "from": [0, 0, 0], "to": [0, "= aside", 0.5],
-          "material": "steel", "elements": 2, {1}
-          "section": {{"type": "rectangle", "width": {2}, "height": 0.03}}}}}},
-        "joints": {{"wall": {{"type": "fixed", "bodies": ["ground", "post"], "at": [0, 0, 0]}}}},
-        "loads": {{"push": {{"type": "force", "body": "post", "at": [0, "= aside", 0.5],
-                           "direction": [0, 1, 0], "value": 10}}}}}},
-      "simulation": {{"end_time": 0.01, "step": 0.005, "initial_state": "quasi-static"}},
-      "variables": {{"aside": {{"start": "{0} m", "lower": "-0.1 m", "upper": "0.1 m"}}}},
-      "responses": {{"stress": {{"type": "stress", "body": "post", "over_time": "max"}}}}}})j",
-      aside, more, width));
+  return OneBeam{
+      .name = "post",
+      .to = R"([0, "= aside", 0.5])",
+      .section = rectangle(width, 0.03),
+      .elements = 2,
+      .more = more,
+      .end_loads = {{10.0}},
+      .simulation = at_rest(0.01, 0.005),
+      .responses = R"("stress": {"type": "stress", "body": "post", "over_time": "max"})",
+      .rest = fmt::format(
+          R"("variables": {{"aside": {{"start": "{} m", "lower": "-0.1 m", "upper": "0.1 m"}}}})",
+          aside)}
+      .problem();
 }
 
 double stress(const ProblemFile& problem) {
@@ -334,7 +334,7 @@ TEST(SectionAxes, AreDoubtedWhereTheSectionTurnsWithTheDesign) {
 
 TEST(SectionAxes, AreNotDoubtedWhereNothingTurns) {
   EXPECT_THAT(findings_of(post(0.05), check_section_axes), IsEmpty());
-  EXPECT_THAT(findings_of(post(0.0, R"("reference": [0, 1, 0],)"), check_section_axes), IsEmpty());
+  EXPECT_THAT(findings_of(post(0.0, R"("reference": [0, 1, 0])"), check_section_axes), IsEmpty());
   EXPECT_THAT(findings_of(post(0.0, "", 0.03), check_section_axes), IsEmpty());
   ProblemFile fixed = post(0.0);
   fixed.variables[0].lower = fixed.variables[0].upper = 0.0;

@@ -332,19 +332,21 @@ struct TautBeam {
   }
 
   static ProblemFile with(int elements, int frames) {
-    return problem_from(fmt::format(R"({{"scene": {{
-      "materials": {{"s": {{"young": 210e9, "poisson": 0.3, "density": 7850}}}},
-      "bodies": {{"b": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "s",
-        "section": {{"type": "rectangle", "width": 0.08, "height": 0.01}}, "frame": "chord",
-        "elements": {}, "frames": {}}}}},
-      "joints": {{"a": {{"type": "revolute", "bodies": ["ground", "b"], "at": [0, 0, 0]}},
-                 "e": {{"type": "point-on-line", "bodies": ["ground", "b"], "at": [1, 0, 0], "axis": [1, 0, 0]}}}},
-      "loads": {{"P": {{"type": "force", "body": "b", "at": [1, 0, 0], "direction": [1, 0, 0], "value": {}}},
-                "Q": {{"type": "force", "body": "b", "at": [0.5, 0, 0], "direction": [0, 1, 0], "value": {}}}}}}},
-    "simulation": {{"end_time": 0.02, "step": 0.001, "initial_state": "quasi-static"}},
-    "responses": {{"M": {{"type": "section-force", "body": "b", "at": 0.5, "part": "moment-z",
-                        "over_time": "max-abs"}}}}}})",
-                                    elements, frames, tension, force));
+    return OneBeam{
+        .name = "b",
+        .section = rectangle(0.08, 0.01),
+        .elements = elements,
+        .more = fmt::format(R"("frame": "chord", "frames": {})", frames),
+        .materials = plain_steel,
+        .joints = on_two_supports("b"),
+        .end_loads = {{tension, "[1, 0, 0]"}},
+        .loads = fmt::format(
+            R"("Q": {{"type": "force", "body": "b", "at": [0.5, 0, 0], "direction": [0, 1, 0], "value": {}}})",
+            force),
+        .simulation = at_rest(0.02, 0.001),
+        .responses =
+            R"("M": {"type": "section-force", "body": "b", "at": 0.5, "part": "moment-z", "over_time": "max-abs"})"}
+        .problem();
   }
 };
 
@@ -379,15 +381,15 @@ TEST(ErrorBars, HoldWhereLoadsDivideTheMesh) {
   for (const auto& [elements, places] : meshes) {
     std::vector<std::string> loads;
     for (const double at : places) loads.push_back(load(at));
-    const ProblemFile problem = problem_from(fmt::format(R"({{"scene": {{
-      "materials": {{"s": {{"young": 210e9, "poisson": 0.3, "density": 7850}}}},
-      "bodies": {{"b": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "s",
-        "section": {{"type": "rectangle", "width": 0.002, "height": 0.001}}, "elements": {}}}}},
-      "joints": {{"a": {{"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]}}}},
-      "loads": {{{}}}}},
-    "simulation": {{"end_time": 2e-6, "step": 1e-6}},
-    "responses": {{"f": {{"type": "frequency", "body": "b", "direction": "y", "mode": 2}}}}}})",
-                                                         elements, fmt::join(loads, ", ")));
+    const OneBeam beam{
+        .name = "b",
+        .section = rectangle(0.002, 0.001),
+        .elements = elements,
+        .materials = plain_steel,
+        .loads = fmt::format("{}", fmt::join(loads, ", ")),
+        .simulation = time_loop(2e-6, 1e-6),
+        .responses = R"("f": {"type": "frequency", "body": "b", "direction": "y", "mode": 2})"};
+    const ProblemFile problem = beam.problem();
     const StartRun start(problem);
     const Resolution found = judge_resolution(start.run());
     const double exact = 22.034491564666766 * std::sqrt(210e9 / 7850 / 12.0) * 0.001;

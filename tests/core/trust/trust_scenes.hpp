@@ -14,23 +14,16 @@
 #include "core/trust/model_variants.hpp"
 #include "core/trust/sideways_buckling.hpp"
 #include "core/trust/stability.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/bent_cantilever.hpp"
-#include "tests/support/problem_runs.hpp"
+#include "tests/support/one_beam.hpp"
 
 namespace pleuel::test {
 
 /// A problem, simulated at its start design, and what its findings are made from.
-struct StartRun {
-  ProblemFile problem;
-  Eigen::VectorXd x;
-  std::unique_ptr<Analysis> analysis;
-  Monitors monitors;
-
-  explicit StartRun(ProblemFile file)
-      : problem(std::move(file)),
-        x(start_design(problem)),
-        analysis(analyze(problem, x)),
-        monitors(monitor(analysis->model, analysis->trajectory)) {}
+struct StartRun : AtStart {
+  using AtStart::AtStart;
+  Monitors monitors = monitor(analysis->model, analysis->trajectory);
 
   TrustedRun run() const { return {problem, x, *analysis, monitors}; }
 };
@@ -55,8 +48,8 @@ inline std::vector<Finding> check_variants(const TrustedRun& run) {
 
 /// What all kinds of findings say of it.
 inline std::vector<Finding> findings_of(const ProblemFile& problem) {
-  const Eigen::VectorXd x = start_design(problem);
-  return check_run(problem, x, *analyze(problem, x));
+  const auto [x, analysis] = started(problem);
+  return check_run(problem, x, *analysis);
 }
 
 inline ProblemFile read_scene(const std::string& text,
@@ -118,37 +111,33 @@ struct LoadedBeam {
   double load_at = 1.0;  ///< of a cantilever [m]
 
   ProblemFile problem() const {
-    const std::string clamp =
-        R"({"a": {"type": "fixed", "bodies": ["ground", "beam"], "at": [0, 0, 0]}})";
-    const std::string pins =
-        R"({"a": {"type": "revolute", "bodies": ["ground", "beam"], "at": [0, 0, 0]},
-            "b": {"type": "point-on-line", "bodies": ["ground", "beam"], "at": [1, 0, 0], "axis": [1, 0, 0]}})";
-    return problem_from(fmt::format(R"({{"name": "stubby", "scene": {{"gravity": [0, 0, 0],
-          "materials": {{"steel": {{"young": 2.1e11, "poisson": 0.3, "density": 7850}}}},
-          "bodies": {{"beam": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0],
-            "material": "steel", "section": {}, "elements": {}, "frames": {}, "frame": "{}"{}}}}},
-          "joints": {}, "loads": {{"push": {{"type": "force", "body": "beam", "at": [{}, 0, 0],
-            "direction": {}, "value": 1}}}}}},
-        "simulation": {{"end_time": 2e-6, "step": 1e-6, "initial_state": "quasi-static"}},
-        "responses": {{"asked": {}}}}})",
-                                    section, elements, frames, frame, more,
-                                    is_pinned ? pins : clamp, is_pinned ? 0.5 : load_at, direction,
-                                    response));
+    const double at = is_pinned ? 0.5 : load_at;
+    return OneBeam{
+        .section = section,
+        .elements = elements,
+        .more = fmt::format(R"("frames": {}, "frame": "{}"{})", frames, frame, more),
+        .materials = plain_steel,
+        .joints = is_pinned ? on_two_supports("beam") : "",
+        .loads = fmt::format(R"("push": {{"type": "force", "body": "beam", "at": [{}, 0, 0],
+                                         "direction": {}, "value": 1}})",
+                             at, direction),
+        .simulation = at_rest(2e-6, 1e-6),
+        .responses = R"("asked": )" + response}
+        .problem();
   }
 };
 
 struct ShearedBeam : StartRun {
   explicit ShearedBeam(const LoadedBeam& beam) : StartRun(beam.problem()) {}
   double share() const {
-    State state;
-    analysis->trajectory.states->load(0, state);
-    return shear_share(problem, x, analysis->model, "beam", state);
+    return shear_share(problem, x, analysis->model, "beam", state_of(analysis->trajectory, 0));
   }
   std::vector<Finding> findings() const { return check_variants(run()); }
 };
 
+/// Of 50 mm.
 inline std::string rectangle(double height) {
-  return fmt::format(R"({{"type": "rectangle", "width": 0.05, "height": {}}})", height);
+  return test::rectangle(0.05, height);
 }
 
 /// The number before " %".
