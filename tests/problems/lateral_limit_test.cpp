@@ -193,8 +193,7 @@ ProblemFile mast(const std::string& responses_and_limits) {
 
 Result optimized(const ProblemFile& file, const std::string& backend = "nlopt-slsqp") {
   DesignProblem design(file);
-  SolveOptions options;
-  options.backend = backend;
+  SolveOptions options{.backend = backend};
   return solve_design(design, options);
 }
 

@@ -37,8 +37,7 @@ constexpr double best_p = -0.05, best_value = 0.1225;
 
 Result optimized(const ProblemFile& file, const std::string& backend = "nlopt-slsqp") {
   DesignProblem design(file);
-  SolveOptions options;
-  options.backend = backend;
+  SolveOptions options{.backend = backend};
   return solve_design(design, options);
 }
 

@@ -94,8 +94,7 @@ TEST(MultiStart, SearchesFromEachDesignAsIfThatWereTheOnlyOne) {
   file.accuracy.target = 1e-3;
   file.accuracy.chooses_setting = true;
   const auto starts = starts_of(file, Eigen::VectorXd::Constant(1, 0.4), 2);
-  SolveOptions options;
-  options.starts = 2;
+  SolveOptions options{.starts = 2};
   const MultiStart all = solve_from_starts(file, starts, options, {{.jobs = 2}});
   const std::size_t best = all.optima.at(0).starts.at(0);
   const StagedSolution alone = solve_in_stages(file, starts.at(best), options, {});

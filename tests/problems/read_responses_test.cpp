@@ -22,17 +22,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Simulated {
-  ProblemFile problem;
-  std::unique_ptr<Analysis> analysis;
-
-  explicit Simulated(const char* text)
-      : problem(read_problem_text(text, "test.json").complete()),
-        analysis(analyze(problem, start_design(problem))) {}
-
-  double value(const char* name) const {
-    return analysis->reductions[response_index(problem, name)].value;
-  }
+struct Simulated : AtStart {
+  using AtStart::AtStart;
   Eigen::RowVectorXd gradient(const char* name) {
     return direct_gradients(*analysis).row(response_index(problem, name));
   }

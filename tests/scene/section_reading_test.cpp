@@ -207,16 +207,11 @@ struct LoadedBeam {
   std::vector<Number> places;
 
   Scene scene() const {
-    BeamBody beam;
-    beam.from = {0.0, 0.0, 0.0};
-    beam.to = {1.0, 0.0, 0.0};
-    beam.segments = segments;
+    BeamBody beam{.from = {0.0, 0.0, 0.0}, .to = {1.0, 0.0, 0.0}, .segments = segments};
     Scene scene;
     scene.bodies.push_back({"beam", beam});
     for (const Number& place : places) {
-      PointForce force;
-      force.body = "beam";
-      force.at = {place, 0.0, 0.0};
+      PointForce force{.body = "beam", .at = {place, 0.0, 0.0}};
       scene.loads.push_back({"load", force});
     }
     return scene;

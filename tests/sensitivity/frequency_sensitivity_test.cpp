@@ -282,18 +282,6 @@ ProblemFile problem_with(const std::string& rod_frame) {
   return problem;
 }
 
-struct Simulated {
-  ProblemFile problem;
-  std::unique_ptr<Analysis> analysis;
-
-  explicit Simulated(const std::string& rod_frame)
-      : problem(problem_with(rod_frame)), analysis(analyze(problem, start_design(problem))) {}
-
-  Eigen::VectorXd history(const std::string& response) const {
-    return analysis->histories[response_index(problem, response)].row(0);
-  }
-};
-
 /// ∫∫(Ω/T)(1 − cos 2πt/T), then Ω t
 double crank_angle(double t) {
   const double pi = std::acos(-1.0), w = 2.0 * pi / ramp;
@@ -302,7 +290,7 @@ double crank_angle(double t) {
 }
 
 TEST(DeflectionAgainstTheChord, IsThatInAChordFrame) {
-  const Simulated run("chord");
+  const AtStart run(problem_with("chord"));
   const Eigen::VectorXd frame = run.history("bow_from_frame"),
                         chord = run.history("bow_from_chord");
   EXPECT_GT(frame.lpNorm<Eigen::Infinity>(), 1e-5);
@@ -311,7 +299,7 @@ TEST(DeflectionAgainstTheChord, IsThatInAChordFrame) {
 
 /// Two frames differ by what is of second order: some δ/L = 1e-3 of the deflection.
 TEST(DeflectionAgainstTheChord, IsThatOfATangentFrame) {
-  const Simulated chord("chord"), tangent("tangent");
+  const AtStart chord(problem_with("chord")), tangent(problem_with("tangent"));
   const Eigen::VectorXd expected = chord.history("bow_from_chord"),
                         found = tangent.history("bow_from_chord");
   const double size = expected.lpNorm<Eigen::Infinity>();
@@ -322,7 +310,7 @@ TEST(DeflectionAgainstTheChord, IsThatOfATangentFrame) {
 /// The hub of the crank is prescribed, so the rigid crank is at R(φ) (0.12, 0), and the local y
 /// component of the difference is the deflection in the tangent frame.
 TEST(DeflectionAgainstTheRigidMechanism, IsThatFromThePrescribedMotion) {
-  const Simulated run("chord");
+  const AtStart run(problem_with("chord"));
   const Eigen::VectorXd x = run.history("tip_from_rigid_x"), y = run.history("tip_from_rigid_y"),
                         local = run.history("tip_from_frame");
   EXPECT_GT(local.lpNorm<Eigen::Infinity>(), 1e-5);
@@ -363,7 +351,7 @@ TEST(DeflectionReferences, LeaveOutHowTheRigidMechanismMovesWithTheDesign) {
 }
 
 TEST(DeflectionReferences, HaveTheGradientsOfDifferences) {
-  const Simulated run("tangent");
+  const AtStart run(problem_with("tangent"));
   const Eigen::VectorXd x = start_design(run.problem);
   const Eigen::MatrixXd direct = direct_gradients(*run.analysis) * x.asDiagonal();
   const Eigen::MatrixXd wide = central_differences(run.problem, x, 1e-3) * x.asDiagonal(),

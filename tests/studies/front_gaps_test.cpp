@@ -14,9 +14,7 @@ namespace {
 using Search = std::function<ParetoPoint(double limit)>;
 
 ParetoPoint point_at(double limit, double limited, double objective) {
-  ParetoPoint point;
-  point.limit = limit;
-  point.limited_value = limited;
+  ParetoPoint point{.limit = limit, .limited_value = limited};
   point.result.status = Status::verified;
   point.result.evaluation.objective = objective;
   point.result.evaluation.objective_gradient = Eigen::VectorXd::Zero(1);
@@ -24,8 +22,7 @@ ParetoPoint point_at(double limit, double limited, double objective) {
 }
 
 ParetoPoint failed_at(double limit) {
-  ParetoPoint point;
-  point.limit = limit;
+  ParetoPoint point{.limit = limit};
   return point;
 }
 

@@ -18,8 +18,7 @@ namespace {
 const std::vector<std::string> four_points = {"/pareto/points=4"};
 
 std::vector<ParetoPoint> front(const ProblemFile& problem) {
-  SolveOptions options;
-  options.backend = problem.optimizer.backend;
+  SolveOptions options{.backend = problem.optimizer.backend};
   return pareto_front(problem, options).points;
 }
 
@@ -44,8 +43,7 @@ TEST(Pareto, FirstPointIsTheOptimumOfTheProblemWithThatLimit) {
     if (constraint.name == problem.pareto->constraint) constraint.upper = problem.pareto->from;
   }
   DesignProblem design_problem(limited);
-  SolveOptions options;
-  options.backend = problem.optimizer.backend;
+  SolveOptions options{.backend = problem.optimizer.backend};
   const Result alone = solve_design(design_problem, options);
   EXPECT_DOUBLE_EQ(front(problem).front().result.evaluation.objective, alone.evaluation.objective);
 }
@@ -182,8 +180,7 @@ TEST(Pareto, OverALowerLimitHasMultipliersOfTheOtherSign) {
 
 TEST(Pareto, DoesNotDependOnTheNumberOfJobs) {
   const ProblemFile problem = test::quick_problem(four_points);
-  SolveOptions options;
-  options.backend = problem.optimizer.backend;
+  SolveOptions options{.backend = problem.optimizer.backend};
   std::vector<double> limits;
   const ParetoObserver note = [&](const ParetoPoint& point) { limits.push_back(point.limit); };
   const std::vector<ParetoPoint> one = pareto_front(problem, options, {{.jobs = 1}}, note).points;

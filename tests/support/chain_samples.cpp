@@ -130,19 +130,13 @@ SampleScene spatial_sample() {
 namespace {
 
 RigidBody rigid_body(const Point& at, const Number& mass) {
-  RigidBody body;
-  body.at = at;
-  body.mass = mass;
-  body.inertia = {0.011, 0.017, 0.014, 0.002, -0.001, 0.0015};
+  RigidBody body{.at = at, .mass = mass, .inertia = {0.011, 0.017, 0.014, 0.002, -0.001, 0.0015}};
   return body;
 }
 
 /// Symmetric about the x–y plane.
 RigidBody planar_body(const Point& at, const Number& mass, const Number& inertia) {
-  RigidBody body;
-  body.at = at;
-  body.mass = mass;
-  body.inertia = {0.012, 0.012, inertia, 4e-5, 0.0, 0.0};
+  RigidBody body{.at = at, .mass = mass, .inertia = {0.012, 0.012, inertia, 4e-5, 0.0, 0.0}};
   return body;
 }
 

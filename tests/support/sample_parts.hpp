@@ -35,12 +35,7 @@ class SceneWriter {
 
 inline Joint joint(const std::string& name, JointType type, const std::string& first,
                    const std::string& second, const Point& at, const std::array<double, 3>& axis) {
-  Joint result;
-  result.name = name;
-  result.type = type;
-  result.bodies = {first, second};
-  result.at = at;
-  result.axis = axis;
+  Joint result{.name = name, .type = type, .bodies = {first, second}, .at = at, .axis = axis};
   return result;
 }
 

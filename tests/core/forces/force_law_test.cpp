@@ -387,8 +387,7 @@ Matrix3d second_moment() {
 }
 
 BodyFrame wheel_frame() {
-  BodyFrame frame;
-  frame.rotation = RotationCoordinates::angle;
+  BodyFrame frame{.rotation = RotationCoordinates::angle};
   frame.basis.resize(3, 0);
   return frame;
 }
@@ -428,8 +427,7 @@ TEST(TorsionSpring, MakesABodyInSpaceSwingAsTheTextbookSays) {
 /// Weight F at the distance l below the pivot: ω² = F l / I. A force that follows the body does
 /// not bring it back.
 TEST(PointForce, MakesAPendulumOnlyWhenFixedInSpace) {
-  Marker wheel;
-  wheel.frame = wheel_frame();
+  Marker wheel{.frame = wheel_frame()};
   for (const auto& [direction, square] :
        {std::pair{LoadDirection::space, 30.0 * 0.7 / 0.5}, {LoadDirection::body, 0.0}}) {
     const PointForceData<double> data{

@@ -44,8 +44,7 @@ struct Outcome {
 
 /// While the drive accelerates.
 Outcome run(const std::array<double, 3>& axis, EffectChoice spatial) {
-  EffectSettings effects;
-  effects.spatial_motion = spatial;
+  EffectSettings effects{.spatial_motion = spatial};
   Model model = build_model(driven_bar(axis), effects, {}, {});
   const Trajectory trajectory =
       simulate(model.mechanism, {{.end_time = 0.05, .step = 1e-3, .spectral_radius = 0.8}});
@@ -106,8 +105,7 @@ Scene inclined_beams(JointType type, const std::array<double, 3>& axis) {
 
 /// How far the second beam has turned about +z at the end.
 double turn_of(const Scene& scene, EffectChoice spatial, double end_time) {
-  EffectSettings effects;
-  effects.spatial_motion = spatial;
+  EffectSettings effects{.spatial_motion = spatial};
   Model model = build_model(scene, effects, {}, {});
   EXPECT_EQ(model.body("second").frame.rotation == RotationCoordinates::angle,
             spatial == EffectChoice::automatic);

@@ -57,8 +57,7 @@ TEST(Pendulum, IsAfterFourPeriodsWhereTheEllipticFunctionsPutIt) {
 
 struct FourBars {
   explicit FourBars(int count) {
-    Scene scene;
-    scene.gravity = {0.0, -9.81, 0.0};
+    Scene scene{.gravity = {0.0, -9.81, 0.0}};
     for (int i = 0; i <= count; ++i) {
       Body bar{"upright " + std::to_string(i), body_at(i, 0.5, 1.0, 1.0 / 12)};
       bar.velocity = {0.5, 0.0, 0.0};
@@ -365,8 +364,7 @@ struct SpinUp {
     scene.gravity = {0.0, 0.0, 0.0};
     scene.materials[0] = {"steel", 2.8e7 / depth, 0.3, 1.2 / depth};
     scene.joints[0].drive = RampToSpeedDrive{speed, ramp};
-    EffectSettings effects;
-    effects.geometric_stiffening = stiffening;
+    EffectSettings effects{.geometric_stiffening = stiffening};
     Model model = build_model(scene, effects, {}, {});
     trajectory = simulate(model.mechanism, {end_time, 5e-3, 0.8});
     tip = trajectory.columns().q().row(model.bodies[0].coordinate(8, 1));

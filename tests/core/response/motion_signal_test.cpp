@@ -70,11 +70,9 @@ TEST_P(MotionAlong, OfObliqueAxesIsTheMassMatrix) {
 /// A point mass at 3 m/s along y and 4 m/s along z: m v² along each.
 TEST(MotionAlong, OfAPointMassIsThatOfItsVelocity) {
   Scene scene;
-  PointMass body;
-  body.mass = 2.0;
+  PointMass body{.mass = 2.0};
   scene.bodies = {{"ball", body}};
-  EffectSettings effects;
-  effects.spatial_motion = EffectChoice::on;
+  EffectSettings effects{.spatial_motion = EffectChoice::on};
   const Model model = build_model(scene, effects, {}, {});
   const State state(model.mechanism.system->coordinates(), 0);
   const Eigen::Vector3d velocity(0.0, 3.0, 4.0);

@@ -112,24 +112,17 @@ TEST(Frequency, ThatIsNotAlongAnAxisIsAnErrorThatSaysSo) {
 
 /// Without elasticity, as the price of that effect is measured.
 TEST(Frequency, OfABodyThatIsRigidIsAnErrorThatSaysSo) {
-  EffectSettings effects;
-  effects.elasticity = EffectChoice::off;
+  EffectSettings effects{.elasticity = EffectChoice::off};
   const Model model = build_model(cantilever(), effects, {}, {});
   EXPECT_THROW(body_frequency(model.body("beam"), ModeChoice{0}, 0), InputError);
   EXPECT_THROW(body_frequency(model.body("beam"), ModeChoice{0, {{0, 1, 0}}}, 0), SimulationError);
 }
 
 Scene hanging_body() {
-  Scene scene;
-  scene.gravity = {0.0, -9.81, 0.0};
-  RigidBody body;
-  body.at = {0.0, -0.4, 0.0};
-  body.mass = 0.7;
-  body.inertia = {0.01, 0.02, 0.03, 0.0, 0.0, 0.0};
+  Scene scene{.gravity = {0.0, -9.81, 0.0}};
+  RigidBody body{.at = {0.0, -0.4, 0.0}, .mass = 0.7, .inertia = {0.01, 0.02, 0.03, 0.0, 0.0, 0.0}};
   scene.bodies = {{"bob", body}};
-  Joint joint;
-  joint.name = "bearing";
-  joint.bodies = {ground_name, "bob"};
+  Joint joint{.name = "bearing", .bodies = {ground_name, "bob"}};
   scene.joints = {joint};
   return scene;
 }
@@ -149,9 +142,7 @@ TEST(Frequency, OfAPhysicalPendulumIsThatOfItsWeight) {
 /// space with Ω I_z/I_x (and the axis of rotation in the body with Ω |I_z − I_x|/I_x).
 TEST(Frequency, OfAFreeTopIsThatOfItsGyroscopicForces) {
   Scene scene;
-  RigidBody body;
-  body.mass = 1.0;
-  body.inertia = {0.02, 0.02, 0.03, 0.0, 0.0, 0.0};
+  RigidBody body{.mass = 1.0, .inertia = {0.02, 0.02, 0.03, 0.0, 0.0, 0.0}};
   Body top{"top", body};
   top.angular_velocity = {0.0, 0.0, 50.0};
   scene.bodies = {top};
@@ -163,13 +154,10 @@ TEST(Frequency, OfAFreeTopIsThatOfItsGyroscopicForces) {
 }
 
 TEST(Frequency, ThatDoesNotExistIsAnErrorThatSaysHowManyThereAre) {
-  ProblemFile problem;
-  problem.scene = hanging_body();
+  ProblemFile problem{.scene = hanging_body()};
   problem.simulation.end_time = 1e-3;
   problem.simulation.step = 1e-3;
-  ResponseSettings settings;
-  settings.name = "fifth";
-  settings.type = ResponseType::frequency;
+  ResponseSettings settings{.name = "fifth", .type = ResponseType::frequency};
   settings.mode.number = 4;
   problem.responses = {settings};
   EXPECT_EQ(thrown<InputError>([&] { analyze(problem, {}); }),

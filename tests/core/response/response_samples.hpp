@@ -16,8 +16,7 @@ using namespace pleuel;
 
 /// In the plane as far as the scene allows, or in space.
 inline EffectSettings in_motion(EffectChoice spatial) {
-  EffectSettings effects;
-  effects.spatial_motion = spatial;
+  EffectSettings effects{.spatial_motion = spatial};
   return effects;
 }
 
@@ -38,9 +37,7 @@ inline SampleScene sample_with_strength(int index) {
 }
 
 inline void add_beam_responses(const BodyModel& body, std::vector<ResponseSettings>& all) {
-  ResponseSettings settings;
-  settings.bodies = {body.name};
-  settings.type = ResponseType::stress;
+  ResponseSettings settings{.type = ResponseType::stress, .bodies = {body.name}};
   for (StressPart part : {StressPart::von_mises, StressPart::normal, StressPart::axial,
                           StressPart::bending, StressPart::shear, StressPart::utilization}) {
     settings.part = part;
@@ -93,8 +90,7 @@ inline void add_lateral_buckling(const BodyModel& body, const Model& model,
 }
 
 inline void add_spin_responses(const BodyModel& body, std::vector<ResponseSettings>& all) {
-  ResponseSettings settings;
-  settings.bodies = {body.name};
+  ResponseSettings settings{.bodies = {body.name}};
   for (ResponseType type : {ResponseType::angular_velocity, ResponseType::angular_acceleration}) {
     settings.type = type;
     for (int direction : {0, 1, 2, magnitude_direction}) {
@@ -111,8 +107,7 @@ inline void add_spin_responses(const BodyModel& body, std::vector<ResponseSettin
 }
 
 inline void add_joint_motion(const JointModel& joint, std::vector<ResponseSettings>& all) {
-  ResponseSettings settings;
-  settings.joint = joint.name;
+  ResponseSettings settings{.joint = joint.name};
   for (ResponseType type : {ResponseType::joint_position, ResponseType::joint_velocity}) {
     settings.type = type;
     settings.name = joint.name + " motion " + std::to_string(static_cast<int>(type));
@@ -125,8 +120,7 @@ inline void add_joint_motion(const JointModel& joint, std::vector<ResponseSettin
 }
 
 inline void add_load_responses(const LoadModel& load, std::vector<ResponseSettings>& all) {
-  ResponseSettings settings;
-  settings.load = load.name;
+  ResponseSettings settings{.load = load.name};
   for (ResponseType type : {ResponseType::spring_length, ResponseType::spring_force,
                             ResponseType::motor_power, ResponseType::damper_power}) {
     settings.type = type;
@@ -136,9 +130,7 @@ inline void add_load_responses(const LoadModel& load, std::vector<ResponseSettin
 }
 
 inline void add_motion_responses(const BodyModel& body, std::vector<ResponseSettings>& all) {
-  ResponseSettings settings;
-  settings.bodies = {body.name};
-  settings.at = 0.7;
+  ResponseSettings settings{.bodies = {body.name}, .at = 0.7};
   for (ResponseType type :
        {ResponseType::position, ResponseType::velocity, ResponseType::acceleration}) {
     settings.type = type;
@@ -156,8 +148,7 @@ inline void add_motion_responses(const BodyModel& body, std::vector<ResponseSett
 }
 
 inline void add_joint_responses(const JointModel& joint, std::vector<ResponseSettings>& all) {
-  ResponseSettings settings;
-  settings.joint = joint.name;
+  ResponseSettings settings{.joint = joint.name};
   for (ResponseType type : {ResponseType::reaction_force, ResponseType::reaction_moment}) {
     settings.type = type;
     for (int direction : {0, 1, 2, magnitude_direction}) {
@@ -192,8 +183,7 @@ inline void add_monitor_responses(const Model& model, std::vector<ResponseSettin
   }
   add_energy(ResponseType::energy_balance, {}, all);
   if (model.mechanism.system->multipliers() == 0) return;
-  ResponseSettings settings;
-  settings.type = ResponseType::constraint_drift;
+  ResponseSettings settings{.type = ResponseType::constraint_drift};
   for (DriftLevel level : {DriftLevel::position, DriftLevel::velocity}) {
     settings.level = level;
     settings.name = "drift " + std::to_string(static_cast<int>(level));
@@ -245,10 +235,7 @@ inline Eigen::Vector3d reaction(const Model& model, const std::string& joint, Re
                                 const State& state) {
   Eigen::Vector3d components;
   for (int direction : {0, 1, 2}) {
-    ResponseSettings settings;
-    settings.type = type;
-    settings.joint = joint;
-    settings.direction = direction;
+    ResponseSettings settings{.type = type, .direction = direction, .joint = joint};
     components(direction) = observed(model, settings, state);
   }
   return components;

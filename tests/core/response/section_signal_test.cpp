@@ -125,9 +125,7 @@ TEST(StressPart, AtOnePlaceIsThatOfItsSection) {
 }
 
 double buckling(const Model& model, const State& state) {
-  ResponseSettings settings;
-  settings.type = ResponseType::buckling;
-  settings.bodies = {"beam"};
+  ResponseSettings settings{.type = ResponseType::buckling, .bodies = {"beam"}};
   const auto responses = make_responses({settings}, model);
   return observed(*responses.front().history()->signal, state).maxCoeff();
 }
@@ -161,8 +159,7 @@ TEST(Buckling, OfATaperedMemberIsThatOfItsWeakestSection) {
     std::get<BeamBody>(scene.bodies[0].shape).segments = {{rectangle(0.05, 0.03), 2, {}},
                                                           {rectangle(0.04, 0.012), 2, {}},
                                                           {rectangle(0.02, 0.016), 2, {}}};
-    EffectSettings effects;
-    effects.geometric_stiffening = EffectChoice::off;
+    EffectSettings effects{.geometric_stiffening = EffectChoice::off};
     const Model model = build_model(scene, effects, {}, {});
     // I: 50·30³, 40·12³ = 69120, 20·16³ = 81920 by twelve; over the other side 16·20³ = 128000.
     const double least = 40 * std::pow(12.0, 3) / 12 * 1e-12;
@@ -219,10 +216,7 @@ TEST(SectionForces, OfARigidBodyAreNotKnown) {
   without_elasticity.elasticity = EffectChoice::off;
   without_axial.axial_elasticity = EffectChoice::off;
   const Model rigid = build_model(scene, without_elasticity, {}, {});
-  ResponseSettings settings;
-  settings.name = "load";
-  settings.bodies = {"beam"};
-  settings.type = ResponseType::buckling;
+  ResponseSettings settings{.name = "load", .type = ResponseType::buckling, .bodies = {"beam"}};
   expect_error(rigid, settings, "the response \"load\" cannot be computed: \"beam\" is rigid");
   const Model stiff = build_model(scene, without_axial, {}, {});
   expect_error(stiff, settings,

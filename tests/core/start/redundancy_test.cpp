@@ -17,10 +17,7 @@ namespace pleuel::test::redundancy_test {
 namespace {
 
 Joint revolute(const std::string& name, const std::string& a, const std::string& b, Point at) {
-  Joint joint;
-  joint.name = name;
-  joint.bodies = {a, b};
-  joint.at = std::move(at);
+  Joint joint{.name = name, .bodies = {a, b}, .at = std::move(at)};
   return joint;
 }
 
@@ -36,8 +33,7 @@ Body rigid_bar(const std::string& name, Point from, Point to) {
 
 /// A planar four-bar with rigid links; its ground pins are a unit apart.
 Scene four_bar(const Point& crank_pin, const Point& rocker_pin) {
-  Scene scene;
-  scene.gravity = {0.0, -9.81, 0.0};
+  Scene scene{.gravity = {0.0, -9.81, 0.0}};
   scene.materials.push_back({"steel", 2.1e11, 0.3, 7850.0});
   const Point left = {0.0, 0.0, 0.0}, right = {1.0, 0.0, 0.0};
   scene.bodies = {rigid_bar("crank", left, crank_pin), rigid_bar("coupler", crank_pin, rocker_pin),
@@ -50,8 +46,7 @@ Scene four_bar(const Point& crank_pin, const Point& rocker_pin) {
 }
 
 Model in_space(const Scene& scene) {
-  EffectSettings effects;
-  effects.spatial_motion = EffectChoice::on;
+  EffectSettings effects{.spatial_motion = EffectChoice::on};
   return build_model(scene, effects, {}, {});
 }
 
@@ -95,8 +90,7 @@ TEST(RedundantConstraints, LeaveTheMotionThatThePlaneHas) {
 /// Four-bars in a row, each with its ground pins; a bar connects each crank with the next if asked.
 enum class Neighbours { apart, connected };
 Scene four_bars(int count, Neighbours neighbours) {
-  Scene all;
-  all.gravity = {0.0, -9.81, 0.0};
+  Scene all{.gravity = {0.0, -9.81, 0.0}};
   all.materials.push_back({"steel", 2.1e11, 0.3, 7850.0});
   for (int i = 0; i < count; ++i) {
     const double x = 1.5 * i;
@@ -173,8 +167,7 @@ TEST(RedundantConstraints, OfTwoDrivesShareTheTorqueOfOne) {
   const double mass = 7850.0 * width * width * length;
   const double inertia = mass * (length * length / 3 + width * width / 12);
   for (const EffectChoice spatial : {EffectChoice::automatic, EffectChoice::on}) {
-    EffectSettings effects;
-    effects.spatial_motion = spatial;
+    EffectSettings effects{.spatial_motion = spatial};
     Model model = build_model(scene, effects, {}, {});
     const Trajectory trajectory = simulate(model.mechanism, {0.2, 1e-3});
     State state;

@@ -4,7 +4,7 @@
 #include "core/trust/tension_layers.hpp"
 #include "tests/core/trust/trust_scenes.hpp"
 #include "tests/support/at_start.hpp"
-#include "tests/support/bent_cantilever.hpp"
+#include "tests/support/one_beam.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::far_bending_test {
@@ -13,9 +13,6 @@ namespace {
 struct BentBeam : StartRun {
   explicit BentBeam(const BentCantilever& cantilever) : StartRun(cantilever.problem()) {}
 
-  double value(const std::string& response) const {
-    return analysis->reductions[response_index(problem, response)].value;
-  }
   /// What more frames are told to change of a response; 0: nothing is told.
   double missing(const std::string& response) const {
     for (const VariantChange& variant : compare_variants(run()).changes) {
@@ -54,9 +51,7 @@ TEST(MoreFrames, ForetellWhatIsMissingOfTheElastica) {
 
 /// In space, and of a beam that twists beside bending in both planes: what sixteen frames change.
 TEST(MoreFrames, ForetellWhatManyFramesChangeInSpace) {
-  BentCantilever oblique;
-  oblique.force_y = 40.0;
-  oblique.force_z = 8.0;
+  BentCantilever oblique{.force_y = 40.0, .force_z = 8.0};
   oblique.section = R"({"type": "rectangle", "width": 0.005, "height": 0.02})";
   oblique.frames = 2;
   oblique.elements = 32;
@@ -164,9 +159,8 @@ TEST(LinearElasticity, IsLeftByFarBendingThatCannotBeDivided) {
 /// 0.16 % at 0.06.
 TEST(MoreFrames, ThatAResponseDoesNotAllowAreJudgedByRotations) {
   const auto findings = [](double alpha) {
-    const std::string text = pushed(alpha).text();
-    const ProblemFile problem =
-        read_scene(text, {R"(/responses/m={"type": "deflection", "body": "beam", "at": 1,
+    const ProblemFile problem = pushed(alpha).beam().problem(
+        {R"(/responses/m={"type": "deflection", "body": "beam", "at": 1,
                                             "direction": "x", "over_time": "final"})"});
     return findings_of(problem, check_variants);
   };

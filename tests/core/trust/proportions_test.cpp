@@ -236,8 +236,7 @@ TEST(OtherSide, IsNoneOfPositions) {
 }
 
 std::vector<Finding> findings_with_bounds(double start, double lower, double upper) {
-  ProblemFile problem;
-  problem.variables = {{"width", start, lower, upper, "mm", quantities::length}};
+  ProblemFile problem{.variables = {{"width", start, lower, upper, "mm", quantities::length}}};
   return check_far_bounds(problem);
 }
 

@@ -15,7 +15,6 @@
 #include "core/trust/sideways_buckling.hpp"
 #include "core/trust/stability.hpp"
 #include "tests/support/at_start.hpp"
-#include "tests/support/bent_cantilever.hpp"
 #include "tests/support/one_beam.hpp"
 
 namespace pleuel::test {
