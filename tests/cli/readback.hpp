@@ -80,7 +80,8 @@ inline Report run(const std::vector<std::string>& words, int exit_code = 0) {
       folder.run(joined(joined(joined({words[0], words[1]}, {"-o", "run"}), quick()),
                         {words.begin() + 2, words.end()}));
   EXPECT_EQ(run.exit_code, exit_code) << run.err;
-  Report report{.text = run.out};
+  Report report;
+  report.text = run.out;
   report.document =
       nlohmann::json::parse(read_file(folder.path() / "run/result.json"), nullptr, false);
   for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "run")) {

@@ -297,7 +297,9 @@ TEST(OptimumError, OfALimitThatItMayBreakIsAsLargeAsTheTargetAtMost) {
           "objective": {"minimize": "m"}, "accuracy": {"target": 0.01},
           "constraints": {"limit": {"response": "sag", ")" +
         side + R"(": "10 mm"}}})"));
-    Result result{.status = Status::verified, .x = Eigen::VectorXd::Constant(1, 0.02)};
+    Result result;
+    result.status = Status::verified;
+    result.x = Eigen::VectorXd::Constant(1, 0.02);
     result.evaluation.objective = 1.0;
     result.evaluation.constraints = Eigen::VectorXd::Constant(1, value);
     result.evaluation.objective_gradient = Eigen::VectorXd::Zero(1);

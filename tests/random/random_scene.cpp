@@ -626,7 +626,8 @@ SimulatedScene simulated_scene(unsigned seed) {
 }
 
 SimulatedScene simulated(RandomMechanism mechanism) {
-  SimulatedScene scene{.mechanism = std::move(mechanism)};
+  SimulatedScene scene;
+  scene.mechanism = std::move(mechanism);
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
     scene.problem = read(scene.mechanism.file);
     try {

@@ -91,7 +91,8 @@ TEST_F(Record, KnowsGradientsByTheMethodThatMadeThem) {
 
 TEST_F(Record, KeepsWhyAnEvaluationFailed) {
   RunDatabase record(file());
-  StoredEvaluation failed{.failure = "at t = 0.1 s: Newton's method does not converge"};
+  StoredEvaluation failed;
+  failed.failure = "at t = 0.1 s: Newton's method does not converge";
   record.keep(key(0.1), failed);
   const auto found = record.find(key(0.1));
   ASSERT_TRUE(found);

@@ -207,11 +207,16 @@ struct LoadedBeam {
   std::vector<Number> places;
 
   Scene scene() const {
-    BeamBody beam{.from = {0.0, 0.0, 0.0}, .to = {1.0, 0.0, 0.0}, .segments = segments};
+    BeamBody beam;
+    beam.from = {0.0, 0.0, 0.0};
+    beam.to = {1.0, 0.0, 0.0};
+    beam.segments = segments;
     Scene scene;
     scene.bodies.push_back({"beam", beam});
     for (const Number& place : places) {
-      PointForce force{.body = "beam", .at = {place, 0.0, 0.0}};
+      PointForce force;
+      force.body = "beam";
+      force.at = {place, 0.0, 0.0};
       scene.loads.push_back({"load", force});
     }
     return scene;

@@ -152,7 +152,9 @@ TEST(Units, ThatMeanTwoThingsAreRefused) {
 TEST(Integrals, HaveAUnitForEveryResponse) {
   for (const ResponseKind& kind : response_kinds) {
     if (kind.type == ResponseType::expression) continue;  // has the unit of its formula
-    ResponseSettings response{.type = kind.type, .over_time = OverTime::integral};
+    ResponseSettings response;
+    response.type = kind.type;
+    response.over_time = OverTime::integral;
     for (const auto along : {DrivenCoordinate::angle, DrivenCoordinate::displacement}) {
       response.coordinate = along;
       EXPECT_NO_THROW(quantity_of(response)) << kind.word;

@@ -129,12 +129,16 @@ ResponseSettings response(const std::string& name, ResponseType type, const std:
 /// What a designer asks of beams with modes: where places are, how far they bend. No response
 /// depends on the choice of a basis within its span.
 ProblemFile problem_of(const SampleScene& sample) {
-  ProblemFile problem{.scene = sample.scene, .effects = sample.effects};
+  ProblemFile problem;
+  problem.scene = sample.scene;
+  problem.effects = sample.effects;
   problem.simulation.end_time = 0.02;
   problem.simulation.step = 1e-3;
   problem.simulation.newton_tolerance = 1e-12;
   for (std::size_t i = 0; i < sample.design.size(); ++i) {
-    DesignVariable variable{.name = sample.variables[i], .start = sample.design[i]};
+    DesignVariable variable;
+    variable.name = sample.variables[i];
+    variable.start = sample.design[i];
     problem.variables.push_back(variable);
   }
   problem.responses = {

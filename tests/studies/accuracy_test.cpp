@@ -440,11 +440,13 @@ TEST(Accuracy, ComparesTheReferenceWithAnotherFormulation) {
 
 /// Errors that are exactly c h², the finest below what counts as known.
 TEST(Accuracy, FitsTheOrderOfTheErrorsThatCount) {
-  AccuracyStudy study{.counted = {0}};
+  AccuracyStudy study;
+  study.counted = {0};
   study.reference.errors = Eigen::VectorXd::Constant(2, 1e-6);
   for (const int elements : {2, 4}) {
     for (const double step : {4e-4, 2e-4, 1e-4, 1e-5}) {
-      AccuracyRun run{.settings = {step, elements}};
+      AccuracyRun run;
+      run.settings = {step, elements};
       const double error = std::max(1e4 * step * step, 1e-6) + (elements == 2 ? 0.1 : 0.0);
       run.errors = Eigen::Vector2d(error, 1.0);
       study.runs.push_back(run);

@@ -14,7 +14,9 @@ namespace {
 using Search = std::function<ParetoPoint(double limit)>;
 
 ParetoPoint point_at(double limit, double limited, double objective) {
-  ParetoPoint point{.limit = limit, .limited_value = limited};
+  ParetoPoint point;
+  point.limit = limit;
+  point.limited_value = limited;
   point.result.status = Status::verified;
   point.result.evaluation.objective = objective;
   point.result.evaluation.objective_gradient = Eigen::VectorXd::Zero(1);
@@ -22,7 +24,8 @@ ParetoPoint point_at(double limit, double limited, double objective) {
 }
 
 ParetoPoint failed_at(double limit) {
-  ParetoPoint point{.limit = limit};
+  ParetoPoint point;
+  point.limit = limit;
   return point;
 }
 

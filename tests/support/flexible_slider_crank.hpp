@@ -176,7 +176,9 @@ class FourModes {
 
  private:
   static BodyFrame frame(int offset, bool turns) {
-    BodyFrame frame{.offset = offset, .basis = Eigen::Matrix3d::Identity().leftCols(2)};
+    BodyFrame frame;
+    frame.offset = offset;
+    frame.basis = Eigen::Matrix3d::Identity().leftCols(2);
     if (turns) frame.rotation = RotationCoordinates::angle;
     return frame;
   }
@@ -225,7 +227,9 @@ class FourModes {
     add_point(ground, zero, on_crank, zero, 0, true);
     add_point(on_crank, crank_length * x, on_rod, zero, 3);
     add_point(end, rod_length * x, on_slider, zero, 5);
-    JointTopology guide{.markers = {ground, on_slider}, .multiplier = coordinates + guide_row};
+    JointTopology guide;
+    guide.markers = {ground, on_slider};
+    guide.multiplier = coordinates + guide_row;
     JointEquation equation{EquationKind::on_plane};
     equation.first = 0;
     guide.equations = {equation};

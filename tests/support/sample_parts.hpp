@@ -35,7 +35,12 @@ class SceneWriter {
 
 inline Joint joint(const std::string& name, JointType type, const std::string& first,
                    const std::string& second, const Point& at, const std::array<double, 3>& axis) {
-  Joint result{.name = name, .type = type, .bodies = {first, second}, .at = at, .axis = axis};
+  Joint result;
+  result.name = name;
+  result.type = type;
+  result.bodies = {first, second};
+  result.at = at;
+  result.axis = axis;
   return result;
 }
 

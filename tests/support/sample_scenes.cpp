@@ -13,7 +13,8 @@ const std::vector<SampleScene>& all_samples() {
 }
 
 Scene swinging_beam(double length, const Section& section, int elements) {
-  Scene scene{.gravity = {0.0, -9.81, 0.0}};
+  Scene scene;
+  scene.gravity = {0.0, -9.81, 0.0};
   scene.materials.push_back({"steel", 2.1e11, 0.3, 7850.0});
   scene.bodies = {{"beam", beam({0.0, 0.0, 0.0}, {length, 0.0, 0.0}, {{section, elements, {}}},
                                 ReferenceCondition::tangent)}};

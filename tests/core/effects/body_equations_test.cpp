@@ -26,7 +26,9 @@ Eigen::VectorXd random_vector(Eigen::Index size, unsigned seed) {
 /// A frame that turns about an oblique axis and moves in so many directions, the third out of the
 /// plane; its reference is any rotation.
 BodyFrame turning_frame(int translations) {
-  BodyFrame frame{.rotation = RotationCoordinates::angle, .axis = Eigen::Vector3d(0.36, 0.48, 0.8)};
+  BodyFrame frame;
+  frame.rotation = RotationCoordinates::angle;
+  frame.axis = Eigen::Vector3d(0.36, 0.48, 0.8);
   frame.reference =
       Eigen::AngleAxisd(0.9, Eigen::Vector3d(1, 2, -2).normalized()).toRotationMatrix();
   Eigen::Matrix3d directions;
@@ -389,7 +391,8 @@ TEST(FloatingFrameBody, AddsStiffnessAndDampingTimesTheElasticCoordinates) {
   beam.stiffness_damping = 1e-5;
   const auto stiff = beam_invariants(beam, coordinates);
   for (auto& element : beam.elements) element.young = element.shear = 0.0;
-  BodyFrame frame{.rotation = RotationCoordinates::rotation_vector};
+  BodyFrame frame;
+  frame.rotation = RotationCoordinates::rotation_vector;
   FloatingFrameBody with("beam", frame, stiff, {}, Eigen::Vector3d::Zero());
   FloatingFrameBody without("beam", frame, beam_invariants(beam, coordinates), {},
                             Eigen::Vector3d::Zero());

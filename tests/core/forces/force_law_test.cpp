@@ -387,7 +387,8 @@ Matrix3d second_moment() {
 }
 
 BodyFrame wheel_frame() {
-  BodyFrame frame{.rotation = RotationCoordinates::angle};
+  BodyFrame frame;
+  frame.rotation = RotationCoordinates::angle;
   frame.basis.resize(3, 0);
   return frame;
 }

@@ -305,11 +305,15 @@ TEST(ControlledSteps, AreTheLongestThatKeepTheToleranceOfARegularStep) {
 
 /// IFToMM benchmark A01: 1 kg at 1 m, from (−1, 0) at rest.
 Eigen::Vector2d pendulum_at(double time, double step, EffectChoice spatial) {
-  Scene scene{.gravity = {0.0, -9.81, 0.0}};
+  Scene scene;
+  scene.gravity = {0.0, -9.81, 0.0};
   // In space a body needs some inertia about the rod; it does not turn that way.
   const double inertia = spatial == EffectChoice::on ? 0.1 : 0.0;
   scene.bodies = {{"mass", RigidBody{{-1.0, 0.0, 0.0}, 1.0, {inertia, 0.0, 0.0, 0.0, 0.0, 0.0}}}};
-  Joint joint{.name = "pin", .bodies = {ground_name, "mass"}, .at = {0.0, 0.0, 0.0}};
+  Joint joint;
+  joint.name = "pin";
+  joint.bodies = {ground_name, "mass"};
+  joint.at = {0.0, 0.0, 0.0};
   scene.joints = {joint};
   Model model = build_model(scene, {.spatial_motion = spatial}, {}, {});
   SimulationOptions options{time, step, 0.8};

@@ -124,7 +124,8 @@ TEST(Predictor, LetsCoarseStepsNeedFewerIterations) {
 
 /// A point mass that keeps its distance of 2 m from the origin.
 Model held_mass() {
-  Scene scene{.bodies = {{"mass", PointMass{{1.2, 1.6, 0.0}, 3.0}}}};
+  Scene scene;
+  scene.bodies = {{"mass", PointMass{{1.2, 1.6, 0.0}, 3.0}}};
   Joint string;
   string.name = "string";
   string.type = JointType::distance;

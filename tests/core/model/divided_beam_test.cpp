@@ -53,7 +53,9 @@ TEST(DividedBeam, BendsInAnyDirectionInSpaceAlike) {
 
 /// M L/(E I) = 1: an arc of that angle. Its moment is the same everywhere.
 TEST(DividedBeam, RollsUpToAnArcUnderAMoment) {
-  BentCantilever cantilever{.moment_z = BentCantilever::bending_stiffness, .frames = 8};
+  BentCantilever cantilever;
+  cantilever.moment_z = BentCantilever::bending_stiffness;
+  cantilever.frames = 8;
   const AtStart run(cantilever.problem());
   EXPECT_NEAR(run.value("x"), std::sin(1.0), 1e-3);
   EXPECT_NEAR(run.value("y"), 1.0 - std::cos(1.0), 1e-3);
@@ -268,7 +270,9 @@ TEST(DividedBeam, StartsWithTheSpinOfTheWholeBeam) {
 
 TEST(DividedBeam, IsRefusedWhereFramesWouldChangeWhatIsMeant) {
   const auto message = [](const std::string& more) -> std::string {
-    BentCantilever cantilever{.frames = 2, .more = more};
+    BentCantilever cantilever;
+    cantilever.frames = 2;
+    cantilever.more = more;
     return thrown<InputError>([&] { cantilever.problem(); });
   };
   EXPECT_THAT(message(R"(, "rigid": true)"), HasSubstr("/scene/bodies/beam/frames"));
@@ -281,7 +285,10 @@ TEST(DividedBeam, IsRefusedWhereFramesWouldChangeWhatIsMeant) {
 /// Two elements in three frames: each element is divided into two, and joints within the beam hold
 /// on to the stretch that they lie on.
 TEST(DividedBeam, HasAnElementAFrameAndItsJointsWhereTheyAre) {
-  BentCantilever cantilever{.force_y = 1.0, .frames = 3, .elements = 2};
+  BentCantilever cantilever;
+  cantilever.force_y = 1.0;
+  cantilever.frames = 3;
+  cantilever.elements = 2;
   ProblemFile problem = cantilever.problem();
   std::get<PointForce>(problem.scene.loads.front().element).at = {0.5, 0.0, 0.0};
   const DividedScene divided = divide_beams(problem.scene, problem.effects, {});

@@ -193,7 +193,8 @@ constexpr std::array frames = {ReferenceCondition::chord, ReferenceCondition::ta
 
 /// A slider-crank with a rigid crank; the rod is bent by its weight and a force in the middle.
 Scene slider_crank(ReferenceCondition frame, double young) {
-  Scene scene{.gravity = {0.0, -9.81, 0.0}};
+  Scene scene;
+  scene.gravity = {0.0, -9.81, 0.0};
   scene.materials.push_back({"soft", young, 0.3, 2000.0});
   const Point origin = {0.0, 0.0, 0.0}, pin = {0.06, 0.08, 0.0}, end = {0.36, 0.0, 0.0};
   BeamBody rod;
@@ -211,7 +212,11 @@ Scene slider_crank(ReferenceCondition frame, double young) {
   scene.bodies = {{"crank", crank}, {"rod", rod}, {"slider", PointMass{end, 0.05}}};
   const auto joint = [](const char* name, JointType type, const char* first, const char* second,
                         const Point& at) {
-    Joint result{.name = name, .type = type, .bodies = {first, second}, .at = at};
+    Joint result;
+    result.name = name;
+    result.type = type;
+    result.bodies = {first, second};
+    result.at = at;
     return result;
   };
   scene.joints = {joint("bearing", JointType::revolute, ground_name, "crank", origin),

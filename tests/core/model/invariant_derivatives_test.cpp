@@ -47,7 +47,8 @@ std::vector<NamedSection> all_sections() {
 /// A beam oblique in space whose end, material and damping are variables, too: the first number
 /// after the sizes of the section is the x of its end.
 SampleScene beam_of(const NamedSection& named, ReferenceCondition frame, bool has_shear = false) {
-  SampleScene sample{.scene = swinging_beam(0.7, named.section, 3)};
+  SampleScene sample;
+  sample.scene = swinging_beam(0.7, named.section, 3);
   sample.effects.spatial_motion = EffectChoice::on;
   sample.design = named.sizes;
   const auto next = [&](double start) {

@@ -57,7 +57,8 @@ TEST(Pendulum, IsAfterFourPeriodsWhereTheEllipticFunctionsPutIt) {
 
 struct FourBars {
   explicit FourBars(int count) {
-    Scene scene{.gravity = {0.0, -9.81, 0.0}};
+    Scene scene;
+    scene.gravity = {0.0, -9.81, 0.0};
     for (int i = 0; i <= count; ++i) {
       Body bar{"upright " + std::to_string(i), body_at(i, 0.5, 1.0, 1.0 / 12)};
       bar.velocity = {0.5, 0.0, 0.0};

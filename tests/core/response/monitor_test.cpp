@@ -149,7 +149,8 @@ INSTANTIATE_TEST_SUITE_P(Samples, EveryMotion, ::testing::ValuesIn(motions()),
 /// A rubber beam that falls from the horizontal and swings, without damping: it bends far, so that
 /// geometric stiffening takes part.
 SampleScene rubber_pendulum(double height = 0.0) {
-  SampleScene sample{.scene = swinging_beam(0.5, RectangleSection{0.02, 0.02}, 3)};
+  SampleScene sample;
+  sample.scene = swinging_beam(0.5, RectangleSection{0.02, 0.02}, 3);
   sample.scene.materials[0] = {"steel", 5e6, 0.3, 1100.0};
   auto& beam = std::get<BeamBody>(sample.scene.bodies[0].shape);
   for (Point* point : {&beam.from, &beam.to, &sample.scene.joints[0].at}) (*point)[1] = height;
@@ -299,8 +300,12 @@ TEST(EnergyMonitor, OfAMechanismAtRestIsKept) {
   steel.poisson = 0.3;
   steel.density = 7850.0;
   scene.materials = {steel};
-  BeamBody beam{.to = {0.72, 0.96, 0.1}, .material = "steel"};
-  Segment segment{.section = RectangleSection{0.05, 0.04}, .elements = 6};
+  BeamBody beam;
+  beam.to = {0.72, 0.96, 0.1};
+  beam.material = "steel";
+  Segment segment;
+  segment.section = RectangleSection{0.05, 0.04};
+  segment.elements = 6;
   beam.segments = {segment};
   scene.bodies = {{"mast", beam}};
   Joint root;
@@ -308,7 +313,8 @@ TEST(EnergyMonitor, OfAMechanismAtRestIsKept) {
   root.type = JointType::fixed;
   root.bodies = {ground_name, "mast"};
   scene.joints = {root};
-  ProblemFile problem{.scene = scene};
+  ProblemFile problem;
+  problem.scene = scene;
   problem.simulation.end_time = 0.02;
   problem.simulation.step = 0.001;
   const auto analysis = analyze(problem, {});
@@ -354,11 +360,14 @@ TEST(ElasticEnergyResponse, OfACantileverIsThatOfStatics) {
   PointForce push{"beam", {length, 0.0, 0.0}, {0.0, 1.0, 0.0}, {}, false};
   push.value = ConstantFunction{force};
   scene.loads = {{"push", push}};
-  ProblemFile problem{.scene = scene};
+  ProblemFile problem;
+  problem.scene = scene;
   problem.simulation.end_time = 0.01;
   problem.simulation.step = 1e-3;
   problem.simulation.quasi_static_start = true;
-  ResponseSettings energy{.type = ResponseType::elastic_energy, .over_time = OverTime::mean};
+  ResponseSettings energy;
+  energy.type = ResponseType::elastic_energy;
+  energy.over_time = OverTime::mean;
   problem.responses = {energy};
   const double expected =
       force * force * std::pow(length, 3) / (6.0 * young * std::pow(side, 4) / 12.0);
@@ -501,7 +510,8 @@ TEST(DriftResponse, NeedsConstraints) {
   scene.joints.clear();
   const Model model = build_model(scene, {}, {}, {});
   ASSERT_EQ(model.mechanism.system->multipliers(), 0);
-  ResponseSettings drift{.type = ResponseType::constraint_drift};
+  ResponseSettings drift;
+  drift.type = ResponseType::constraint_drift;
   EXPECT_THROW(make_responses({drift}, model), InputError);
 }
 

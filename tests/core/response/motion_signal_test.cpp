@@ -70,7 +70,8 @@ TEST_P(MotionAlong, OfObliqueAxesIsTheMassMatrix) {
 /// A point mass at 3 m/s along y and 4 m/s along z: m v² along each.
 TEST(MotionAlong, OfAPointMassIsThatOfItsVelocity) {
   Scene scene;
-  PointMass body{.mass = 2.0};
+  PointMass body;
+  body.mass = 2.0;
   scene.bodies = {{"ball", body}};
   EffectSettings effects{.spatial_motion = EffectChoice::on};
   const Model model = build_model(scene, effects, {}, {});

@@ -119,10 +119,13 @@ TEST(Frequency, OfABodyThatIsRigidIsAnErrorThatSaysSo) {
 }
 
 Scene hanging_body() {
-  Scene scene{.gravity = {0.0, -9.81, 0.0}};
+  Scene scene;
+  scene.gravity = {0.0, -9.81, 0.0};
   RigidBody body{.at = {0.0, -0.4, 0.0}, .mass = 0.7, .inertia = {0.01, 0.02, 0.03, 0.0, 0.0, 0.0}};
   scene.bodies = {{"bob", body}};
-  Joint joint{.name = "bearing", .bodies = {ground_name, "bob"}};
+  Joint joint;
+  joint.name = "bearing";
+  joint.bodies = {ground_name, "bob"};
   scene.joints = {joint};
   return scene;
 }
@@ -142,7 +145,9 @@ TEST(Frequency, OfAPhysicalPendulumIsThatOfItsWeight) {
 /// space with Ω I_z/I_x (and the axis of rotation in the body with Ω |I_z − I_x|/I_x).
 TEST(Frequency, OfAFreeTopIsThatOfItsGyroscopicForces) {
   Scene scene;
-  RigidBody body{.mass = 1.0, .inertia = {0.02, 0.02, 0.03, 0.0, 0.0, 0.0}};
+  RigidBody body;
+  body.mass = 1.0;
+  body.inertia = {0.02, 0.02, 0.03, 0.0, 0.0, 0.0};
   Body top{"top", body};
   top.angular_velocity = {0.0, 0.0, 50.0};
   scene.bodies = {top};
@@ -154,10 +159,13 @@ TEST(Frequency, OfAFreeTopIsThatOfItsGyroscopicForces) {
 }
 
 TEST(Frequency, ThatDoesNotExistIsAnErrorThatSaysHowManyThereAre) {
-  ProblemFile problem{.scene = hanging_body()};
+  ProblemFile problem;
+  problem.scene = hanging_body();
   problem.simulation.end_time = 1e-3;
   problem.simulation.step = 1e-3;
-  ResponseSettings settings{.name = "fifth", .type = ResponseType::frequency};
+  ResponseSettings settings;
+  settings.name = "fifth";
+  settings.type = ResponseType::frequency;
   settings.mode.number = 4;
   problem.responses = {settings};
   EXPECT_EQ(thrown<InputError>([&] { analyze(problem, {}); }),

@@ -68,12 +68,16 @@ RigidBody bob(const Point& at) {
 }
 
 Scene pendulum(JointType type, bool ground_first) {
-  Scene scene{.gravity = {0.0, -gravity, 0.0}};
+  Scene scene;
+  scene.gravity = {0.0, -gravity, 0.0};
   Body body{"bob", bob({0.0, -length, 0.0})};
   body.velocity = {speed, 0.0, 0.0};
   body.angular_velocity = {0.0, 0.0, speed / length};
   scene.bodies = {body};
-  Joint joint{.name = "bearing", .type = type, .bodies = {ground_name, "bob"}};
+  Joint joint;
+  joint.name = "bearing";
+  joint.type = type;
+  joint.bodies = {ground_name, "bob"};
   if (!ground_first) std::swap(joint.bodies[0], joint.bodies[1]);
   scene.joints = {joint};
   return scene;
@@ -127,7 +131,9 @@ TEST_P(Reaction, ContainsTheTorqueOfTheDrive) {
     scene.joints[0].drive = PolynomialFunction{{0.0, 2.0, 5.0}};
     Model model = build(scene);
     const State state = initial_state(model.mechanism).state;
-    ResponseSettings settings{.type = ResponseType::drive_torque, .joint = "bearing"};
+    ResponseSettings settings;
+    settings.type = ResponseType::drive_torque;
+    settings.joint = "bearing";
     // Torque = I_z α + m (x a_y − y a_x) + m g x about the bearing, with α = 2 · 5 about the axis.
     const double about_z =
         (0.03 + mass * (0.3 * 0.3 + length * length)) * sense * 10.0 + mass * gravity * 0.3;
@@ -146,7 +152,8 @@ INSTANTIATE_TEST_SUITE_P(Motions, Reaction, testing::Values(EffectChoice::off, E
 /// of energy, ½ (I + m L²)(ω₁² − ω₀²) and of height. 2e-5: the trapezoidal rule and the scheme, of
 /// second order, at 2400 steps (measured 8e-6).
 TEST(Power, IsTorqueTimesSpeedAndItsIntegralTheChangeOfEnergy) {
-  ProblemFile problem{.scene = pendulum(JointType::revolute, true)};
+  ProblemFile problem;
+  problem.scene = pendulum(JointType::revolute, true);
   problem.scene.joints[0].drive = PolynomialFunction{{0.0, 4.0, 3.0}};
   problem.simulation.end_time = 1.2;
   problem.simulation.step = 5e-4;
@@ -181,7 +188,8 @@ constexpr double bearing = 0.1 * distance;
 /// A door about z; its centre of mass is width/2 away from the axis.
 /// @param lower, upper  heights of its hinges
 Scene door(const Number& lower, const Number& upper) {
-  Scene scene{.gravity = {0.0, 0.0, -gravity}};
+  Scene scene;
+  scene.gravity = {0.0, 0.0, -gravity};
   RigidBody panel;
   panel.at = {0.5 * width, 0.0, 0.0};
   panel.mass = panel_mass;
@@ -191,7 +199,10 @@ Scene door(const Number& lower, const Number& upper) {
   body.angular_velocity = {0.0, 0.0, turning};
   scene.bodies = {body};
   for (const auto& [name, height] : {std::pair("lower", lower), std::pair("upper", upper)}) {
-    Joint hinge{.name = name, .bodies = {ground_name, "door"}, .at = {0.0, 0.0, height}};
+    Joint hinge;
+    hinge.name = name;
+    hinge.bodies = {ground_name, "door"};
+    hinge.at = {0.0, 0.0, height};
     scene.joints.push_back(hinge);
   }
   return scene;
@@ -226,7 +237,8 @@ TEST(LeastNorm, SharesATorqueBetweenTwoDrives) {
   Model model = build_model(scene, {}, {}, {});
   ASSERT_EQ(model.mechanism.system->left_out().size(), 6u);
   const State state = initial_state(model.mechanism).state;
-  ResponseSettings settings{.type = ResponseType::drive_torque};
+  ResponseSettings settings;
+  settings.type = ResponseType::drive_torque;
   const double inertia = 4.0 + panel_mass * 0.25 * width * width;
   for (const char* hinge : {"lower", "upper"}) {
     settings.joint = hinge;
@@ -265,7 +277,8 @@ TEST(LeastNorm, IsThePseudoinverseOfAllConstraints) {
 
 /// A door that falls about an axis that is not upright, with hinges, mass and width as variables.
 ProblemFile falling_door() {
-  ProblemFile problem{.scene = door(Number::bound(0), Number::bound(1))};
+  ProblemFile problem;
+  problem.scene = door(Number::bound(0), Number::bound(1));
   problem.scene.gravity = {2.0, 3.0, -9.0};
   auto& panel = std::get<RigidBody>(problem.scene.bodies[0].shape);
   panel.at = {Number::bound(2), 0.1, 0.2};

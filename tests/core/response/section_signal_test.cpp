@@ -125,7 +125,9 @@ TEST(StressPart, AtOnePlaceIsThatOfItsSection) {
 }
 
 double buckling(const Model& model, const State& state) {
-  ResponseSettings settings{.type = ResponseType::buckling, .bodies = {"beam"}};
+  ResponseSettings settings;
+  settings.type = ResponseType::buckling;
+  settings.bodies = {"beam"};
   const auto responses = make_responses({settings}, model);
   return observed(*responses.front().history()->signal, state).maxCoeff();
 }
@@ -216,7 +218,10 @@ TEST(SectionForces, OfARigidBodyAreNotKnown) {
   without_elasticity.elasticity = EffectChoice::off;
   without_axial.axial_elasticity = EffectChoice::off;
   const Model rigid = build_model(scene, without_elasticity, {}, {});
-  ResponseSettings settings{.name = "load", .type = ResponseType::buckling, .bodies = {"beam"}};
+  ResponseSettings settings;
+  settings.name = "load";
+  settings.type = ResponseType::buckling;
+  settings.bodies = {"beam"};
   expect_error(rigid, settings, "the response \"load\" cannot be computed: \"beam\" is rigid");
   const Model stiff = build_model(scene, without_axial, {}, {});
   expect_error(stiff, settings,

@@ -179,7 +179,8 @@ TEST_P(DescriptionOfASignal, TellsItsChannelsApart) {
 /// The rows of the constraints are in the order of the joints.
 TEST_P(DescriptionOfASignal, OfDriftNamesTheJointOfEachEquation) {
   if (model_.mechanism.system->multipliers() == 0) GTEST_SKIP() << "no constraints";
-  ResponseSettings settings{.type = ResponseType::constraint_drift};
+  ResponseSettings settings;
+  settings.type = ResponseType::constraint_drift;
   const std::vector<Response> responses = make_responses({settings}, model_);
   const Signal& drift = *responses.front().history()->signal;
   int channel = 0;

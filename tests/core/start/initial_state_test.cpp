@@ -140,7 +140,8 @@ constexpr double length = 1.0, width = 0.02, height = 0.03, young = 2.1e11, dens
 
 /// A cantilever under its own weight; its height is the design variable.
 ProblemFile cantilever(bool is_quasi_static) {
-  ProblemFile problem{.scene = swinging_beam(length, RectangleSection{width, Number::bound(0)}, 4)};
+  ProblemFile problem;
+  problem.scene = swinging_beam(length, RectangleSection{width, Number::bound(0)}, 4);
   problem.scene.joints[0].type = JointType::fixed;
   problem.variables = {{"height", height, 0.01, 0.1, ""}};
   problem.simulation.end_time = 0.1;

@@ -17,7 +17,10 @@ namespace pleuel::test::redundancy_test {
 namespace {
 
 Joint revolute(const std::string& name, const std::string& a, const std::string& b, Point at) {
-  Joint joint{.name = name, .bodies = {a, b}, .at = std::move(at)};
+  Joint joint;
+  joint.name = name;
+  joint.bodies = {a, b};
+  joint.at = std::move(at);
   return joint;
 }
 
@@ -33,7 +36,8 @@ Body rigid_bar(const std::string& name, Point from, Point to) {
 
 /// A planar four-bar with rigid links; its ground pins are a unit apart.
 Scene four_bar(const Point& crank_pin, const Point& rocker_pin) {
-  Scene scene{.gravity = {0.0, -9.81, 0.0}};
+  Scene scene;
+  scene.gravity = {0.0, -9.81, 0.0};
   scene.materials.push_back({"steel", 2.1e11, 0.3, 7850.0});
   const Point left = {0.0, 0.0, 0.0}, right = {1.0, 0.0, 0.0};
   scene.bodies = {rigid_bar("crank", left, crank_pin), rigid_bar("coupler", crank_pin, rocker_pin),
@@ -90,7 +94,8 @@ TEST(RedundantConstraints, LeaveTheMotionThatThePlaneHas) {
 /// Four-bars in a row, each with its ground pins; a bar connects each crank with the next if asked.
 enum class Neighbours { apart, connected };
 Scene four_bars(int count, Neighbours neighbours) {
-  Scene all{.gravity = {0.0, -9.81, 0.0}};
+  Scene all;
+  all.gravity = {0.0, -9.81, 0.0};
   all.materials.push_back({"steel", 2.1e11, 0.3, 7850.0});
   for (int i = 0; i < count; ++i) {
     const double x = 1.5 * i;

@@ -104,12 +104,14 @@ class ErrorBarOfAValue : public testing::Test {
     analysis_.histories.push_back(Eigen::MatrixXd::Constant(1, 1, 10.0));
   }
   static RefinedRun run(double value) {
-    RefinedRun run{.values = Eigen::VectorXd::Constant(1, value)};
+    RefinedRun run;
+    run.values = Eigen::VectorXd::Constant(1, value);
     run.histories.emplace_back();
     return run;
   }
   static RefinedRun failed() {
-    RefinedRun run{.failure = "no"};
+    RefinedRun run;
+    run.failure = "no";
     return run;
   }
   Analysis analysis_;
@@ -134,7 +136,10 @@ TEST_F(ErrorBarOfAValue, AddsUpItsParts) {
 
 TEST_F(ErrorBarOfAValue, PrefersFinerRuns) {
   const RefinedRun found = run(10.0), twice = run(10.4), half = run(9.9), more = run(9.7);
-  JudgingRuns runs{.half_step = &half, .twice_step = &twice, .more_elements = {&more, &found}};
+  JudgingRuns runs;
+  runs.half_step = &half;
+  runs.twice_step = &twice;
+  runs.more_elements = {&more, &found};
   const ErrorBar bar = error_bar(analysis_, 0, runs, 2);
   EXPECT_NEAR(bar.step.change, -0.1 - 0.1 / 3, 1e-12);
   EXPECT_GE(bar.step.bound, 0.1 + 0.1 / 3);
@@ -145,7 +150,9 @@ TEST_F(ErrorBarOfAValue, PrefersFinerRuns) {
 /// and twice as much that finer steps may add.
 TEST_F(ErrorBarOfAValue, TakesThreeTimesTheLastChangeWhereNothingFalls) {
   const RefinedRun twice = run(12.0), half = run(8.0), near = run(9.9), far = run(10.1);
-  JudgingRuns runs{.half_step = &half, .twice_step = &twice};
+  JudgingRuns runs;
+  runs.half_step = &half;
+  runs.twice_step = &twice;
   const ErrorBar coarse = error_bar(analysis_, 0, runs, 2);
   EXPECT_NEAR(coarse.step.bound, 6.0, 1e-12);
   EXPECT_FALSE(coarse.is_resolved());
@@ -159,7 +166,10 @@ TEST_F(ErrorBarOfAValue, TakesThreeTimesTheLastChangeWhereNothingFalls) {
 /// Where half of the step shows no order, a quarter may: 10, 10.1, 10.125 go to 10.133.
 TEST_F(ErrorBarOfAValue, AsksAQuarterOfTheStep) {
   const RefinedRun twice = run(10.1), half = run(10.1), quarter = run(10.125);
-  JudgingRuns runs{.quarter_step = &quarter, .half_step = &half, .twice_step = &twice};
+  JudgingRuns runs;
+  runs.quarter_step = &quarter;
+  runs.half_step = &half;
+  runs.twice_step = &twice;
   const ErrorBar bar = error_bar(analysis_, 0, runs, 2);
   EXPECT_TRUE(bar.is_resolved());
   EXPECT_NEAR(bar.step.change, 0.125 + 0.025 / 3, 1e-12);
@@ -171,7 +181,10 @@ TEST_F(ErrorBarOfAValue, AsksAQuarterOfTheStep) {
 TEST_F(ErrorBarOfAValue, PrefersMoreElementsToFewer) {
   const RefinedRun twice = run(10.0), four = run(10.0), more = run(10.03), fewer = run(9.8),
                    far = run(8.6), other_side = run(10.6);
-  JudgingRuns runs{.twice_step = &twice, .four_steps = &four, .fewer_elements = {&fewer, &twice}};
+  JudgingRuns runs;
+  runs.twice_step = &twice;
+  runs.four_steps = &four;
+  runs.fewer_elements = {&fewer, &twice};
   EXPECT_NEAR(error_bar(analysis_, 0, runs, 2).elements.bound, 0.2, 1e-12);
   runs.more_elements = {&more, &twice};
   EXPECT_NEAR(error_bar(analysis_, 0, runs, 2).elements.change, 0.04, 1e-12);
@@ -204,7 +217,8 @@ TEST_F(ErrorBarOfAValue, OfASumKnowsWhatCancels) {
 
 TEST_F(ErrorBarOfAValue, IsNotResolvedWhereARunFailed) {
   const RefinedRun broken = failed();
-  JudgingRuns runs{.twice_step = &broken};
+  JudgingRuns runs;
+  runs.twice_step = &broken;
   EXPECT_FALSE(error_bar(analysis_, 0, runs, 2).is_resolved());
   const RefinedRun twice = run(10.0), four = run(10.0);
   runs.twice_step = &twice;

@@ -51,7 +51,9 @@ TEST(MoreFrames, ForetellWhatIsMissingOfTheElastica) {
 
 /// In space, and of a beam that twists beside bending in both planes: what sixteen frames change.
 TEST(MoreFrames, ForetellWhatManyFramesChangeInSpace) {
-  BentCantilever oblique{.force_y = 40.0, .force_z = 8.0};
+  BentCantilever oblique;
+  oblique.force_y = 40.0;
+  oblique.force_z = 8.0;
   oblique.section = R"({"type": "rectangle", "width": 0.005, "height": 0.02})";
   oblique.frames = 2;
   oblique.elements = 32;

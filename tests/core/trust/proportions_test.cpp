@@ -236,7 +236,8 @@ TEST(OtherSide, IsNoneOfPositions) {
 }
 
 std::vector<Finding> findings_with_bounds(double start, double lower, double upper) {
-  ProblemFile problem{.variables = {{"width", start, lower, upper, "mm", quantities::length}}};
+  ProblemFile problem;
+  problem.variables = {{"width", start, lower, upper, "mm", quantities::length}};
   return check_far_bounds(problem);
 }
 

@@ -188,7 +188,8 @@ TEST(AccuracyTarget, ChoosesTheSettingOnlyWhereItIsGiven) {
 }
 
 Trajectory with_steps_of_one() {
-  Trajectory trajectory{.time = Eigen::VectorXd::LinSpaced(11, 0.0, 10.0)};
+  Trajectory trajectory;
+  trajectory.time = Eigen::VectorXd::LinSpaced(11, 0.0, 10.0);
   return trajectory;
 }
 
