@@ -13,9 +13,8 @@ namespace {
 using Check = InProgramFolder;
 
 TEST_F(Check, FindsTheDerivativesOfEveryResponseRight) {
-  const ProgramRun run =
-      exits(0, folder_.run_quick({"check", problem("slider_crank_round"), "--json"}));
-  const nlohmann::json document = run.document();
+  const nlohmann::json document =
+      exits(0, folder_.run_quick({"check", problem("slider_crank_round"), "--json"})).document();
   ASSERT_EQ(document.at("responses").size(), 8u);  // those of the file
   for (const auto& [name, response] : document.at("responses").items()) {
     const auto& derivatives = response.at("derivatives");

@@ -142,8 +142,8 @@ TEST_F(BadInput, StudyWithoutSettingsNamesFileAndPointer) {
 }
 
 TEST_F(BadInput, WithJsonTheErrorIsADocument) {
-  const ProgramRun run = exits(2, folder_.run({"check", "nothing.json", "--json"}));
-  const nlohmann::json error = run.document().at("error");
+  const nlohmann::json error =
+      exits(2, folder_.run({"check", "nothing.json", "--json"})).document().at("error");
   EXPECT_EQ(error.at("exit_code"), 2);
   EXPECT_THAT(error.at("message").get<std::string>(), HasSubstr("nothing.json"));
 }
@@ -309,8 +309,8 @@ class Starter : public testing::TestWithParam<std::string> {
 };
 
 TEST_P(Starter, HasAVerifiedOptimumThatIsLighter) {
-  const ProgramRun optimum = exits(0, run({"optimize", "begin.json", "--json", "--no-report"}));
-  const nlohmann::json document = optimum.document();
+  const nlohmann::json document =
+      exits(0, run({"optimize", "begin.json", "--json", "--no-report"})).document();
   EXPECT_EQ(document.at("status"), "verified");
   EXPECT_LT(document.at("objective").at("value"), document.at("objective").at("start"));
   EXPECT_EQ(document.at("warnings"), nlohmann::json::array());

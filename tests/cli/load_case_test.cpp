@@ -12,8 +12,8 @@ namespace {
 using LoadCases = InProgramFolder;
 
 TEST_F(LoadCases, GoThroughSimulateOneAfterTheOther) {
-  const ProgramRun run = exits(0, folder_.run({"simulate", problem("two_loads"), "--json"}));
-  const nlohmann::json cases = run.document().at("cases");
+  const nlohmann::json cases =
+      exits(0, folder_.run({"simulate", problem("two_loads"), "--json"})).document().at("cases");
   ASSERT_EQ(cases.size(), 2u);
   const auto torque = [&](const char* name) {
     return cases.at(name).at("responses").at("torque").at("value").get<double>();
@@ -61,8 +61,7 @@ std::string with_spread(const ProgramFolder& folder) {
 TEST_F(LoadCases, MakeNumbersTogether) {
   const std::string file = with_spread(folder_);
   for (const std::string command : {"simulate", "gradient"}) {
-    const ProgramRun run = exits(0, folder_.run({command, file, "--json"}));
-    const nlohmann::json document = run.document();
+    const nlohmann::json document = exits(0, folder_.run({command, file, "--json"})).document();
     const auto entry = [&](const char* name) {
       return document.at("cases").at(name).at("responses").at("rod_bow");
     };
@@ -86,11 +85,11 @@ TEST_F(LoadCases, MakeNumbersTogether) {
 
 /// What both cases share cancels in a difference: its deviation is that of the difference of slopes.
 TEST_F(LoadCases, ShareTheirUncertainParameters) {
-  const ProgramRun run = exits(
-      0,
-      folder_.run({"uncertainty", with_spread(folder_), "--json", "--set",
-                   R"(/uncertainty={"parameters": {"rod_diameter": {"deviation": "0.1 mm"}}})"}));
-  const nlohmann::json document = run.document();
+  const nlohmann::json document =
+      exits(0, folder_.run(
+                   {"uncertainty", with_spread(folder_), "--json", "--set",
+                    R"(/uncertainty={"parameters": {"rod_diameter": {"deviation": "0.1 mm"}}})"}))
+          .document();
   const auto deviation = [](const nlohmann::json& of) {
     return of.at("responses").at("rod_bow").at("deviation").get<double>();
   };
@@ -234,8 +233,11 @@ class BentCantilever : public testing::Test {
 TEST_F(BentCantilever, SaysWhatHasNoNumberOverItsCases) {
   document_["cases"]["other"]["/scene/loads/weight/value"] = "0 N";
   document_["responses"]["ratio"] = {{"type", "expression"}, {"value", "sag[down]/sag[other]"}};
-  const ProgramRun simulated = exits(3, run({"simulate", "bar.json", "--json"}));
-  const nlohmann::json ratio = simulated.document().at("over_cases").at("responses").at("ratio");
+  const nlohmann::json ratio = exits(3, run({"simulate", "bar.json", "--json"}))
+                                   .document()
+                                   .at("over_cases")
+                                   .at("responses")
+                                   .at("ratio");
   EXPECT_TRUE(ratio.at("value").is_null());
   EXPECT_THAT(ratio.at("error").get<std::string>(), HasSubstr("has no finite value there"));
   EXPECT_EQ(run({"gradient", "bar.json", "--json"}).exit_code, 3);

@@ -18,8 +18,7 @@ std::vector<std::string> quick_optimization(const std::vector<std::string>& more
 using Optimize = InProgramFolder;
 
 TEST_F(Optimize, GivesADocumentWithTheDocumentedKeys) {
-  const ProgramRun run = exits(0, folder_.run(quick_optimization({"--json"})));
-  const nlohmann::json document = run.document();
+  const nlohmann::json document = exits(0, folder_.run(quick_optimization({"--json"}))).document();
   for (const char* key :
        {"status", "message", "backend", "objective", "variables", "constraints", "kkt_residual",
         "max_violation", "evaluations", "gradient_evaluations", "iterations", "seconds"}) {
@@ -179,11 +178,11 @@ TEST_F(Optimize, StartsInItsTablesWhereTheRunBegan) {
 }
 
 TEST_F(Optimize, CannotVerifyWhatNoDesignCanKeep) {
-  const ProgramRun run = exits(
-      4,
-      folder_.run(quick_optimization({"--json", "--set", "/constraints/rod_stiffness/upper=1e-9 mm",
-                                      "--set", "/optimizer/max_iterations=10"})));
-  const nlohmann::json document = run.document();
+  const nlohmann::json document =
+      exits(4, folder_.run(quick_optimization({"--json", "--set",
+                                               "/constraints/rod_stiffness/upper=1e-9 mm", "--set",
+                                               "/optimizer/max_iterations=10"})))
+          .document();
   EXPECT_EQ(document.at("status"), "infeasible");
   const std::string message = document.at("message");
   EXPECT_THAT(message, HasSubstr("rod_stiffness ≤ 1e-09 mm cannot be kept"));

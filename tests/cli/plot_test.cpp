@@ -239,11 +239,11 @@ void expect_runs(const std::string& svg, const json& document, const char* error
 
 TEST(AccuracyCharts, ShowWhatTheResultSays) {
   const ProgramFolder folder;
-  const ProgramRun run = exits(
-      0,
-      folder.run_quick({"accuracy", problem("slider_crank_round"), "--json", "-o", "a", "--set",
-                        R"(/accuracy={"steps": [4e-4, 2e-4], "elements": [2, 4]})", "--optimum"}));
-  const json document = run.document();
+  const json document =
+      exits(0, folder.run_quick(
+                   {"accuracy", problem("slider_crank_round"), "--json", "-o", "a", "--set",
+                    R"(/accuracy={"steps": [4e-4, 2e-4], "elements": [2, 4]})", "--optimum"}))
+          .document();
   const auto svg = [&](const char* name) { return read_file(folder.path() / "a" / name); };
   expect_runs(svg("accuracy.svg"), document, "errors", "simulation_seconds");
   expect_runs(svg("accuracy-gradients.svg"), document, "gradient_errors", "seconds");

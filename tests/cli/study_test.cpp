@@ -114,10 +114,10 @@ TEST_F(UncertaintyCommand, AsksForItsSettings) {
 using StabilityCommand = InProgramFolder;
 
 TEST_F(StabilityCommand, TabulatesFilesTimesFormulations) {
-  const ProgramRun run =
+  const nlohmann::json document =
       exits(0, folder_.run({"stability", problem("hard/dead_centres"), problem("hard/change_point"),
-                            "--json", "-o", "study"}));
-  const nlohmann::json document = run.document();
+                            "--json", "-o", "study"}))
+          .document();
   const std::size_t runs = 2 * document.at("formulations").size();
   ASSERT_EQ(document.at("runs").size(), runs);
   for (const auto& study_run : document.at("runs")) {
@@ -209,10 +209,10 @@ TEST_F(PricesCommand, AreThoseOfTheDesignThatIsGivenIfItIsAnOptimum) {
 using Gradient = InProgramFolder;
 
 TEST_F(Gradient, MethodsStandSideBySideAndAgree) {
-  const ProgramRun run =
+  const nlohmann::json document =
       exits(0, folder_.run_quick({"gradient", problem("slider_crank_round"), "--method", "direct",
-                                  "--method", "central-difference", "--step", "1e-5", "--json"}));
-  const nlohmann::json document = run.document();
+                                  "--method", "central-difference", "--step", "1e-5", "--json"}))
+          .document();
   const auto& mass = document.at("responses").at("crank_and_rod");
   EXPECT_EQ(mass.at("unit"), "kg");
   const auto& gradients = mass.at("gradients");

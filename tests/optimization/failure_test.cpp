@@ -1,13 +1,11 @@
 #include <limits>
 
-#include "backend_names.hpp"
-#include "complex_step.hpp"
 #include "core/base/eager_matrices.hpp"
-#include "known_problems.hpp"
 #include "optimization/backends.hpp"
 #include "optimization/evaluation_cache.hpp"
 #include "optimization/history.hpp"
 #include "optimization/solve.hpp"
+#include "tests/optimization/known_problems.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::failure_test {
@@ -136,11 +134,9 @@ class Failure : public testing::TestWithParam<std::string> {
 TEST_P(Failure, EverywhereButAtTheStartIsGivenUp) {
   KnownProblem known = cantilever();
   const Eigen::VectorXd start = checked_start(known.problem);
-  FunctionProblem problem(known.problem.variables(), known.problem.constraints(),
-                          [&](const Eigen::VectorXd& x, Request request) {
-                            if (x != start) throw EvaluationFailure("no equilibrium");
-                            return known.problem.evaluate(x, request);
-                          });
+  FunctionProblem problem = changed(known.problem, [&](const Eigen::VectorXd& x, Evaluation&) {
+    if (x != start) throw EvaluationFailure("no equilibrium");
+  });
   const Result result = solve(problem, options_);
   EXPECT_NE(result.status, Status::verified);
   EXPECT_EQ(result.x, start);
@@ -151,11 +147,9 @@ TEST_P(Failure, EverywhereButAtTheStartIsGivenUp) {
 TEST_P(Failure, TooOftenInARowEndsTheRun) {
   KnownProblem known = cantilever();
   const Eigen::VectorXd start = checked_start(known.problem);
-  FunctionProblem problem(known.problem.variables(), known.problem.constraints(),
-                          [&](const Eigen::VectorXd& x, Request request) {
-                            if (x != start) throw EvaluationFailure("no equilibrium");
-                            return known.problem.evaluate(x, request);
-                          });
+  FunctionProblem problem = changed(known.problem, [&](const Eigen::VectorXd& x, Evaluation&) {
+    if (x != start) throw EvaluationFailure("no equilibrium");
+  });
   options_.max_consecutive_failures = 2;
   const Result result = solve(problem, options_);
   EXPECT_EQ(result.status, Status::failed);
@@ -166,11 +160,9 @@ TEST_P(Failure, TooOftenInARowEndsTheRun) {
 TEST_P(Failure, OfTheProgramItselfPassesThrough) {
   KnownProblem known = cantilever();
   int calls = 0;
-  FunctionProblem problem(known.problem.variables(), known.problem.constraints(),
-                          [&](const Eigen::VectorXd& x, Request request) {
-                            if (++calls == 3) throw std::logic_error("a fault of ours");
-                            return known.problem.evaluate(x, request);
-                          });
+  FunctionProblem problem = changed(known.problem, [&](const Eigen::VectorXd&, Evaluation&) {
+    if (++calls == 3) throw std::logic_error("a fault of ours");
+  });
   EXPECT_THROW(solve(problem, options_), std::logic_error);
 }
 
@@ -186,13 +178,10 @@ TEST_P(Failure, ToFindADesignWithinContradictoryLimitsIsInfeasible) {
 // A gradient wrong in one component leads to a design where the wrong conditions hold.
 TEST_P(Failure, ToDifferentiateCorrectlyIsNotVerified) {
   KnownProblem known = cantilever();
-  FunctionProblem problem(known.problem.variables(), known.problem.constraints(),
-                          [&](const Eigen::VectorXd& x, Request request) {
-                            Evaluation evaluation = known.problem.evaluate(x, request);
-                            if (evaluation.has_gradients())
-                              evaluation.constraint_jacobian(0, 2) *= 1.2;
-                            return evaluation;
-                          });
+  FunctionProblem problem =
+      changed(known.problem, [&](const Eigen::VectorXd&, Evaluation& evaluation) {
+        if (evaluation.has_gradients()) evaluation.constraint_jacobian(0, 2) *= 1.2;
+      });
   const Result result = solve(problem, options_);
   EXPECT_EQ(result.status, Status::stalled) << result.message;
 }

@@ -5,13 +5,11 @@
 #include <set>
 #include <tuple>
 
-#include "backend_names.hpp"
-#include "complex_step.hpp"
 #include "core/base/eager_matrices.hpp"
-#include "known_problems.hpp"
 #include "optimization/backends.hpp"
 #include "optimization/solve.hpp"
 #include "optimization/starts.hpp"
+#include "tests/optimization/known_problems.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::find_optimum_test {
@@ -85,14 +83,11 @@ TEST_P(FindOptimum, LeavesAStartThatCannotBeEvaluated) {
   const KnownProblem known = cantilever();
   // Σ aᵢ / 4³ = 1.95; the optimum has 1.
   FunctionProblem problem = started_at(known, Eigen::VectorXd::Constant(5, 4.0));
-  FunctionProblem fragile(problem.variables(), problem.constraints(),
-                          [&](const Eigen::VectorXd& x, Request request) {
-                            Evaluation evaluation = problem.evaluate(x, request);
-                            if (evaluation.constraints[0] > 1.5) {
-                              throw EvaluationFailure("no equilibrium");
-                            }
-                            return evaluation;
-                          });
+  FunctionProblem fragile = changed(problem, [&](const Eigen::VectorXd&, Evaluation& evaluation) {
+    if (evaluation.constraints[0] > 1.5) {
+      throw EvaluationFailure("no equilibrium");
+    }
+  });
   const Result result = verified(find_optimum(fragile, options_));
   EXPECT_NEAR(result.evaluation.objective, known.optimum, 1e-3 * known.optimum);
   EXPECT_TRUE(result.history.front().has_failed());
@@ -352,14 +347,12 @@ class Noise : public testing::TestWithParam<std::string> {};
 // step conservative and make 20 of their 40 steps below the tolerance, down to rounding.
 TEST_P(Noise, IsNotChased) {
   KnownProblem known = ten_bar_truss();
-  FunctionProblem problem(known.problem.variables(), known.problem.constraints(),
-                          [&](const Eigen::VectorXd& x, Request request) {
-                            Evaluation evaluation = known.problem.evaluate(x, request);
-                            const double noise = 1e-8 * std::sin(1e9 * x.sum());
-                            evaluation.objective *= 1.0 + noise;
-                            evaluation.constraints *= 1.0 - noise;
-                            return evaluation;
-                          });
+  FunctionProblem problem =
+      changed(known.problem, [&](const Eigen::VectorXd& x, Evaluation& evaluation) {
+        const double noise = 1e-8 * std::sin(1e9 * x.sum());
+        evaluation.objective *= 1.0 + noise;
+        evaluation.constraints *= 1.0 - noise;
+      });
   SolveOptions options{.backend = GetParam()};
   const Result result = verified(solve(problem, options));
   EXPECT_NEAR(result.evaluation.objective, known.optimum, 1e-5 * known.optimum);

@@ -17,6 +17,18 @@ inline Result verified(const Result& result) {
   return result;
 }
 
+/// The same problem where something happens to its evaluations.
+/// @param change  of a design and its evaluation; may throw
+template <class Change>
+FunctionProblem changed(const FunctionProblem& problem, Change change) {
+  return {problem.variables(), problem.constraints(),
+          [problem, change](const Eigen::VectorXd& x, Request request) mutable {
+            Evaluation evaluation = problem.evaluate(x, request);
+            change(x, evaluation);
+            return evaluation;
+          }};
+}
+
 /// A problem with published optimum.
 struct KnownProblem {
   std::string name;

@@ -1,14 +1,12 @@
 #include <random>
 
-#include "backend_names.hpp"
-#include "complex_step.hpp"
 #include "core/base/eager_matrices.hpp"
-#include "known_problems.hpp"
 #include "optimization/backends.hpp"
 #include "optimization/broken_limits.hpp"
 #include "optimization/kkt_audit.hpp"
 #include "optimization/prices.hpp"
 #include "optimization/solve.hpp"
+#include "tests/optimization/known_problems.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::multiplier_test {

@@ -3,14 +3,13 @@
 #include <limits>
 #include <random>
 
-#include "complex_step.hpp"
 #include "core/base/eager_matrices.hpp"
-#include "known_problems.hpp"
 #include "optimization/kkt_audit.hpp"
 #include "optimization/linear_choice.hpp"
 #include "optimization/phase_one_problem.hpp"
 #include "optimization/restoration.hpp"
 #include "optimization/violation_step.hpp"
+#include "tests/optimization/known_problems.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::phase_one_test {
@@ -130,11 +129,8 @@ TEST(Restoration, OfPowersTakesAFewSteps) {
                             return result;
                           }));
   int evaluations = 0;
-  FunctionProblem counted(problem.variables(), problem.constraints(),
-                          [&](const Eigen::VectorXd& x, Request request) {
-                            ++evaluations;
-                            return problem.evaluate(x, request);
-                          });
+  FunctionProblem counted =
+      changed(problem, [&](const Eigen::VectorXd&, Evaluation&) { ++evaluations; });
   const auto restored = restore_limits(counted, checked_start(counted));
   ASSERT_TRUE(restored.has_value());
   // ln 10 / 0.01 is 6.9, in steps of 0.7, 1.4, 2, 2, 2; two evaluations each.

@@ -3,10 +3,7 @@
 #include <functional>
 #include <random>
 
-#include "backend_names.hpp"
-#include "complex_step.hpp"
 #include "core/base/eager_matrices.hpp"
-#include "known_problems.hpp"
 #include "optimization/backends.hpp"
 #include "optimization/find_optimum.hpp"
 #include "optimization/robust_problem.hpp"
@@ -100,12 +97,10 @@ TEST(NumbersThatAreNotFinite, ReachNoBackend) {
   for (const auto& mishap : mishaps) {
     KnownProblem known = cantilever();
     const Eigen::VectorXd start = checked_start(known.problem);
-    FunctionProblem problem(known.problem.variables(), known.problem.constraints(),
-                            [&](const Eigen::VectorXd& x, Request request) {
-                              Evaluation evaluation = known.problem.evaluate(x, request);
-                              if (x != start) mishap(evaluation);
-                              return evaluation;
-                            });
+    FunctionProblem problem =
+        changed(known.problem, [&](const Eigen::VectorXd& x, Evaluation& evaluation) {
+          if (x != start) mishap(evaluation);
+        });
     const EvaluatedDesign design{start, problem.evaluate(start, Request::values_and_gradients)};
     const Eigen::VectorXd scales = variable_scales(problem, start);
     EvaluationCache cache(problem, design,
@@ -130,11 +125,8 @@ TEST_F(EveryKind, OfDesignThatIsNoNumberEndsTheSearchWithoutAnEvaluation) {
 TEST(Observer, SeesEveryEvaluationAsItHappens) {
   KnownProblem known = cantilever();
   int calls = 0;
-  FunctionProblem problem(known.problem.variables(), known.problem.constraints(),
-                          [&](const Eigen::VectorXd& x, Request request) {
-                            ++calls;
-                            return known.problem.evaluate(x, request);
-                          });
+  FunctionProblem problem =
+      changed(known.problem, [&](const Eigen::VectorXd&, Evaluation&) { ++calls; });
   int seen = 0;
   const Result result = solve(problem, {}, [&](const EvaluationRecord& record) {
     EXPECT_EQ(record.evaluation, ++seen);

@@ -1,12 +1,10 @@
 /// A verdict for every variable: small parts of the objective, bad scales, variables without
 /// influence. All optima are closed forms.
 
-#include "backend_names.hpp"
-#include "complex_step.hpp"
 #include "core/base/eager_matrices.hpp"
-#include "known_problems.hpp"
 #include "optimization/backends.hpp"
 #include "optimization/solve.hpp"
+#include "tests/optimization/known_problems.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::small_part_test {
@@ -187,11 +185,9 @@ TEST(Verdict, WithSlackAtTheLimitThatHoldsItIsNotVerified) {
 TEST(Verdict, WithoutDesignsBesideItIsNotVerified) {
   FunctionProblem bowl = shallow_bowl();
   const Eigen::VectorXd optimum = Eigen::VectorXd::Ones(1), start = checked_start(bowl);
-  FunctionProblem lonely(bowl.variables(), bowl.constraints(),
-                         [&](const Eigen::VectorXd& x, Request request) {
-                           if (x != optimum && x != start) throw EvaluationFailure("locks");
-                           return bowl.evaluate(x, request);
-                         });
+  FunctionProblem lonely = changed(bowl, [&](const Eigen::VectorXd& x, Evaluation&) {
+    if (x != optimum && x != start) throw EvaluationFailure("locks");
+  });
   EXPECT_EQ(judge_anew(bowl, start, optimum).status, Status::verified);
   const Verdict verdict = judge_anew(lonely, start, optimum);
   EXPECT_EQ(verdict.status, Status::stalled) << verdict.message;
