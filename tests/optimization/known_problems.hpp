@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "optimization/problem.hpp"
+#include "optimization/result.hpp"
 #include "optimization/verdict.hpp"
 #include "tests/support/test.hpp"
 
@@ -22,7 +23,8 @@ inline Result verified(const Result& result) {
 template <class Change>
 FunctionProblem changed(const FunctionProblem& problem, Change change) {
   return {problem.variables(), problem.constraints(),
-          [problem, change](const Eigen::VectorXd& x, Request request) mutable {
+          [problem = FunctionProblem(problem), change](const Eigen::VectorXd& x,
+                                                       Request request) mutable {
             Evaluation evaluation = problem.evaluate(x, request);
             change(x, evaluation);
             return evaluation;

@@ -143,7 +143,8 @@ TEST(DerivativeCheck, WouldFindTheDerivativesRightWithATightTolerance) {
 }
 
 TEST(DerivativeCheck, BlamesALooseNewtonToleranceAndNotTheDerivatives) {
-  const auto [problem, x, analysis] = AtStart(loose_problem(), tight = tight_problem());
+  const auto [problem, x, analysis] = AtStart(loose_problem());
+  const ProblemFile tight = tight_problem();
   const auto tight_analysis = analyze(tight, x);
   const auto checks = check_derivatives(problem, x, *analysis);
   const auto tight_checks = check_derivatives(tight, x, *tight_analysis);
