@@ -4,9 +4,8 @@
 
 #include "core/beam/beam_invariants.hpp"
 #include "core/effects/floating_frame_body.hpp"
-#include "core/effects/floating_frame_residual.hpp"
+#include "core/effects/general_body_equations.hpp"
 #include "core/model/body_builder.hpp"
-#include "core/model/invariant_derivatives.hpp"
 
 namespace pleuel::bench {
 

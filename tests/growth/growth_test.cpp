@@ -3,7 +3,7 @@
 #include <fmt/ranges.h>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/response/effect_influence.hpp"
+#include "core/response/effect_measurement.hpp"
 #include "core/trust/checks.hpp"
 #include "optimization/design/design_problem.hpp"
 #include "sensitivity/sampled_gradients.hpp"

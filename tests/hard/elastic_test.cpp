@@ -4,7 +4,7 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/mobility/lock.hpp"
-#include "core/trust/stability.hpp"
+#include "core/trust/check_list.hpp"
 #include "tests/hard/hard_problems.hpp"
 #include "tests/support/differences.hpp"
 

@@ -4,9 +4,9 @@
 #include "core/base/error.hpp"
 #include "core/jobs/child_program.hpp"
 #include "core/scene/aligned_body.hpp"
+#include "core/scene/body_constants.hpp"
 #include "core/scene/body_source.hpp"
 #include "core/scene/continued_body.hpp"
-#include "core/scene/invariants_file.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/test.hpp"
 

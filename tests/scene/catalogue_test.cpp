@@ -1,7 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.hpp"
-#include "core/base/value_path.hpp"
+#include "core/base/expression.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "tests/scene/good_problem.hpp"
 #include "tests/support/files.hpp"

@@ -3,9 +3,7 @@
 #include <complex>
 
 #include "core/scene/reading/expression_parser.hpp"
-#include "core/scene/response_quantity.hpp"
 #include "core/scene/shown_unit.hpp"
-#include "core/scene/variable_quantity.hpp"
 #include "tests/scene/good_problem.hpp"
 #include "tests/support/parameter_name.hpp"
 #include "tests/support/test.hpp"

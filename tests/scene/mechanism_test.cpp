@@ -2,7 +2,7 @@
 
 #include "core/scene/held_points.hpp"
 #include "core/scene/packed_problem.hpp"
-#include "core/scene/response_quantity.hpp"
+#include "core/scene/shown_unit.hpp"
 #include "core/scene/visit_numbers.hpp"
 #include "tests/scene/good_problem.hpp"
 #include "tests/support/test.hpp"

@@ -2,7 +2,7 @@
 
 #include "core/base/error.hpp"
 #include "core/scene/problem_reader.hpp"
-#include "core/scene/response_quantity.hpp"
+#include "core/scene/shown_unit.hpp"
 #include "tests/scene/good_problem.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/parameter_name.hpp"

@@ -10,7 +10,7 @@
 #include <valijson/schema_parser.hpp>
 #include <valijson/validator.hpp>
 
-#include "core/base/members.hpp"
+#include "core/base/packed.hpp"
 #include "core/scene/grammar/tables.hpp"
 #include "core/scene/joint_kind.hpp"
 #include "core/scene/reading/key_schema.hpp"

@@ -5,7 +5,6 @@
 #include "core/scene/common_units.hpp"
 #include "core/scene/dimension.hpp"
 #include "core/scene/response_kind.hpp"
-#include "core/scene/response_quantity.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "tests/support/parameter_name.hpp"
 #include "tests/support/problem_runs.hpp"

@@ -8,7 +8,6 @@
 #include "sensitivity/adjoint.hpp"
 #include "sensitivity/direct.hpp"
 #include "sensitivity/gradients.hpp"
-#include "sensitivity/history_gradients.hpp"
 #include "sensitivity/method_choice.hpp"
 #include "tests/support/at_start.hpp"
 #include "tests/support/sample_scenes.hpp"

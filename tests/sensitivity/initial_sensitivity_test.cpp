@@ -8,7 +8,7 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/rotation_vector.hpp"
-#include "core/mechanism/configuration.hpp"
+#include "core/mechanism/mechanism.hpp"
 #include "core/response/analysis.hpp"
 #include "sensitivity/direct.hpp"
 #include "sensitivity/gradients.hpp"

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "core/beam/beam_place.hpp"
+#include "core/beam/beam_shape.hpp"
 #include "core/model/model.hpp"
 #include "tests/support/dense.hpp"
 #include "tests/support/dense_algebra.hpp"

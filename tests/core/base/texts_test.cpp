@@ -5,7 +5,6 @@
 #include <variant>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/base/members.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/packed.hpp"
 #include "core/base/stopwatch.hpp"

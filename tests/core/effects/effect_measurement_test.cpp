@@ -4,7 +4,7 @@
 #include "core/base/error.hpp"
 #include "core/model/effect_estimates.hpp"
 #include "core/response/analysis.hpp"
-#include "core/response/effect_influence.hpp"
+#include "core/response/effect_measurement.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/trust/neglected_effects.hpp"
 #include "tests/support/problem_runs.hpp"

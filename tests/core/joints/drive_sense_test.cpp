@@ -2,7 +2,6 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
-#include "core/frame/elastic_rotation.hpp"
 #include "core/frame/marker_kinematics.hpp"
 #include "core/frame/number_data.hpp"
 #include "core/integration/simulate.hpp"

@@ -1,12 +1,11 @@
 #include <utility>
 
 #include "core/base/eager_matrices.hpp"
+#include "core/linear/linearization.hpp"
 #include "core/linear/modes.hpp"
-#include "core/linear/turning.hpp"
 #include "core/response/analysis.hpp"
-#include "core/trust/frequency_meaning.hpp"
+#include "core/trust/check_list.hpp"
 #include "core/trust/model_variants.hpp"
-#include "core/trust/stability.hpp"
 #include "tests/core/start/quasi_static_beam.hpp"
 #include "tests/core/trust/trust_scenes.hpp"
 #include "tests/support/at_start.hpp"

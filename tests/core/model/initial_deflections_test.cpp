@@ -11,7 +11,7 @@
 #include "core/model/resolve_beam.hpp"
 #include "core/model/scene_geometry.hpp"
 #include "core/scene/visit_numbers.hpp"
-#include "core/trust/initial_motion.hpp"
+#include "core/trust/check_list.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/core/trust/trust_scenes.hpp"
 #include "tests/support/at_start.hpp"

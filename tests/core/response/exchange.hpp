@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/response/analysis.hpp"
-#include "core/scene/invariants_file.hpp"
+#include "core/scene/body_constants.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/test.hpp"

@@ -5,7 +5,7 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
-#include "core/response/fatigue_damage.hpp"
+#include "core/response/fatigue.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/support/at_start.hpp"
 #include "tests/support/test.hpp"

@@ -5,8 +5,8 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
-#include "core/response/effect_influence.hpp"
-#include "core/scene/invariants_file.hpp"
+#include "core/response/effect_measurement.hpp"
+#include "core/scene/body_constants.hpp"
 #include "core/scene/visit_constants.hpp"
 #include "sensitivity/constant_gradients.hpp"
 #include "sensitivity/gradients.hpp"

@@ -1,6 +1,6 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
-#include "core/mechanism/configuration.hpp"
+#include "core/mechanism/mechanism.hpp"
 #include "core/model/body_energy.hpp"
 #include "core/response/analysis.hpp"
 #include "core/response/monitors.hpp"

@@ -2,7 +2,7 @@
 #include "core/joints/joint_term.hpp"
 #include "core/response/analysis.hpp"
 #include "core/start/initial_state.hpp"
-#include "core/start/least_norm.hpp"
+#include "core/start/redundancy.hpp"
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/core/response/response_samples.hpp"

@@ -4,7 +4,7 @@
 
 #include "core/response/lateral_buckling_signal.hpp"
 #include "core/response/make_responses.hpp"
-#include "core/scene/magnitude_direction.hpp"
+#include "core/scene/response_kind.hpp"
 #include "tests/support/model_state.hpp"
 #include "tests/support/sample_scenes.hpp"
 

@@ -1,7 +1,7 @@
 #include <set>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/mechanism/configuration.hpp"
+#include "core/mechanism/mechanism.hpp"
 #include "core/response/analysis.hpp"
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/gradients.hpp"

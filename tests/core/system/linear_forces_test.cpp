@@ -1,7 +1,7 @@
 #include "core/system/linear_forces.hpp"
 
 #include "core/base/eager_matrices.hpp"
-#include "core/mechanism/configuration.hpp"
+#include "core/mechanism/mechanism.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/model_state.hpp"
 #include "tests/support/sample_scenes.hpp"

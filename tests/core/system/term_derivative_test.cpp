@@ -1,7 +1,7 @@
 #include <array>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/mechanism/configuration.hpp"
+#include "core/mechanism/mechanism.hpp"
 #include "tests/support/dense.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/model_state.hpp"

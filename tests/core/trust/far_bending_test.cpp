@@ -1,7 +1,6 @@
-#include "core/trust/far_bending.hpp"
-
 #include "core/base/eager_matrices.hpp"
-#include "core/trust/tension_layers.hpp"
+#include "core/trust/bent_beams.hpp"
+#include "core/trust/check_list.hpp"
 #include "tests/core/trust/trust_scenes.hpp"
 #include "tests/support/at_start.hpp"
 #include "tests/support/one_beam.hpp"

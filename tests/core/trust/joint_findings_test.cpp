@@ -1,9 +1,8 @@
 #include "core/trust/joint_findings.hpp"
 
 #include "core/base/error.hpp"
+#include "core/trust/check_list.hpp"
 #include "core/trust/fast_laws.hpp"
-#include "core/trust/laws_over_coordinates.hpp"
-#include "core/trust/not_modelled.hpp"
 #include "tests/core/trust/trust_scenes.hpp"
 #include "tests/support/at_start.hpp"
 #include "tests/support/parameter_name.hpp"

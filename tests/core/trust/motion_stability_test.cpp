@@ -1,6 +1,6 @@
 #include <utility>
 
-#include "core/trust/stability.hpp"
+#include "core/trust/check_list.hpp"
 #include "tests/core/trust/trust_scenes.hpp"
 #include "tests/support/test.hpp"
 

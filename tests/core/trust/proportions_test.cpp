@@ -1,9 +1,6 @@
-#include "core/trust/proportions.hpp"
-
 #include "core/base/eager_matrices.hpp"
-#include "core/trust/initial_motion.hpp"
+#include "core/trust/check_list.hpp"
 #include "core/trust/lint.hpp"
-#include "core/trust/start_positions.hpp"
 #include "tests/core/trust/trust_scenes.hpp"
 #include "tests/support/parameter_name.hpp"
 #include "tests/support/problem_runs.hpp"

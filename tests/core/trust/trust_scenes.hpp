@@ -9,11 +9,11 @@
 #include <gtest/gtest.h>
 
 #include "core/response/analysis.hpp"
+#include "core/trust/bent_beams.hpp"
+#include "core/trust/check_list.hpp"
 #include "core/trust/checks.hpp"
-#include "core/trust/low_slenderness.hpp"
 #include "core/trust/model_variants.hpp"
 #include "core/trust/sideways_buckling.hpp"
-#include "core/trust/stability.hpp"
 #include "tests/support/at_start.hpp"
 #include "tests/support/one_beam.hpp"
 

@@ -1,9 +1,7 @@
 #include "core/trust/unactuated_freedoms.hpp"
 
-#include "core/trust/initial_motion.hpp"
+#include "core/trust/check_list.hpp"
 #include "core/trust/joint_findings.hpp"
-#include "core/trust/proportions.hpp"
-#include "core/trust/start_positions.hpp"
 #include "tests/core/trust/trust_scenes.hpp"
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"

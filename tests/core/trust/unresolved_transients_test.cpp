@@ -1,9 +1,7 @@
-#include "core/trust/unresolved_transients.hpp"
-
 #include "core/base/eager_matrices.hpp"
 #include "core/integration/fast_vibration.hpp"
+#include "core/trust/check_list.hpp"
 #include "core/trust/checks.hpp"
-#include "core/trust/startup_transient.hpp"
 #include "tests/core/trust/trust_scenes.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/problem_runs.hpp"
