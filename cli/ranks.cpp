@@ -13,8 +13,7 @@
 #include "core/base/error.hpp"
 #include "core/jobs/rank_place.hpp"
 #include "optimization/design/multi_start.hpp"
-#include "optimization/design/size_trials.hpp"
-#include "studies/front_ends.hpp"
+#include "optimization/design/size_lists.hpp"
 #include "studies/pareto.hpp"
 #include "studies/uncertainty.hpp"
 
@@ -41,7 +40,6 @@ std::vector<int> usable_processors() {
 WorkMakers work_makers() {
   return {{search_work_name, make_search_work},
           {trial_work_name, make_trial_work},
-          {end_work_name, make_end_work},
           {point_work_name, make_point_work},
           {sample_work_name, make_sample_work}};
 }

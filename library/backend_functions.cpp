@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "core/jobs/worker.hpp"
-#include "library/call_error.hpp"
 #include "library/called_optimizer.hpp"
 #include "library/guarded_call.hpp"
+#include "library/open_problem.hpp"
 #include "optimization/backends.hpp"
 
 namespace {

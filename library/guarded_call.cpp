@@ -12,7 +12,7 @@
 
 #include "cli/interruption.hpp"
 #include "core/base/stop.hpp"
-#include "library/call_error.hpp"
+#include "library/open_problem.hpp"
 
 namespace pleuel {
 

@@ -2,9 +2,6 @@
 
 #include <cmath>
 #include <string_view>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "core/jobs/parallel.hpp"
 #include "core/response/effect_measurement.hpp"
@@ -12,9 +9,7 @@
 #include "core/scene/kind_table.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/problem_reader.hpp"
-#include "core/scene/response_quantity.hpp"
 #include "core/scene/shown_unit.hpp"
-#include "library/call_error.hpp"
 
 namespace pleuel {
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -12,13 +13,21 @@
 
 #include <fmt/format.h>
 
-#include "core/scene/problem_text.hpp"
+#include "core/scene/problem_reader.hpp"
 #include "include/pleuel.h"
-#include "library/call_error.hpp"
 #include "optimization/design/design_problem.hpp"
-#include "sensitivity/history_gradients.hpp"
+#include "sensitivity/gradients.hpp"
 
 namespace pleuel {
+
+/// A C function was called in a way that it cannot be: the message says which argument is wrong, and how.
+class CallError : public std::runtime_error {
+ public:
+  explicit CallError(const std::string& text, pleuel_status status = PLEUEL_BAD_CALL)
+      : std::runtime_error(text), status(status) {}
+
+  pleuel_status status;
+};
 
 /// A problem that another program has opened. Its simulations are made one at a time; what it says of the problem
 /// may be read meanwhile.

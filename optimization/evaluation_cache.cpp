@@ -24,17 +24,13 @@ EvaluationCache::EvaluationCache(Problem& problem, const EvaluatedDesign& start,
 const Evaluation* EvaluationCache::evaluate(const Eigen::VectorXd& x, Request request) {
   const Entry* entry = find(x, request);
   if (entry == nullptr) {
-    const bool values_were_known = has_values(x);
+    const Entry* values = find(x, Request::values);
+    const bool values_were_known = values != nullptr && values->evaluation.has_value();
     if (gradients_fail_alone_) request = Request::values_and_gradients;
     entry = &remember(x, request, attempt_evaluation(problem_, x, request));
     if (values_were_known && !entry->evaluation) gradients_fail_alone_ = true;
   }
   return entry->evaluation ? &*entry->evaluation : nullptr;
-}
-
-bool EvaluationCache::has_values(const Eigen::VectorXd& x) const {
-  const Entry* entry = find(x, Request::values);
-  return entry != nullptr && entry->evaluation.has_value();
 }
 
 const EvaluationCache::Entry* EvaluationCache::find(const Eigen::VectorXd& x,
@@ -44,19 +40,12 @@ const EvaluationCache::Entry* EvaluationCache::find(const Eigen::VectorXd& x,
     const bool enough = request == Request::values || entry.request == request || failed;
     return enough && entry.x == x;
   };
-  const auto entry = std::find_if(entries_.begin(), entries_.end(), answers);
+  const auto entry = std::ranges::find_if(entries_, answers);
   return entry == entries_.end() ? nullptr : &*entry;
 }
 
 const EvaluationCache::Entry& EvaluationCache::remember(const Eigen::VectorXd& x, Request request,
                                                         Attempt attempt) {
-  record(x, request, attempt);
-  if (entries_.size() == remembered_designs) entries_.pop_back();
-  entries_.push_front({x, request, std::move(attempt.evaluation)});
-  return entries_.front();
-}
-
-void EvaluationCache::record(const Eigen::VectorXd& x, Request request, const Attempt& attempt) {
   const bool with_gradients = request == Request::values_and_gradients;
   const bool has_failed = !attempt.evaluation;
   gradient_evaluations_ += with_gradients ? 1 : 0;
@@ -77,6 +66,9 @@ void EvaluationCache::record(const Eigen::VectorXd& x, Request request, const At
   }
   history_.push_back(std::move(record));
   show(watch_.observer, history_.back());
+  if (entries_.size() == remembered_designs) entries_.pop_back();
+  entries_.push_front({x, request, std::move(attempt.evaluation)});
+  return entries_.front();
 }
 
 }  // namespace pleuel

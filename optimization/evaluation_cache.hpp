@@ -7,8 +7,8 @@
 
 #include "core/base/int_size.hpp"
 #include "core/base/stopwatch.hpp"
-#include "optimization/history.hpp"
 #include "optimization/problem.hpp"
+#include "optimization/result.hpp"
 
 namespace pleuel {
 
@@ -63,10 +63,9 @@ class EvaluationCache {
     std::optional<Evaluation> evaluation;
   };
 
-  bool has_values(const Eigen::VectorXd& x) const;
   const Entry* find(const Eigen::VectorXd& x, Request request) const;
+  /// And records it.
   const Entry& remember(const Eigen::VectorXd& x, Request request, Attempt attempt);
-  void record(const Eigen::VectorXd& x, Request request, const Attempt& attempt);
 
   Problem& problem_;
   Scales scales_;

@@ -1,6 +1,5 @@
 #include "optimization/evaluation_store.hpp"
 
-#include "core/base/packed.hpp"
 #include "optimization/result.hpp"
 
 namespace pleuel {

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -16,7 +18,7 @@ namespace pleuel {
 
 /// What an evaluation follows from, within one problem file; equal to the last bit or not at all.
 struct EvaluationKey {
-  std::string setting;  ///< what it is simulated with (setting_text.hpp)
+  std::string setting;  ///< what it is simulated with (setting_text())
   std::string rows;     ///< what stands for the constraints
   std::string method;   ///< how gradients are computed; empty where that is chosen with it
   Request request = Request::values;
@@ -118,6 +120,43 @@ class StoredTasks : public Tasks {
  private:
   StoredWork<Data> work_;
   EvaluationStore* store_;
+};
+
+/// Tasks of which nothing but their answers is kept, in the order of the tasks. Their data say besides:
+///
+///     using Answer = …;
+///     int count() const;
+///     std::optional<int> needed_by(int task) const;  // may be missing, see Tasks
+///     Answer lost(int task, const std::string& failure) const;  // in place of one that there is none of
+template <class Data>
+class AnsweredTasks : public StoredTasks<Data> {
+ public:
+  using Answer = typename Data::Answer;
+
+  /// @param see  hears of each answer; may be empty
+  AnsweredTasks(Data data, EvaluationStore* store, std::function<void(const Answer&)> see = {})
+      : StoredTasks<Data>(std::move(data), store), see_(std::move(see)) {}
+
+  int count() const override { return this->data().count(); }
+  std::optional<int> needed_by(int task) const override {
+    if constexpr (requires { this->data().needed_by(task); }) return this->data().needed_by(task);
+    return std::nullopt;
+  }
+  void take(int /*task*/, const std::string& answer) override { keep(unpacked<Answer>(answer)); }
+  void fail(int task, const std::string& failure) override {
+    keep(this->data().lost(task, failure));
+  }
+
+  std::vector<Answer> take_answers() { return std::move(answers_); }
+
+ private:
+  void keep(Answer answer) {
+    if (see_) see_(answer);
+    answers_.push_back(std::move(answer));
+  }
+
+  std::function<void(const Answer&)> see_;
+  std::vector<Answer> answers_;
 };
 
 }  // namespace pleuel

@@ -1,5 +1,3 @@
-#include "optimization/find_optimum.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -9,10 +7,11 @@
 #include <fmt/format.h>
 
 #include "core/base/eager_matrices.hpp"
+#include "core/base/stopwatch.hpp"
 #include "optimization/backends.hpp"
-#include "optimization/prices.hpp"
-#include "optimization/problem_decorator.hpp"
+#include "optimization/kkt_audit.hpp"
 #include "optimization/scaling.hpp"
+#include "optimization/solve.hpp"
 
 namespace pleuel {
 
@@ -163,19 +162,38 @@ class Search {
   template <class Work>
   auto with_limit_rows(const std::string& method, const Work& work) {
     LimitRows rows = searched_.limit_rows();
-    const auto completed = [&](EvaluationRecord record) {
-      record.constraints =
-          worst_values(rows.constraint_of_row, record.constraints, problem_.constraints());
-      if (magnitudes_.size() > 0) {
-        record.max_violation = max_violation(problem_, record.constraints, magnitudes_);
-      }
-      return record;
-    };
-    RecordedProblem recorded(*rows.problem, total_, completed, observer_);
+    const Stopwatch watch;
+    const double seconds_before = total_.seconds;
+    FunctionProblem recorded(*rows.problem, [&](const Eigen::VectorXd& x, Request request) {
+      Attempt attempt = attempt_evaluation(*rows.problem, x, request);
+      total_.seconds = seconds_before + watch.seconds();
+      record(rows.constraint_of_row, record_of(x, request, attempt));
+      if (!attempt.evaluation) throw EvaluationFailure(attempt.failure);
+      return std::move(*attempt.evaluation);
+    });
     const int evaluations = total_.evaluations;
     auto outcome = work(LimitRows{&recorded, rows.constraint_of_row});
     total_.parts.push_back({method, Status::stalled, total_.evaluations - evaluations});
     return outcome;
+  }
+
+  /// An evaluation of rows, whoever asked for it, as one of a restoration.
+  void record(const ConstraintOfRow& constraint_of_row, EvaluationRecord record) {
+    const int gradients = record.request == Request::values_and_gradients ? 1 : 0;
+    total_.gradient_evaluations += gradients;
+    record.purpose = Purpose::restoration;
+    record.evaluation = ++total_.evaluations;
+    record.iteration = total_.iterations += gradients;
+    record.seconds = total_.seconds;
+    if (!record.has_failed()) {
+      record.constraints =
+          worst_values(constraint_of_row, record.constraints, problem_.constraints());
+      if (magnitudes_.size() > 0) {
+        record.max_violation = max_violation(problem_, record.constraints, magnitudes_);
+      }
+    }
+    total_.history.push_back(std::move(record));
+    show(observer_, total_.history.back());
   }
 
   /// The start cannot be evaluated.
@@ -193,16 +211,12 @@ class Search {
     begun_elsewhere_ = true;
   }
 
-  void find_magnitudes() {
-    magnitudes_ =
-        constraint_scales(problem_, total_.evaluation, variable_scales(problem_, total_.x));
-  }
-
   /// A design within the limits.
   std::optional<Eigen::VectorXd> restored() {
     if (restorations_ == most_restorations) return std::nullopt;
     ++restorations_;
-    find_magnitudes();
+    magnitudes_ =
+        constraint_scales(problem_, total_.evaluation, variable_scales(problem_, total_.x));
     notify(notice_, "no design within the limits so far: the search goes on with the limits alone");
     const Eigen::VectorXd best = best_seen();
     const auto inside = with_limit_rows("restoration", [&](const LimitRows& rows) {
@@ -308,7 +322,10 @@ Result find_optimum(Problem& problem, const SolveOptions& options, const Observe
                     const Notice& notice) {
   const auto attempt = [&](const Eigen::VectorXd& start, const SolveOptions& with,
                            const Observer& hears) {
-    StartedProblem started(problem, start);
+    FunctionProblem started(problem, [&](const Eigen::VectorXd& x, Request request) {
+      return problem.evaluate(x, request);
+    });
+    started.start_from(start);
     return solve(started, with, hears);
   };
   const auto limit_rows = [&] { return LimitRows{&problem, own_constraints(problem)}; };

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "optimization/evaluation_cache.hpp"
+#include "optimization/result.hpp"
 
 namespace pleuel {
 
@@ -66,5 +67,22 @@ KktAudit audit_kkt(const Problem& problem, const EvaluatedDesign& design, const 
 /// @param right   b, size = rows.
 Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& matrix,
                                           const Eigen::VectorXd& right);
+
+/// Multipliers as prices of limits: 0 for a constraint whose value is further than 10⁻³ of its
+/// magnitude from the limit that its multiplier belongs to. The audit lets limits with slack take
+/// part and pay for it; moving such a limit a little changes nothing.
+/// @param multipliers  of the constraints: μ of KktAudit
+/// @param scales       magnitudes C of the constraints
+Eigen::VectorXd prices_of(const Problem& problem, const Eigen::VectorXd& constraints,
+                          const Eigen::VectorXd& multipliers, const Eigen::VectorXd& scales);
+
+/// Makes a design the answer of a result, with the prices of its limits.
+/// @param scales  magnitudes C of the constraints
+void set_answer(Result& result, const Problem& problem, EvaluatedDesign design,
+                const KktAudit& audit, const Eigen::VectorXd& scales);
+
+/// Makes a design of which nothing is proven the answer: audited beside itself alone.
+void set_unproven_answer(Result& result, const Problem& problem, EvaluatedDesign design,
+                         const Eigen::VectorXd& scales);
 
 }  // namespace pleuel

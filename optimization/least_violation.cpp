@@ -6,7 +6,6 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "optimization/phase_one.hpp"
-#include "optimization/phase_one_problem.hpp"
 #include "optimization/scaling.hpp"
 #include "optimization/solve.hpp"
 
@@ -52,8 +51,12 @@ class LeastViolationSearch {
       if (least.limits.size() < most_limits) limit.alone = value_alone(constraint);
       least.limits.push_back(limit);
     }
-    for (const std::size_t constraint : broken(problem)) {
-      if (std::ranges::find(conflict, constraint) == conflict.end()) {
+    std::set<std::size_t> broken;
+    for (const LimitSide& side : problem.sides()) {
+      if (side.violation(at_x_.constraints) > Tolerances().violation) broken.insert(limit_of(side));
+    }
+    for (const std::size_t constraint : broken) {
+      if (std::ranges::count(conflict, constraint) == 0) {
         least.limits.push_back(exceeded(constraint));
       }
     }
@@ -143,16 +146,6 @@ class LeastViolationSearch {
     one.limit = one.is_upper ? limits.upper : limits.lower;
     one.together = value;
     return one;
-  }
-
-  std::set<std::size_t> broken(const PhaseOneProblem& problem) const {
-    std::set<std::size_t> constraints;
-    for (const LimitSide& side : problem.sides()) {
-      if (side.violation(at_x_.constraints) > Tolerances().violation) {
-        constraints.insert(limit_of(side));
-      }
-    }
-    return constraints;
   }
 
   /// The value that a constraint has to have if all others hold.

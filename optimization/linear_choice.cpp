@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numeric>
 #include <set>
 
@@ -32,23 +33,19 @@ class Branching {
  private:
   /// Of what a variable can change of the objective.
   double spread(std::size_t variable) const {
-    const auto [least, most] = std::minmax_element(
-        model_.options[variable].begin(), model_.options[variable].end(),
-        [](const auto& one, const auto& other) { return one.objective < other.objective; });
+    const auto [least, most] =
+        std::ranges::minmax_element(model_.options[variable], {}, &LinearOption::objective);
     return most->objective - least->objective;
   }
 
   /// Those that matter most first.
   void sort_variables() {
     std::iota(order_.begin(), order_.end(), std::size_t{0});
-    std::stable_sort(order_.begin(), order_.end(), [&](std::size_t one, std::size_t other) {
-      return spread(one) > spread(other);
-    });
+    std::ranges::stable_sort(order_, std::greater(),
+                             [&](std::size_t variable) { return spread(variable); });
     for (const std::size_t variable : order_) {
       sorted_.push_back(model_.options[variable]);
-      std::stable_sort(
-          sorted_.back().begin(), sorted_.back().end(),
-          [](const auto& one, const auto& other) { return one.objective < other.objective; });
+      std::ranges::stable_sort(sorted_.back(), {}, &LinearOption::objective);
     }
   }
 
@@ -91,9 +88,7 @@ class Branching {
   }
 
   void add(double objective) {
-    const auto place = std::upper_bound(
-        found_.begin(), found_.end(), objective,
-        [](double value, const PredictedChoice& one) { return value < one.objective; });
+    const auto place = std::ranges::upper_bound(found_, objective, {}, &PredictedChoice::objective);
     found_.insert(place, {sizes_, objective});
     if (found_.size() > count_) found_.pop_back();
   }

@@ -1,11 +1,34 @@
 #pragma once
 
+#include <functional>
 #include <optional>
+
+#include <Eigen/Core>
 
 #include "optimization/evaluation_cache.hpp"
 #include "optimization/kkt_audit.hpp"
 
 namespace pleuel {
+
+/// Where a quadratic form bends least among the directions that were looked at.
+struct LowestCurvature {
+  Eigen::VectorXd direction;   ///< of length 1; empty if no product could be had
+  double curvature = 0.0;      ///< dᵀ H d
+  int products = 0;            ///< with H that were made
+  Eigen::MatrixXd directions;  ///< Q, orthonormal columns: those that were looked at
+  Eigen::MatrixXd form;        ///< Qᵀ H Q, symmetric
+};
+
+/// H d for a d of length 1; nullopt if it cannot be had.
+using HessianProduct = std::function<std::optional<Eigen::VectorXd>(const Eigen::VectorXd&)>;
+
+/// The smallest eigenvalue of H in a subspace, by Lanczos' method with full reorthogonalisation
+/// (Golub & Van Loan, Matrix Computations, 2013, ch. 10), begun with a generic direction that is
+/// the same in every run. As many products as the subspace has dimensions make it exact; with fewer
+/// it is an upper bound, since extreme eigenvalues are found first but not at once.
+/// @param basis  of the subspace, orthonormal columns; at least one
+LowestCurvature lowest_curvature(const HessianProduct& product, const Eigen::MatrixXd& basis,
+                                 int max_products);
 
 /// What was found around a design that fulfils the conditions of first order.
 struct Neighbourhood {
@@ -23,8 +46,7 @@ struct Neighbourhood {
 
 /// Looks whether a KKT point is a minimum, not a maximum or a saddle. In the tangent space of the
 /// limits that hold it (those with multipliers, and equalities) it finds the direction d along
-/// which the Lagrangian bends least, by Hessian-vector products from gradients
-/// (lowest_curvature.hpp):
+/// which the Lagrangian bends least, by Hessian-vector products from gradients (lowest_curvature()):
 ///
 ///     ∇²L d ≈ (∇L(x + h s ∘ d) − ∇L(x)) / h,   L = f + Σ μ c,   h = 0.02, s as for backends
 ///

@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,7 +18,7 @@
 ///     minimize f(x)   subject to   lower ≤ c(x) ≤ upper,   lower ≤ x ≤ upper
 ///
 /// Everything is in SI units. Scaling, one-sided rows, and caching are the business of the
-/// optimizer (scaled_problem.hpp, evaluation_cache.hpp).
+/// optimizer (backends.hpp, evaluation_cache.hpp).
 namespace pleuel {
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -70,6 +71,9 @@ class EvaluationFailure : public SimulationError {
   using SimulationError::SimulationError;
 };
 
+/// Makes variables start at a design.
+void set_start(std::vector<Variable>& variables, const Eigen::VectorXd& x);
+
 /// Something to optimize.
 class Problem {
  public:
@@ -89,7 +93,7 @@ class Problem {
   virtual Evaluation evaluate(const Eigen::VectorXd& x, Request request) = 0;
 };
 
-/// A problem whose evaluation is a function object; for tests and small uses.
+/// A problem whose evaluation is a function object: one by itself, or made of another one.
 class FunctionProblem : public Problem {
  public:
   using Function = std::function<Evaluation(const Eigen::VectorXd& x, Request request)>;
@@ -100,15 +104,35 @@ class FunctionProblem : public Problem {
         constraints_(std::move(constraints)),
         function_(std::move(function)) {}
 
-  const std::vector<Variable>& variables() const override { return variables_; }
+  /// With the variables, the limits and the words of another problem, which must outlive this.
+  FunctionProblem(const Problem& of, Function function)
+      : of_(&of), constraints_(of.constraints()), function_(std::move(function)) {}
+
+  /// Begins at another design.
+  void start_from(const Eigen::VectorXd& x) {
+    variables_ = variables();
+    set_start(*variables_, x);
+  }
+
+  const std::vector<Variable>& variables() const override {
+    return variables_ ? *variables_ : of_->variables();
+  }
   const std::vector<Constraint>& constraints() const override { return constraints_; }
-  std::string objective_name() const override { return "objective"; }
+  std::string objective_name() const override { return of_ ? of_->objective_name() : "objective"; }
+  std::string variable_text(std::size_t variable, double value) const override {
+    return of_ ? of_->variable_text(variable, value) : Problem::variable_text(variable, value);
+  }
+  std::string constraint_text(std::size_t constraint, double value) const override {
+    return of_ ? of_->constraint_text(constraint, value)
+               : Problem::constraint_text(constraint, value);
+  }
   Evaluation evaluate(const Eigen::VectorXd& x, Request request) override {
     return function_(x, request);
   }
 
  private:
-  std::vector<Variable> variables_;
+  const Problem* of_ = nullptr;
+  std::optional<std::vector<Variable>> variables_;
   std::vector<Constraint> constraints_;
   Function function_;
 };
@@ -131,13 +155,37 @@ Eigen::VectorXd start_of(const Problem& problem);
 ///         numbers, or if a start lies outside its bounds; the message names the variable.
 Eigen::VectorXd checked_start(const Problem& problem);
 
-/// Makes variables start at a design.
-void set_start(std::vector<Variable>& variables, const Eigen::VectorXd& x);
-
 /// The nearest design within the bounds.
 Eigen::VectorXd within_bounds(const Problem& problem, Eigen::VectorXd x);
 
 /// "width = 20 mm, height = 30 mm": a design for messages.
 std::string describe_design(const Problem& problem, const Eigen::VectorXd& x);
+
+/// Designs that fill the space between the bounds evenly: a Latin hypercube (McKay, Beckman &
+/// Conover 1979), each variable once in each of `count` equal parts of its range. Where a bound is
+/// missing (or beyond 1e19), the range reaches ten times the larger of |start| and the magnitude of
+/// the variable away from the start. The same on every machine.
+/// @param seed  other designs for other seeds
+/// @throws InputError names a variable without bounds, start and magnitude
+std::vector<Eigen::VectorXd> latin_hypercube(const std::vector<Variable>& variables, int count,
+                                             unsigned seed);
+
+/// Numbers of generic size, the same in every run. The engine's raw numbers are prescribed by the
+/// standard, unlike those of its distributions.
+class GenericNumbers {
+ public:
+  /// In [0, 1].
+  double part() { return static_cast<double>(engine_()) / std::mt19937::max(); }
+  /// In [1/2, 1].
+  double size() { return 0.5 + 0.5 * part(); }
+  /// In [1/2, 1] or [−1, −1/2].
+  double signed_size() {
+    const double magnitude = size();
+    return engine_() % 2 == 0 ? magnitude : -magnitude;
+  }
+
+ private:
+  std::mt19937 engine_;
+};
 
 }  // namespace pleuel

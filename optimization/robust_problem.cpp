@@ -21,7 +21,10 @@ constexpr double relative_step = 1e-4;
 }  // namespace
 
 RobustProblem::RobustProblem(Problem& problem, Eigen::VectorXd deviations, Eigen::VectorXd margins)
-    : ProblemDecorator(problem), deviations_(std::move(deviations)), margins_(std::move(margins)) {
+    : FunctionProblem(problem, {}),
+      problem_(problem),
+      deviations_(std::move(deviations)),
+      margins_(std::move(margins)) {
   assert(deviations_.size() == static_cast<Eigen::Index>(variables().size()));
   assert(margins_.size() == static_cast<Eigen::Index>(constraints().size()));
   for (std::size_t j = 0; j < constraints().size(); ++j) {
@@ -31,16 +34,12 @@ RobustProblem::RobustProblem(Problem& problem, Eigen::VectorXd deviations, Eigen
   }
 }
 
-Eigen::VectorXd RobustProblem::constraint_deviations(const Evaluation& evaluation) const {
-  return (evaluation.constraint_jacobian * deviations_.asDiagonal()).rowwise().norm();
-}
-
 Eigen::MatrixXd RobustProblem::deviation_gradients(const Eigen::VectorXd& x,
                                                    const Evaluation& evaluation,
                                                    const Eigen::VectorXd& deviations) {
   const Eigen::MatrixXd& jacobian = evaluation.constraint_jacobian;
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(jacobian.rows(), jacobian.cols());
-  const Eigen::VectorXd sizes = x.cwiseAbs().cwiseMax(local_scales(problem(), x));
+  const Eigen::VectorXd sizes = x.cwiseAbs().cwiseMax(local_scales(problem_, x));
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     if (deviations_(i) == 0.0) continue;
     const double step = relative_step * sizes(i);
@@ -64,7 +63,7 @@ Eigen::MatrixXd RobustProblem::deviation_gradients(const Eigen::VectorXd& x,
 
 Eigen::MatrixXd RobustProblem::neighbour_jacobian(const Eigen::VectorXd& x, Eigen::Index changed) {
   try {
-    return problem().evaluate(x, Request::values_and_gradients).constraint_jacobian;
+    return problem_.evaluate(x, Request::values_and_gradients).constraint_jacobian;
   } catch (const SimulationError& error) {
     throw EvaluationFailure(fmt::format("with {} = {:.9g}, for the gradient of a margin: {}",
                                         variables()[changed].name, x(changed), error.what()));
@@ -75,11 +74,12 @@ Evaluation RobustProblem::evaluate(const Eigen::VectorXd& x, Request request) {
   // Backends ask for values first, and often for the gradients of the same design after.
   if (x_.size() == 0 || x != x_) {
     x_.resize(0);
-    at_x_ = problem().evaluate(x, Request::values_and_gradients);
+    at_x_ = problem_.evaluate(x, Request::values_and_gradients);
     x_ = x;
   }
   Evaluation evaluation = at_x_;
-  const Eigen::VectorXd deviations = constraint_deviations(evaluation);
+  const Eigen::VectorXd deviations =
+      (evaluation.constraint_jacobian * deviations_.asDiagonal()).rowwise().norm();
   if (request == Request::values_and_gradients) {
     const Eigen::MatrixXd gradients = deviation_gradients(x, evaluation, deviations);
     evaluation.constraint_jacobian += margins_.asDiagonal() * gradients;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "optimization/problem_decorator.hpp"
+#include "optimization/problem.hpp"
 
 namespace pleuel {
 
@@ -14,7 +14,7 @@ namespace pleuel {
 /// Values cost a gradient, gradients 1 + 2 · (number of uncertain variables) of them.
 /// The sensitivities of c that make σ_c are those of this design only: see `uncertainty` with
 /// samples for how far first order holds.
-class RobustProblem : public ProblemDecorator {
+class RobustProblem : public FunctionProblem {
  public:
   /// @param deviations  σ, one a variable; 0: certain
   /// @param margins     k ≥ 0, one a constraint; each with k > 0 has one limit
@@ -24,12 +24,12 @@ class RobustProblem : public ProblemDecorator {
   Evaluation evaluate(const Eigen::VectorXd& x, Request request) override;
 
  private:
-  Eigen::VectorXd constraint_deviations(const Evaluation& evaluation) const;
   Eigen::MatrixXd deviation_gradients(const Eigen::VectorXd& x, const Evaluation& evaluation,
                                       const Eigen::VectorXd& deviations);
 
   Eigen::MatrixXd neighbour_jacobian(const Eigen::VectorXd& x, Eigen::Index changed);
 
+  Problem& problem_;
   Eigen::VectorXd deviations_;
   Eigen::VectorXd margins_;  ///< of a lower limit with the sign −
   Eigen::VectorXd x_;        ///< of at_x_; empty before

@@ -2,17 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "core/base/eager_matrices.hpp"
 #include "optimization/backends.hpp"
-#include "optimization/polish.hpp"
-#include "optimization/prices.hpp"
+#include "optimization/kkt_audit.hpp"
 #include "optimization/scaling.hpp"
 
 namespace pleuel {
@@ -48,11 +45,44 @@ Result failed_start(const Problem& problem, const Eigen::VectorXd& x, const std:
   return result;
 }
 
-EvaluationCache make_cache(Problem& problem, const EvaluatedDesign& start,
-                           EvaluationCache::Watch watch) {
-  const Eigen::VectorXd variables = variable_scales(problem, start.x);
-  const Eigen::VectorXd constraints = constraint_scales(problem, start.evaluation, variables);
-  return EvaluationCache(problem, start, {variables, constraints}, std::move(watch));
+/// The backend that polishes. Its steps near an optimum are those of Newton's method on the KKT
+/// conditions, with the Hessian that it learns.
+constexpr const char* polisher = "nlopt-slsqp";
+
+constexpr double near_optimum = 0.1;        ///< KKT residual
+constexpr double near_limits = 1e-2;        ///< relative violation
+constexpr double part_of_gain = 0.1;        ///< that is left of Tolerances::gain without a polish
+constexpr double polish_tolerance = 1e-10;  ///< a small part changes the objective by little
+constexpr double least_terms = 1e-6;        ///< of T_max: balanced up to here
+constexpr int consecutive_failures = 3;
+/// Evaluations without gradients: near an optimum a full step does, or noise is all there is.
+constexpr int line_search = 10;
+
+Eigen::VectorXd balance(const KktAudit& audit) {
+  const double largest = audit.terms.maxCoeff();
+  if (!(largest > 0.0)) return Eigen::VectorXd::Ones(audit.terms.size());
+  return (audit.terms / largest).cwiseMax(least_terms).cwiseInverse().cwiseSqrt();
+}
+
+/// Whether a design is so near an optimum that a few steps are likely to prove or improve it:
+/// limits nearly kept, KKT residual below 0.1, and either unproven, or proven with more than a
+/// tenth of Tolerances::gain left.
+bool is_worth_polishing(const Verdict& verdict, const Tolerances& tolerances) {
+  if (verdict.status == Status::verified) {
+    return verdict.gain_left > part_of_gain * tolerances.gain;
+  }
+  return !verdict.gradients_are_disproved && !verdict.better_neighbour &&
+         verdict.design.max_violation <= near_limits && verdict.audit.residual <= near_optimum;
+}
+
+/// Goes on from a design with the polisher and a tight tolerance, in variables that are balanced:
+/// with the terms T of the audit, each s_i is multiplied with √(T_max / T_i), since a part of the
+/// objective has a curvature of about its terms. A Hessian near 1 is what the polisher begins with;
+/// small parts would come after many steps only.
+/// @returns the design where it ends, within its bounds
+Eigen::VectorXd polish(EvaluationCache& cache, const EvaluatedDesign& from, const KktAudit& audit,
+                       const ScaledProblem::Budget& budget) {
+  return run_backend(cache, from, polisher, polish_tolerance, budget, balance(audit)).x;
 }
 
 /// One optimization from a start that could be evaluated.
@@ -67,7 +97,11 @@ class Run {
 
   Result solve() {
     double tolerance = options_.tolerance;
-    if (options_.takes_verified_start && is_verified_start()) return make_result(judged(start_));
+    if (options_.takes_verified_start) {
+      cache_.set_purpose(Purpose::audit);
+      const Verdict at_start = judged(start_);
+      if (at_start.status == Status::verified) return make_result(at_start);
+    }
     Verdict verdict = polished(improve(start_, tolerance));
     while (may_restart(verdict)) {
       const EvaluatedDesign from = start_of_restart(verdict);
@@ -127,11 +161,6 @@ class Run {
         });
     reference.objective += std::copysign(curvature, reference.objective);
     return reference;
-  }
-
-  bool is_verified_start() {
-    cache_.set_purpose(Purpose::audit);
-    return judged(start_).status == Status::verified;
   }
 
   /// A better design beside this one, or this one itself.
@@ -234,9 +263,7 @@ class Run {
 
   /// nullopt if the design, or its gradients, cannot be evaluated.
   std::optional<Verdict> audit(const Eigen::VectorXd& x) {
-    for (const Verdict& verdict : verdicts_) {
-      if (verdict.design.x == x) return verdict;
-    }
+    if (const Verdict* verdict = verdict_at(x)) return *verdict;
     const std::optional<EvaluatedDesign> design = known(x);
     if (!design) return std::nullopt;
     return judged(*design);
@@ -253,11 +280,15 @@ class Run {
 
   /// Judges a design once.
   Verdict judged(const EvaluatedDesign& design) {
-    for (const Verdict& verdict : verdicts_) {
-      if (verdict.design.x == design.x) return verdict;
-    }
+    if (const Verdict* verdict = verdict_at(design.x)) return *verdict;
     verdicts_.push_back(judge(cache_, design, reference_, options_.verdict));
     return verdicts_.back();
+  }
+
+  const Verdict* verdict_at(const Eigen::VectorXd& x) const {
+    const auto found = std::ranges::find_if(
+        verdicts_, [&](const Verdict& verdict) { return verdict.design.x == x; });
+    return found == verdicts_.end() ? nullptr : &*found;
   }
 
   /// Proven before unproven, within the limits before outside; then the lower objective, or the
@@ -280,9 +311,9 @@ class Run {
 
   int max_evaluations() const { return evaluations_per_iteration * options_.max_iterations; }
 
-  PolishBudget polish_budget() const {
+  ScaledProblem::Budget polish_budget() const {
     const int iterations = options_.max_iterations + options_.polish_iterations;
-    return {iterations, evaluations_per_iteration * iterations};
+    return {iterations, evaluations_per_iteration * iterations, consecutive_failures, line_search};
   }
 
   bool has_failed_too_often() const {
@@ -383,7 +414,9 @@ Result run(Problem& problem, const SolveOptions& options, const Observer& observ
   if (!first.evaluation) return failed_start(problem, x, first.failure, options.backend, watch);
 
   EvaluatedDesign start{x, std::move(*first.evaluation)};
-  EvaluationCache cache = make_cache(problem, start, watch);
+  const Eigen::VectorXd variables = variable_scales(problem, start.x);
+  EvaluationCache cache(
+      problem, start, {variables, constraint_scales(problem, start.evaluation, variables)}, watch);
   start.max_violation = cache.history().front().max_violation;
   Run one(cache, start, options);
   return (one.*work)();

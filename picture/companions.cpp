@@ -5,7 +5,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/response/make_responses.hpp"
-#include "core/scene/magnitude_direction.hpp"
+#include "core/scene/response_kind.hpp"
 
 namespace pleuel {
 

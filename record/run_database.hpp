@@ -7,7 +7,7 @@
 #include <string>
 
 #include "optimization/evaluation_store.hpp"
-#include "optimization/history.hpp"
+#include "optimization/result.hpp"
 #include "record/sqlite.hpp"
 
 namespace pleuel {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/scene/invariants_file.hpp"
+#include "core/scene/body_constants.hpp"
 #include "reduction/model_reader.hpp"
 
 namespace pleuel {

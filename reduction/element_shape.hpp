@@ -1,15 +1,17 @@
 #pragma once
 
+/// Shape functions of solid elements in the order of nodes of CalculiX (Dhondt 2004, The Finite
+/// Element Method for Three-dimensional Thermomechanical Applications, §2.1): corners first, then
+/// middles of edges. Tetrahedra live in r, s, t ≥ 0, r + s + t ≤ 1; hexahedra in [−1, 1]³.
+
 #include <vector>
 
 #include <Eigen/Core>
 
-#include "reduction/solid_shape.hpp"
-
-/// Shape functions of solid elements in the order of nodes of CalculiX (Dhondt 2004, The Finite
-/// Element Method for Three-dimensional Thermomechanical Applications, §2.1): corners first, then
-/// middles of edges. Tetrahedra live in r, s, t ≥ 0, r + s + t ≤ 1; hexahedra in [−1, 1]³.
 namespace pleuel {
+
+/// Solid finite elements whose shapes are known (element_shape.hpp), by their names in CalculiX.
+enum class SolidShape { tetrahedron4, tetrahedron10, hexahedron8, hexahedron20 };
 
 struct QuadraturePoint {
   Eigen::Vector3d at;  ///< local

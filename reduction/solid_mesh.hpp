@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "reduction/solid_shape.hpp"
+#include "reduction/element_shape.hpp"
 
 namespace pleuel {
 

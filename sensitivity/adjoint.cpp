@@ -9,10 +9,9 @@
 #include "core/integration/period_map.hpp"
 #include "core/integration/projection.hpp"
 #include "core/integration/step_equations.hpp"
-#include "core/mechanism/configuration.hpp"
 #include "core/mechanism/linear_solver.hpp"
+#include "core/mechanism/mechanism.hpp"
 #include "sensitivity/initial_sensitivity.hpp"
-#include "sensitivity/periodic_sensitivity.hpp"
 
 namespace pleuel {
 
@@ -78,7 +77,7 @@ class AdjointRun {
   }
 
   /// A start that is the end of its period depends on x by dy₀/dx = (1 − M)⁻¹ ∂Y/∂x
-  /// (periodic_sensitivity.hpp). With p, the derivatives with respect to it, and (1 − M)ᵀ π = p,
+  /// (initial_sensitivity.hpp). With p, the derivatives with respect to it, and (1 − M)ᵀ π = p,
   ///     pᵀ dy₀/dx = πᵀ ∂Y/∂x
   /// is what going back from π through the period adds to the sums. As the map is one of a motion
   /// close by, this is done again with what is left of p, until that is round-off. Multipliers at

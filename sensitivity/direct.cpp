@@ -2,7 +2,6 @@
 
 #include "core/integration/step_differentiation.hpp"
 #include "sensitivity/initial_sensitivity.hpp"
-#include "sensitivity/periodic_sensitivity.hpp"
 
 namespace pleuel {
 

@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "core/integration/simulate.hpp"
-#include "core/integration/state_sensitivity.hpp"
+#include "core/integration/state_columns.hpp"
 
 namespace pleuel {
 
@@ -12,7 +12,7 @@ using SensitivityObserver =
     std::function<void(int step, const State& state, const StateSensitivity& sensitivity)>;
 
 /// Direct differentiation of the discrete scheme with respect to the design variables, from the
-/// start on (initial_sensitivity.hpp, periodic_sensitivity.hpp), step by step
+/// start on (initial_sensitivity.hpp), step by step
 /// (core/integration/step_differentiation.hpp).
 /// @param trajectory  of simulate() for the same mechanism
 /// @throws SimulationError if a step matrix is singular

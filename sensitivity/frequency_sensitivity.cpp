@@ -2,9 +2,8 @@
 
 #include "core/base/dense_solvers.hpp"
 #include "core/base/eager_matrices.hpp"
-#include "core/mechanism/configuration.hpp"
+#include "core/mechanism/mechanism.hpp"
 #include "core/response/modal_vectors.hpp"
-#include "core/response/motion_along.hpp"
 
 namespace pleuel {
 

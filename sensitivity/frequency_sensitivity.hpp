@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/integration/state_sensitivity.hpp"
+#include "core/integration/state_columns.hpp"
 #include "core/model/model.hpp"
 #include "core/scene/mode_choice.hpp"
 

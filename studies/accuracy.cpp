@@ -3,19 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/base/error.hpp"
-#include "core/base/packed.hpp"
 #include "core/base/relative_error.hpp"
 #include "core/base/stop.hpp"
 #include "core/response/analysis.hpp"
 #include "core/scene/response_parts.hpp"
 #include "core/trust/trusted_run.hpp"
-#include "studies/accuracy_run.hpp"
 
 namespace pleuel {
 
@@ -40,28 +36,19 @@ constexpr double clearly_more = 3.0;
 /// smaller errors are tried.
 constexpr double too_long = 20.0;
 
-/// What is closer to the reference than that is to the truth is not known better.
-void raise_to_errors_of(const AccuracyRun& reference, AccuracyRun& run) {
-  if (run.has_failed()) return;
-  run.errors = run.errors.cwiseMax(reference.errors);
-  run.gradient_errors = run.gradient_errors.cwiseMax(reference.gradient_errors);
-}
-
 Recommendation recommend(const AccuracyStudy& study, double target) {
   Recommendation best;
   best.target = target;
-  const auto improve = [&](std::optional<std::size_t>& chosen, std::size_t i, double seconds,
-                           double of_chosen) {
-    if (!chosen || seconds < of_chosen) chosen = i;
+  const auto is_faster = [&](std::size_t i, const std::optional<std::size_t>& than,
+                             const auto& seconds) {
+    return !than || seconds(study.runs[i]) < seconds(study.runs[*than]);
   };
   for (std::size_t i = 0; i < study.runs.size(); ++i) {
     const AccuracyRun& run = study.runs[i];
     if (run.has_failed() || study.counted_error(run.errors) > target) continue;
-    improve(best.values, i, run.simulation_seconds,
-            best.values ? study.runs[*best.values].simulation_seconds : 0.0);
+    if (is_faster(i, best.values, std::mem_fn(&AccuracyRun::simulation_seconds))) best.values = i;
     if (study.counted_error(run.gradient_errors) > target) continue;
-    improve(best.gradients, i, run.seconds(),
-            best.gradients ? study.runs[*best.gradients].seconds() : 0.0);
+    if (is_faster(i, best.gradients, std::mem_fn(&AccuracyRun::seconds))) best.gradients = i;
   }
   return best;
 }
@@ -78,39 +65,17 @@ std::optional<std::size_t> base_of(const AccuracyStudy& study) {
   return best;
 }
 
-std::optional<double> lagrangian_of_reference(const ProblemFile& problem,
-                                              const PricedDesign& design,
-                                              const AccuracyStudy& study, PartStore* parts) {
-  return kept_part(parts, "lagrangian of the reference", [&] {
-    return design.lagrangian(discretized(problem, study.reference.settings));
-  });
-}
-
-class RefinementStudy {
+class Studying {
  public:
-  RefinementStudy(const ProblemFile& problem, const PricedDesign& design,
-                  const AccuracyObserver& observer, PartStore* parts)
-      : problem_(problem), design_(design), x_(design.x()), observer_(observer), parts_(parts) {}
+  Studying(const ProblemFile& problem, const PricedDesign& design, const AccuracyObserver& observer,
+           PartStore* parts, AccuracyStudy& study)
+      : problem_(problem),
+        design_(design),
+        x_(design.x()),
+        observer_(observer),
+        parts_(parts),
+        study_(study) {}
 
-  AccuracyStudy run() {
-    study_.counted = asked_responses(problem_);
-    const std::vector<Discretization> grid = accuracy_grid(problem_);
-    find_reference(finer_than(problem_, grid));
-    try {
-      of_reference_ = lagrangian_of_reference(problem_, design_, study_, parts_);
-      for (const Discretization& settings : grid) add_run(settings);
-      double target = problem_.accuracy.target;
-      for (int i = 0; i < recommended_targets; ++i, target *= 0.1) {
-        study_.recommendations.push_back(recommend(study_, target));
-      }
-      study_.base = base_of(study_);
-    } catch (const Stopped&) {
-      study_.is_interrupted = true;
-    }
-    return std::move(study_);
-  }
-
- private:
   void find_reference(const Discretization& settings) {
     AccuracyRun& reference = study_.reference;
     const ProblemFile finest = discretized(problem_, settings);
@@ -130,17 +95,77 @@ class RefinementStudy {
     if (observer_.run) observer_.run(reference);
   }
 
+  void add_runs(const std::vector<Discretization>& grid) {
+    const std::optional<double> of_reference = lagrangian_of_reference();
+    for (const Discretization& settings : grid) {
+      study_.runs.push_back(kept_part(parts_, name_of(settings), [&] {
+        const ProblemFile discrete = discretized(problem_, settings);
+        AccuracyRun run = try_to_measure(discrete, x_, Timing::least);
+        run.settings = settings;
+        compare_with_reference(run);
+        if (!run.has_failed()) run.optimum_change = design_.change(of_reference, discrete);
+        return run;
+      }));
+      if (observer_.run) observer_.run(study_.runs.back());
+    }
+    double target = problem_.accuracy.target;
+    for (int i = 0; i < recommended_targets; ++i, target *= 0.1) {
+      study_.recommendations.push_back(recommend(study_, target));
+    }
+    study_.base = base_of(study_);
+  }
+
+  void add_knobs() {
+    const ProblemFile discrete = discretized(problem_, base().settings);
+    const std::optional<double> of_reference = lagrangian_of_reference();
+    for (const Variation& one : numerical_variations(discrete)) {
+      if (is_hopeless(one)) continue;
+      add(one, study_.knobs, [&] {
+        VariedRun knob = varied(one, discrete);
+        if (!knob.run.has_failed()) {
+          knob.run.optimum_change = design_.change(of_reference, one.of(discrete));
+        }
+        return knob;
+      });
+    }
+  }
+
+  void add_effects() {
+    const ProblemFile discrete = discretized(problem_, base().settings);
+    const std::unique_ptr<Analysis> analysis = analyze(problem_, x_);
+    const std::optional<double> of_file = design_.lagrangian(problem_);
+    for (const Variation& one : effect_variations(problem_, analysis->model)) {
+      add(one, study_.effects, [&] {
+        VariedRun effect = varied(one, discrete);
+        find_influence(one.of(problem_), values_of(*analysis), effect);
+        if (!effect.run.has_failed()) {
+          effect.run.optimum_change = design_.change(of_file, one.of(problem_));
+        }
+        return effect;
+      });
+    }
+  }
+
+ private:
+  const AccuracyRun& base() const { return study_.runs[*study_.base]; }
+
+  static std::string name_of(const Discretization& settings) {
+    return fmt::format("step {} s, elements {}, factor {}", settings.step, settings.elements,
+                       settings.factor);
+  }
+
+  std::optional<double> lagrangian_of_reference() const {
+    return kept_part(parts_, "lagrangian of the reference", [&] {
+      return design_.lagrangian(discretized(problem_, study_.reference.settings));
+    });
+  }
+
   ReferenceCheck check_of(const ProblemFile& finest) const {
     const Variation other = other_formulation(problem_);
     ReferenceCheck check;
     check.formulation = other.value;
-    try {
-      check.differences = differences_of(values_of(*analyze(other.of(finest), x_)));
-    } catch (const SimulationError& error) {
-      check.failure = error.what();
-    } catch (const InputError& error) {
-      check.failure = error.what();
-    }
+    check.failure = failure_of(
+        [&] { check.differences = differences_of(values_of(*analyze(other.of(finest), x_))); });
     return check;
   }
 
@@ -155,83 +180,18 @@ class RefinementStudy {
     return differences;
   }
 
-  void add_run(const Discretization& settings) {
-    study_.runs.push_back(kept_part(parts_,
-                                    fmt::format("step {} s, elements {}, factor {}", settings.step,
-                                                settings.elements, settings.factor),
-                                    [&] { return compared_run(settings); }));
-    if (observer_.run) observer_.run(study_.runs.back());
-  }
-
-  AccuracyRun compared_run(const Discretization& settings) const {
-    const ProblemFile discrete = discretized(problem_, settings);
-    AccuracyRun run = try_to_measure(discrete, x_, Timing::least);
-    run.settings = settings;
+  /// What is closer to the reference than that is to the truth is not known better.
+  void compare_with_reference(AccuracyRun& run) const {
+    if (run.has_failed()) return;
     compare(study_.reference, x_, run);
-    raise_to_errors_of(study_.reference, run);
-    if (!run.has_failed()) run.optimum_change = design_.change(of_reference_, discrete);
-    return run;
+    run.errors = run.errors.cwiseMax(study_.reference.errors);
+    run.gradient_errors = run.gradient_errors.cwiseMax(study_.reference.gradient_errors);
   }
 
-  const ProblemFile& problem_;
-  const PricedDesign& design_;
-  const Eigen::VectorXd& x_;
-  const AccuracyObserver& observer_;
-  PartStore* parts_;
-  AccuracyStudy study_;
-  std::optional<double> of_reference_;  ///< Lagrangian
-};
-
-/// What is changed at the setting that is recommended.
-class Variations {
- public:
-  Variations(const ProblemFile& problem, const PricedDesign& design, AccuracyStudy& study,
-             const AccuracyObserver& observer, PartStore* parts)
-      : problem_(problem),
-        design_(design),
-        x_(design.x()),
-        study_(study),
-        observer_(observer),
-        parts_(parts),
-        base_(study.runs[*study.base]),
-        discrete_(discretized(problem, base_.settings)) {}
-
-  void add_knobs() {
-    const std::optional<double> of_reference =
-        lagrangian_of_reference(problem_, design_, study_, parts_);
-    for (const Variation& one : numerical_variations(discrete_)) {
-      if (is_hopeless(one)) continue;
-      add(one, study_.knobs, [&] {
-        VariedRun knob = varied(one);
-        if (!knob.run.has_failed()) {
-          knob.run.optimum_change = design_.change(of_reference, one.of(discrete_));
-        }
-        return knob;
-      });
-    }
-  }
-
-  void add_effects() {
-    const std::unique_ptr<Analysis> analysis = analyze(problem_, x_);
-    const std::optional<double> of_file = design_.lagrangian(problem_);
-    for (const Variation& one : effect_variations(problem_, analysis->model)) {
-      add(one, study_.effects, [&] {
-        VariedRun effect = varied(one);
-        find_influence(one.of(problem_), values_of(*analysis), effect);
-        if (!effect.run.has_failed()) {
-          effect.run.optimum_change = design_.change(of_file, one.of(problem_));
-        }
-        return effect;
-      });
-    }
-  }
-
- private:
   template <class Make>
   void add(const Variation& variation, std::vector<VariedRun>& all, const Make& make) const {
     const std::string name =
-        fmt::format("{} {} at step {} s, elements {}, factor {}", variation.knob, variation.value,
-                    base_.settings.step, base_.settings.elements, base_.settings.factor);
+        fmt::format("{} {} at {}", variation.knob, variation.value, name_of(base().settings));
     all.push_back(kept_part(parts_, name, make));
     all.back().variation = variation;
     if (observer_.variation) observer_.variation(all.back());
@@ -245,28 +205,26 @@ class Variations {
     return last.variation.knob == variation.knob && is_too_long;
   }
 
-  VariedRun varied(const Variation& variation) const {
-    const ProblemFile changed = variation.of(discrete_);
+  VariedRun varied(const Variation& variation, const ProblemFile& discrete) const {
+    const ProblemFile changed = variation.of(discrete);
     VariedRun varied{variation, try_to_measure(changed, x_, Timing::once)};
     AccuracyRun& run = varied.run;
-    run.settings = base_.settings;
+    run.settings = base().settings;
     run.settings.step = changed.simulation.step;
     if (run.has_failed()) return varied;
-    compare(study_.reference, x_, run);
-    raise_to_errors_of(study_.reference, run);
-    varied.time = time_of(run, changed);
-    run.simulation_seconds = base_.simulation_seconds * (1.0 + varied.time.change);
+    compare_with_reference(run);
+    varied.time = time_of(run, changed, discrete);
+    run.simulation_seconds = base().simulation_seconds * (1.0 + varied.time.change);
     return varied;
   }
 
   /// Beside the base: one baseline for all.
-  ComparedTime time_of(const AccuracyRun& run, const ProblemFile& changed) const {
-    const double once = run.simulation_seconds;
-    if (is_same_work(run, base_)) return {once, 0.0, 0.0};
-    if (once > clearly_more * base_.simulation_seconds) {
-      return {once, once / base_.simulation_seconds - 1.0, 0.0};
-    }
-    return compare_times({[&] { analyze(discrete_, x_); }, [&] { analyze(changed, x_); }}).back();
+  ComparedTime time_of(const AccuracyRun& run, const ProblemFile& changed,
+                       const ProblemFile& discrete) const {
+    const double once = run.simulation_seconds, of_base = base().simulation_seconds;
+    if (is_same_work(run, base())) return {once, 0.0, 0.0};
+    if (once > clearly_more * of_base) return {once, once / of_base - 1.0, 0.0};
+    return compare_times({[&] { analyze(discrete, x_); }, [&] { analyze(changed, x_); }}).back();
   }
 
   /// With the steps and elements of the file: those of an optimum at the design.
@@ -283,11 +241,9 @@ class Variations {
   const ProblemFile& problem_;
   const PricedDesign& design_;
   const Eigen::VectorXd& x_;
-  AccuracyStudy& study_;
   const AccuracyObserver& observer_;
   PartStore* parts_;
-  const AccuracyRun& base_;
-  ProblemFile discrete_;
+  AccuracyStudy& study_;
 };
 
 }  // namespace
@@ -304,16 +260,26 @@ double AccuracyStudy::counted_error(const Eigen::VectorXd& errors) const {
 AccuracyStudy accuracy_study(const ProblemFile& problem, const PricedDesign& design,
                              const AccuracyObserver& observer, PartStore* parts) {
   if (problem.responses.empty()) throw InputError("/responses is missing: nothing can be compared");
-  return RefinementStudy(problem, design, observer, parts).run();
+  AccuracyStudy study;
+  study.counted = asked_responses(problem);
+  Studying studying(problem, design, observer, parts, study);
+  const std::vector<Discretization> grid = accuracy_grid(problem);
+  studying.find_reference(finer_than(problem, grid));
+  try {
+    studying.add_runs(grid);
+  } catch (const Stopped&) {
+    study.is_interrupted = true;
+  }
+  return study;
 }
 
 void vary_settings(const ProblemFile& problem, const PricedDesign& design, AccuracyStudy& study,
                    const AccuracyObserver& observer, PartStore* parts) {
   if (!study.base) return;
   try {
-    Variations variations(problem, design, study, observer, parts);
-    variations.add_knobs();
-    variations.add_effects();
+    Studying studying(problem, design, observer, parts, study);
+    studying.add_knobs();
+    studying.add_effects();
   } catch (const SimulationError& error) {  // the setting of the file cannot be simulated
     study.failure = error.what();
   } catch (const Stopped&) {

@@ -27,65 +27,66 @@ Variation make_formulation(const char* name, const char* key, Formulation formul
           [=](ProblemFile& problem) { problem.simulation.formulation = formulation; }};
 }
 
+Variation make_index_3() {
+  return make_formulation("index-3", "index-3", {ConstraintForm::index_3});
+}
+
 Variation make_stabilized() {
   return make_formulation("stabilized-index-2", "stabilized-index-2",
                           {ConstraintForm::stabilized_index_2});
 }
 
-bool is_same(const Formulation& one, const Formulation& other) {
-  return one.constraints == other.constraints && one.is_projected == other.is_projected;
+Variation make_projected() {
+  return make_formulation("index-1 with projection", "index-1",
+                          {ConstraintForm::index_1, 0.0, true});
 }
 
 void add_formulations(const ProblemFile& problem, std::vector<Variation>& all) {
   const SimulationSettings& settings = problem.simulation;
   if (settings.formulation.baumgarte > 0.0) return;
-  const std::array<Variation, 4> known = {
-      make_formulation("index-3", "index-3", {ConstraintForm::index_3}), make_stabilized(),
-      make_formulation("index-1", "index-1", {ConstraintForm::index_1}),
-      make_formulation("index-1 with projection", "index-1", {ConstraintForm::index_1, 0.0, true})};
-  for (const Variation& one : known) {
+  const Variation plain = make_formulation("index-1", "index-1", {ConstraintForm::index_1});
+  for (const Variation& one : {make_index_3(), make_stabilized(), plain, make_projected()}) {
     const Formulation other = one.of(problem).simulation.formulation;
     const bool fits = settings.local_error == 0.0 || other.constraints != ConstraintForm::index_3;
-    if (fits && !is_same(other, settings.formulation)) all.push_back(one);
+    const bool is_same = other.constraints == settings.formulation.constraints &&
+                         other.is_projected == settings.formulation.is_projected;
+    if (fits && !is_same) all.push_back(one);
   }
 }
 
-Variation make_scheme_change(const char* name, SchemeType type, double radius) {
-  return {"scheme",
-          name,
-          {{"/simulation/scheme", std::string(name)}, {"/simulation/spectral_radius", radius}},
-          [=](ProblemFile& problem) {
-            problem.simulation.scheme = type;
-            problem.simulation.spectral_radius = radius;
-          }};
+/// Another value of a number in /simulation.
+Variation make_number_change(const std::string& key, double SimulationSettings::*number,
+                             double value) {
+  return {
+      key, fmt::format("{:g}", value), {{"/simulation/" + key, value}}, [=](ProblemFile& problem) {
+        problem.simulation.*number = value;
+      }};
 }
 
 void add_schemes(const ProblemFile& problem, std::vector<Variation>& all) {
   const SimulationSettings& settings = problem.simulation;
-  const bool is_alpha = settings.scheme == SchemeType::generalized_alpha;
-  if (settings.local_error == 0.0) {
-    // Of second order for this radius only, and unstable with it in index 3.
-    const bool is_index_3 = settings.formulation.constraints == ConstraintForm::index_3;
-    const double radius = is_index_3 ? settings.spectral_radius : 1.0;
-    if (!is_alpha) {
-      all.push_back(make_scheme_change("generalized-alpha", SchemeType::generalized_alpha, 0.8));
-    }
-    if (settings.scheme != SchemeType::newmark) {
-      all.push_back(make_scheme_change("newmark", SchemeType::newmark, radius));
-    }
-    if (settings.scheme != SchemeType::implicit_euler) {
-      all.push_back(make_scheme_change("implicit-euler", SchemeType::implicit_euler,
-                                       settings.spectral_radius));
-    }
-  }
-  if (!is_alpha) return;
-  for (const double radius : {0.0, 0.5, 0.8, 0.9}) {
-    if (std::abs(radius - settings.spectral_radius) < 0.05) continue;
+  const double own = settings.spectral_radius;
+  // Newmark's is of second order for this radius only, and unstable with it in index 3.
+  const bool is_index_3 = settings.formulation.constraints == ConstraintForm::index_3;
+  const auto add = [&](const char* name, SchemeType type, double radius) {
+    if (settings.scheme == type || settings.local_error > 0.0) return;
     all.push_back(
-        {"spectral_radius",
-         fmt::format("{:g}", radius),
-         {{"/simulation/spectral_radius", radius}},
-         [radius](ProblemFile& changed) { changed.simulation.spectral_radius = radius; }});
+        {"scheme",
+         name,
+         {{"/simulation/scheme", std::string(name)}, {"/simulation/spectral_radius", radius}},
+         [=](ProblemFile& changed) {
+           changed.simulation.scheme = type;
+           changed.simulation.spectral_radius = radius;
+         }});
+  };
+  add("generalized-alpha", SchemeType::generalized_alpha, 0.8);
+  add("newmark", SchemeType::newmark, is_index_3 ? own : 1.0);
+  add("implicit-euler", SchemeType::implicit_euler, own);
+  if (settings.scheme != SchemeType::generalized_alpha) return;
+  for (const double radius : {0.0, 0.5, 0.8, 0.9}) {
+    if (std::abs(radius - own) < 0.05) continue;
+    all.push_back(
+        make_number_change("spectral_radius", &SimulationSettings::spectral_radius, radius));
   }
 }
 
@@ -94,10 +95,7 @@ void add_newton_tolerances(const ProblemFile& problem, std::vector<Variation>& a
     const double ratio = tolerance / problem.simulation.newton_tolerance;
     if (ratio > 0.2 && ratio < 5.0) continue;
     all.push_back(
-        {"newton_tolerance",
-         fmt::format("{:g}", tolerance),
-         {{"/simulation/newton_tolerance", tolerance}},
-         [tolerance](ProblemFile& changed) { changed.simulation.newton_tolerance = tolerance; }});
+        make_number_change("newton_tolerance", &SimulationSettings::newton_tolerance, tolerance));
   }
 }
 
@@ -166,27 +164,17 @@ std::optional<Variation> scaled_modes(const ProblemFile& problem, double factor)
   return scaled;
 }
 
-/// Whether a response is nothing, or nothing but noise, in a rigid mechanism.
+/// What is nothing, or nothing but noise, in a rigid mechanism.
+constexpr std::array of_elasticity = {
+    ResponseType::stress,           ResponseType::fatigue,       ResponseType::fatigue_damage,
+    ResponseType::shear_stress,     ResponseType::deflection,    ResponseType::frequency,
+    ResponseType::damping_ratio,    ResponseType::growth_rate,   ResponseType::buckling,
+    ResponseType::lateral_buckling, ResponseType::elastic_energy};
+
 bool needs_elasticity(const ProblemFile& problem) {
-  return std::any_of(problem.responses.begin(), problem.responses.end(),
-                     [](const ResponseSettings& response) {
-                       switch (response.type) {
-                         case ResponseType::stress:
-                         case ResponseType::fatigue:
-                         case ResponseType::fatigue_damage:
-                         case ResponseType::shear_stress:
-                         case ResponseType::deflection:
-                         case ResponseType::frequency:
-                         case ResponseType::damping_ratio:
-                         case ResponseType::growth_rate:
-                         case ResponseType::buckling:
-                         case ResponseType::lateral_buckling:
-                         case ResponseType::elastic_energy:
-                           return true;
-                         default:
-                           return false;
-                       }
-                     });
+  return std::ranges::any_of(problem.responses, [](const ResponseSettings& response) {
+    return std::ranges::count(of_elasticity, response.type) > 0;
+  });
 }
 
 Variation make_effect(const BeamEffect& effect, EffectChoice choice) {
@@ -234,23 +222,18 @@ bool is_possible(const BeamEffect& effect, const EffectSettings& settings) {
          settings.axial_elasticity != EffectChoice::off;
 }
 
-bool is_there(const char* effect, const Model& model) {
-  return std::any_of(model.effects.begin(), model.effects.end(), [&](const EffectRecord& record) {
-    return record.name == effect && record.is_built;
-  });
-}
-
-/// Whether the effect is left out of a body where it would do something.
-bool is_left_out(const char* effect, const Model& model) {
-  return std::any_of(model.effects.begin(), model.effects.end(), [&](const EffectRecord& record) {
-    return record.name == effect && !record.is_built && record.kind != EffectRecord::Kind::exact;
+/// Whether a body is built with the effect, or without it where it would do something.
+bool has_record(const char* effect, bool is_built, const Model& model) {
+  return std::ranges::any_of(model.effects, [&](const EffectRecord& record) {
+    return record.name == effect && record.is_built == is_built &&
+           (is_built || record.kind != EffectRecord::Kind::exact);
   });
 }
 
 void add_gravity(const ProblemFile& problem, std::vector<Variation>& all) {
   const auto is_zero = [](const Number& number) { return number.constant == 0.0; };
   const auto& gravity = problem.scene.gravity;
-  if (std::all_of(gravity.begin(), gravity.end(), is_zero)) return;
+  if (std::ranges::all_of(gravity, is_zero)) return;
   Variation without{"gravity", "off", {}, [](ProblemFile& changed) {
                       changed.scene.gravity = {0.0, 0.0, 0.0};
                     }};
@@ -266,11 +249,7 @@ Variation other_formulation(const ProblemFile& problem) {
   const Formulation& formulation = problem.simulation.formulation;
   if (formulation.constraints != ConstraintForm::stabilized_index_2) return make_stabilized();
   // Steps that follow the local error are not for index 3.
-  if (problem.simulation.local_error == 0.0) {
-    return make_formulation("index-3", "index-3", {ConstraintForm::index_3});
-  }
-  return make_formulation("index-1 with projection", "index-1",
-                          {ConstraintForm::index_1, 0.0, true});
+  return problem.simulation.local_error == 0.0 ? make_index_3() : make_projected();
 }
 
 std::vector<Variation> numerical_variations(const ProblemFile& problem) {
@@ -287,12 +266,12 @@ std::vector<Variation> numerical_variations(const ProblemFile& problem) {
 
 std::vector<Variation> effect_variations(const ProblemFile& problem, const Model& model) {
   std::vector<Variation> all;
-  const bool is_stiffened = is_there("geometric_stiffening", model);
+  const bool is_stiffened = has_record("geometric_stiffening", true, model);
   for (const BeamEffect& effect : beam_effects) {
     if (effect.choice == &EffectSettings::elasticity && needs_elasticity(problem)) continue;
-    if (is_there(effect.name, model)) {
+    if (has_record(effect.name, true, model)) {
       all.push_back(deactivate(effect, problem, is_stiffened));
-    } else if (is_left_out(effect.name, model) && is_possible(effect, problem.effects)) {
+    } else if (has_record(effect.name, false, model) && is_possible(effect, problem.effects)) {
       all.push_back(make_effect(effect, EffectChoice::on));
     }
   }

@@ -8,16 +8,10 @@
 #include <fmt/format.h>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/base/error.hpp"
-#include "core/base/packed.hpp"
 #include "core/base/stop.hpp"
 #include "optimization/design/design_solve.hpp"
-#include "studies/accuracy_run.hpp"
-#include "studies/row_prices.hpp"
 
 namespace pleuel {
-
-// Parts of a study (core/jobs/part_store.hpp).
 
 namespace {
 
@@ -25,66 +19,44 @@ constexpr std::size_t most_settings = 6;
 
 bool has_design(const Result& result) {
   const bool is_within = result.max_violation <= Tolerances().violation;
-  return result.status == Status::verified || result.status == Status::unresolved ||
-         (result.status == Status::stalled && is_within);
-}
-
-/// Bounds are kept exactly: an optimum may miss them by rounding.
-Eigen::VectorXd within_bounds(const ProblemFile& problem, Eigen::VectorXd x) {
-  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
-    double& value = x(i);
-    value = std::clamp(value, problem.variables[i].lower, problem.variables[i].upper);
-  }
-  return x;
+  return result.is_optimum() || (result.status == Status::stalled && is_within);
 }
 
 Result solve_from(ProblemFile problem, const Eigen::VectorXd* start, const SolveOptions& options,
                   EvaluationStore* store = nullptr) {
   problem.simulation.checks_resolution = false;
   DesignProblem design(std::move(problem), 1, store);
-  if (start != nullptr) design.start_from(within_bounds(design.file(), *start));
+  if (start != nullptr) design.start_from(within_bounds(design, *start));
   return solve_design(design, options);
 }
 
-/// @param sign  Objective::sign()
-void keep(const Result& result, double sign, OptimumRun& run) {
+/// @param start  by default that of the file; from another one it is timed once
+OptimumRun optimize_with(const ProblemFile& problem, const Discretization& settings,
+                         const SolveOptions& options, const Eigen::VectorXd* start = nullptr) {
+  OptimumRun run;
+  run.settings = settings;
+  const ProblemFile discrete = discretized(problem, settings);
+  Result result;
+  const auto solve = [&] { result = solve_from(discrete, start, options); };
+  run.seconds = start != nullptr ? processor_seconds(solve) : least_seconds(solve);
+  if (result.status == Status::interrupted) throw Stopped{};
   run.status = result.status;
   run.evaluations = result.evaluations;
   if (has_design(result)) {
     run.x = result.x;
-    run.objective = sign * result.evaluation.objective;
+    run.objective = problem.objective->sign() * result.evaluation.objective;
   } else {
     run.failure = to_string(result.status) + ": " + result.message;
-  }
-}
-
-OptimumRun optimize_with(const ProblemFile& problem, const Discretization& settings,
-                         const SolveOptions& options) {
-  OptimumRun run;
-  run.settings = settings;
-  const ProblemFile discrete = discretized(problem, settings);
-  try {
-    Result result;
-    run.seconds = least_seconds([&] { result = plain_optimum(discrete, options); });
-    if (result.status == Status::interrupted) throw Stopped{};
-    keep(result, problem.objective->sign(), run);
-  } catch (const SimulationError& error) {
-    run.failure = error.what();
-  } catch (const InputError& error) {  // a window of time without steps
-    run.failure = error.what();
   }
   return run;
 }
 
-OptimumRun find_reference(const ProblemFile& problem, const Eigen::VectorXd& x,
-                          const Discretization& settings, const SolveOptions& options) {
+OptimumRun try_to_optimize(const ProblemFile& problem, const Discretization& settings,
+                           const SolveOptions& options) {
   OptimumRun run;
+  const std::string failure = failure_of([&] { run = optimize_with(problem, settings, options); });
   run.settings = settings;
-  Result result;
-  run.seconds =
-      processor_seconds([&] { result = solve_from(discretized(problem, settings), &x, options); });
-  if (result.status == Status::interrupted) throw Stopped{};
-  keep(result, problem.objective->sign(), run);
+  if (!failure.empty()) run.failure = failure;
   return run;
 }
 
@@ -108,7 +80,7 @@ std::vector<std::size_t> efficient_runs(const AccuracyStudy& study) {
   for (std::size_t i = 0; i < study.runs.size(); ++i) {
     if (!study.runs[i].has_failed()) order.push_back(i);
   }
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t one, std::size_t other) {
+  std::ranges::stable_sort(order, [&](std::size_t one, std::size_t other) {
     return study.runs[one].seconds() < study.runs[other].seconds();
   });
   std::vector<std::size_t> front;
@@ -141,7 +113,7 @@ Result plain_optimum(ProblemFile problem, const SolveOptions& options, Evaluatio
 std::vector<Discretization> efficient_settings(const AccuracyStudy& study) {
   std::vector<std::size_t> chosen;
   const auto choose = [&](std::size_t i) {
-    const bool is_new = std::find(chosen.begin(), chosen.end(), i) == chosen.end();
+    const bool is_new = std::ranges::find(chosen, i) == chosen.end();
     if (is_new && chosen.size() < most_settings) chosen.push_back(i);
   };
   for (const Recommendation& one : study.recommendations) {
@@ -151,7 +123,7 @@ std::vector<Discretization> efficient_settings(const AccuracyStudy& study) {
   // Both ends, then what lies between.
   if (!front.empty()) choose(front.back());
   for (const std::size_t i : front) choose(i);
-  std::sort(chosen.begin(), chosen.end(), [&](std::size_t one, std::size_t other) {
+  std::ranges::sort(chosen, [&](std::size_t one, std::size_t other) {
     return study.runs[one].seconds() < study.runs[other].seconds();
   });
   std::vector<Discretization> settings;
@@ -164,7 +136,7 @@ OptimumStudy optimum_study(const ProblemFile& problem, const Eigen::VectorXd& x,
                            const OptimumObserver& observer, PartStore* parts) {
   OptimumStudy optima;
   optima.reference = kept_part(parts, "optimum of the reference", [&] {
-    return find_reference(problem, x, study.reference.settings, options);
+    return optimize_with(problem, study.reference.settings, options, &x);
   });
   if (observer) observer(optima.reference);
   try {
@@ -177,7 +149,7 @@ OptimumStudy optimum_study(const ProblemFile& problem, const Eigen::VectorXd& x,
       const std::string name = fmt::format("optimum with step {} s, elements {}, factor {}",
                                            settings.step, settings.elements, settings.factor);
       OptimumRun run =
-          kept_part(parts, name, [&] { return optimize_with(problem, settings, options); });
+          kept_part(parts, name, [&] { return try_to_optimize(problem, settings, options); });
       if (!run.has_failed()) run.change = run.objective - optima.reference.objective;
       optima.runs.push_back(std::move(run));
       if (observer) observer(optima.runs.back());

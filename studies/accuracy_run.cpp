@@ -8,7 +8,6 @@
 #include <variant>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/base/error.hpp"
 #include "core/base/relative_error.hpp"
 #include "core/trust/checks.hpp"
 #include "core/trust/refined_runs.hpp"
@@ -183,15 +182,9 @@ AccuracyRun measure_run(ProblemFile problem, const Eigen::VectorXd& x, Timing ti
 }
 
 AccuracyRun try_to_measure(const ProblemFile& problem, const Eigen::VectorXd& x, Timing timing) {
-  AccuracyRun failed;
-  try {
-    return measure_run(problem, x, timing);
-  } catch (const SimulationError& error) {
-    failed.failure = error.what();
-  } catch (const InputError& error) {  // a window of time without steps, too many modes …
-    failed.failure = error.what();
-  }
-  return failed;
+  AccuracyRun run;
+  run.failure = failure_of([&] { run = measure_run(problem, x, timing); });
+  return run;
 }
 
 void compare(const AccuracyRun& reference, const Eigen::VectorXd& x, AccuracyRun& run) {

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "core/base/error.hpp"
 #include "core/scene/problem_file.hpp"
 #include "core/trust/finding.hpp"
 
@@ -79,6 +80,20 @@ AccuracyRun measure_run(ProblemFile problem, const Eigen::VectorXd& x, Timing ti
 
 /// The same; a run that fails says why.
 AccuracyRun try_to_measure(const ProblemFile& problem, const Eigen::VectorXd& x, Timing timing);
+
+/// Why a run failed with its numbers or its input, as where a window of time has no steps; empty: it did
+/// not.
+template <class Work>
+std::string failure_of(const Work& work) {
+  try {
+    work();
+    return "";
+  } catch (const SimulationError& error) {
+    return error.what();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
 
 /// Sets the errors of a run against a better one; see relative_error.hpp.
 void compare(const AccuracyRun& reference, const Eigen::VectorXd& x, AccuracyRun& run);

@@ -1,18 +1,17 @@
 #include "studies/derivative_check.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <span>
-#include <tuple>
 #include <utility>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/base/relative_error.hpp"
 #include "core/jobs/parallel.hpp"
-#include "optimization/generic_numbers.hpp"
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/kinks.hpp"
 #include "sensitivity/sampled_gradients.hpp"
@@ -65,33 +64,20 @@ bool is_excused(double distance, double nearest_error, const BestDifference& bes
 }  // namespace
 
 std::string to_string(DerivativeVerdict verdict) {
-  switch (verdict) {
-    case DerivativeVerdict::agrees:
-      return "agrees";
-    case DerivativeVerdict::noise:
-      return "noise";
-    case DerivativeVerdict::kink:
-      return "kink";
-    default:
-      return "differs";
-  }
+  constexpr std::array<const char*, 4> names = {"agrees", "noise", "kink", "differs"};
+  return names[static_cast<std::size_t>(verdict)];
 }
 
 JudgedDerivative judge_derivative(const DerivativeEvidence& evidence,
                                   std::vector<CentralDifference> curve) {
-  const auto by_step = [](const CentralDifference& a, const CentralDifference& b) {
-    return a.step < b.step;
-  };
-  const auto by_error = [](const CentralDifference& a, const CentralDifference& b) {
-    return a.error < b.error;
-  };
-  std::sort(curve.begin(), curve.end(), by_step);
+  std::ranges::sort(curve, {}, &CentralDifference::step);
   for (CentralDifference& difference : curve) {
     const double distance = std::abs(evidence.derivative - difference.value);
     difference.error =
         distance == 0.0 ? 0.0 : distance / least_derivative(evidence, difference.value);
   }
-  const CentralDifference& nearest = *std::min_element(curve.begin(), curve.end(), by_error);
+  const CentralDifference& nearest =
+      *std::ranges::min_element(curve, {}, &CentralDifference::error);
   const BestDifference best = best_resolved(evidence, curve);
   const double uncertain = best.noise + best.truncation;
   JudgedDerivative judged;
@@ -119,14 +105,6 @@ constexpr double tight_tolerances[] = {1e-12, 1e-10};
 /// A derivative that is computed anew at the same design is the same to this.
 constexpr double same_derivative = 1e-6;
 
-/// Entries of generic size and sign relative to the variables, the same in every run.
-Eigen::VectorXd generic_changes(const ProblemFile& problem, const Eigen::VectorXd& x) {
-  GenericNumbers numbers;
-  Eigen::VectorXd changes = step_scales(problem.variables, x);
-  for (double& change : changes) change *= numbers.signed_size();
-  return changes;
-}
-
 class Check {
  public:
   Check(const ProblemFile& problem, const Eigen::VectorXd& x, Analysis& analysis,
@@ -134,7 +112,7 @@ class Check {
       : problem_(with_steps_of(analysis.trajectory, problem)),
         x_(x),
         options_(options),
-        changes_(generic_changes(problem, x)),
+        changes_(generic_direction(problem, x)),
         magnitudes_(values_of(analysis).cwiseAbs()),
         direct_(gradients_by(analysis, ExactMethod::direct)),
         adjoint_(gradients_by(analysis, ExactMethod::adjoint)),
@@ -181,7 +159,8 @@ class Check {
   void divide(const std::vector<Eigen::Index>& variables) {
     const CheckedDirection direction = direction_along(variables);
     Judged judged = judge(direction);
-    if (variables.size() == 1 || !any_is(judged, DerivativeVerdict::differs)) {
+    if (variables.size() == 1 ||
+        std::ranges::count(judged, DerivativeVerdict::differs, &JudgedDerivative::verdict) == 0) {
       return keep(direction, std::move(judged));
     }
     const auto middle = variables.begin() + std::ssize(variables) / 2;
@@ -202,16 +181,15 @@ class Check {
     }
   }
 
-  static bool any_is(const Judged& judged, DerivativeVerdict verdict) {
-    return std::ranges::find(judged, verdict, &JudgedDerivative::verdict) != judged.end();
-  }
-
   Judged judge(const CheckedDirection& direction) {
     std::vector<Step> steps;
     add_differences(direction, first_steps, steps);
-    Judged judged;
-    if (!steps.empty()) judged = judge(direction, steps);
-    if (!steps.empty() && all_agree(judged)) return judged;
+    if (!steps.empty()) {
+      Judged judged = judge(direction, steps);
+      const auto agreed =
+          std::ranges::count(judged, DerivativeVerdict::agrees, &JudgedDerivative::verdict);
+      if (agreed == std::ssize(judged)) return judged;
+    }
     add_differences(direction, further_steps, steps);
     if (steps.empty()) throw SimulationError(failure_);
     return judge(direction, steps);
@@ -247,12 +225,6 @@ class Check {
     }
   }
 
-  static bool all_agree(const Judged& judged) {
-    return std::ranges::all_of(judged, [](const JudgedDerivative& one) {
-      return one.verdict == DerivativeVerdict::agrees;
-    });
-  }
-
   Judged judge(const CheckedDirection& direction, const std::vector<Step>& steps) const {
     const Eigen::VectorXd derivatives = direct_ * direction.change;
     Judged judged;
@@ -277,12 +249,6 @@ class Check {
   std::string failure_;  ///< of the last step that failed
   DerivativeChecks checks_;
 };
-
-bool any_differs(const DerivativeChecks& checks) {
-  return std::ranges::any_of(checks.responses, [](const DerivativeCheck& check) {
-    return check.worst().verdict == DerivativeVerdict::differs;
-  });
-}
 
 /// The same checks with Newton's method carried further; none where it does not come so far.
 DerivativeChecks tight_checks(ProblemFile problem, const Eigen::VectorXd& x,
@@ -327,17 +293,19 @@ void excuse_loose_newton(DerivativeChecks& checks, const ProblemFile& problem,
 }  // namespace
 
 std::size_t DerivativeCheck::worst_direction() const {
-  const auto is_better = [](const JudgedDerivative& a, const JudgedDerivative& b) {
-    return std::tie(a.verdict, a.error) < std::tie(b.verdict, b.error);
-  };
-  const auto worst = std::max_element(directions.begin(), directions.end(), is_better);
+  const auto worst = std::ranges::max_element(directions, {}, [](const JudgedDerivative& one) {
+    return std::pair(one.verdict, one.error);
+  });
   return static_cast<std::size_t>(worst - directions.begin());
 }
 
 DerivativeChecks check_derivatives(const ProblemFile& problem, const Eigen::VectorXd& x,
                                    Analysis& analysis, const DerivativeCheckOptions& options) {
   DerivativeChecks checks = Check(problem, x, analysis, options).run();
-  if (any_differs(checks)) {
+  const bool any_differs = std::ranges::any_of(checks.responses, [](const DerivativeCheck& check) {
+    return check.worst().verdict == DerivativeVerdict::differs;
+  });
+  if (any_differs) {
     excuse_loose_newton(checks, with_steps_of(analysis.trajectory, problem), x, options);
   }
   return checks;

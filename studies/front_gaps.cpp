@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
 
 #include "core/base/int_size.hpp"
-#include "studies/front_ends.hpp"
 
 namespace pleuel {
 
@@ -56,9 +54,8 @@ class GapFinder {
     for (const Place& place : places_) {
       if (place.is_on_front) front_.push_back(&place);
     }
-    std::stable_sort(front_.begin(), front_.end(), [](const Place* one, const Place* other) {
-      return one->limited < other->limited;
-    });
+    std::ranges::stable_sort(
+        front_, [](const Place* one, const Place* other) { return one->limited < other->limited; });
   }
 
   FrontGaps run(int room) {
@@ -130,7 +127,7 @@ class GapFinder {
         between.failures.push_back(place.limit);
       }
     }
-    std::sort(between.failures.begin(), between.failures.end());
+    std::ranges::sort(between.failures);
     return between;
   }
 
@@ -168,8 +165,8 @@ class GapFinder {
     if (!is_active || tight.limit > between.upper) return false;
     if (!is_unexplained(between, tight.objective - between.loose->objective)) return false;
     const double limit = points_[tight.index].limit;
-    return 1 == std::count_if(points_.begin(), points_.end(),
-                              [&](const ParetoPoint& point) { return point.limit == limit; });
+    return 1 == std::ranges::count_if(
+                    points_, [&](const ParetoPoint& point) { return point.limit == limit; });
   }
 
   FrontGap::Cause cause_of(const Neighbours& between) const {
@@ -238,8 +235,8 @@ class GapFinder {
 
   /// The largest gaps first, and no gap of less than half the largest before that is divided.
   std::vector<FrontProbe> probes(std::vector<std::pair<double, Neighbours>> open, int room) const {
-    std::stable_sort(open.begin(), open.end(),
-                     [](const auto& one, const auto& other) { return one.first > other.first; });
+    std::ranges::stable_sort(
+        open, [](const auto& one, const auto& other) { return one.first > other.first; });
     std::vector<FrontProbe> all;
     for (const auto& [size, between] : open) {
       if (size < 0.5 * open.front().first) break;
@@ -296,7 +293,7 @@ class GapFinder {
     const int parts = std::clamp(static_cast<int>(std::ceil(whole / gap_)), 2, most_parts);
     std::vector<double> limits;
     for (int k = 1; k < parts; ++k) {
-      const auto next = std::lower_bound(lengths.begin(), lengths.end(), whole * k / parts);
+      const auto next = std::ranges::lower_bound(lengths, whole * k / parts);
       const auto i = static_cast<double>(next - lengths.begin());
       const double before = *(next - 1), after = *next;
       const double share = (i - 1.0 + (whole * k / parts - before) / (after - before)) / segments;

@@ -7,7 +7,6 @@
 #include "core/base/error.hpp"
 #include "core/base/relative_error.hpp"
 #include "core/base/stop.hpp"
-#include "core/base/stopwatch.hpp"
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/sampled_gradients.hpp"
 
@@ -41,13 +40,6 @@ class MethodStudy {
   }
 
  private:
-  template <class Compute>
-  static std::pair<Eigen::MatrixXd, double> timed(const Compute& compute) {
-    const Stopwatch stopwatch;
-    Eigen::MatrixXd gradients = compute();
-    return {std::move(gradients), stopwatch.seconds()};
-  }
-
   void compare_exact() {
     const auto by = [&](ExactMethod method) {
       return sampled_gradients(analysis_, response_values(analysis_), method);
@@ -75,15 +67,16 @@ class MethodStudy {
 
   void compare_differences(double step) {
     options_.see_step(step);
+    const auto add = [&](GradientMethod method, const auto& compute) {
+      const Stopwatch stopwatch;
+      const Eigen::MatrixXd gradients = compute();
+      compared_.push_back({method, step, stopwatch.seconds(), {}, errors(gradients)});
+    };
     try {
-      const auto [central, central_seconds] =
-          timed([&] { return central_differences(problem_, x_, step, options_.threads); });
-      compared_.push_back(
-          {GradientMethod::central_difference, step, central_seconds, {}, errors(central)});
-      const auto [forward, forward_seconds] = timed(
+      add(GradientMethod::central_difference,
+          [&] { return central_differences(problem_, x_, step, options_.threads); });
+      add(GradientMethod::forward_difference,
           [&] { return forward_differences(problem_, x_, analysis_, step, options_.threads); });
-      compared_.push_back(
-          {GradientMethod::forward_difference, step, forward_seconds, {}, errors(forward)});
     } catch (const SimulationError&) {
       return;  // so large a step leads where nothing can be simulated
     }

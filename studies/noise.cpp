@@ -1,7 +1,6 @@
 #include "studies/noise.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -9,7 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/jobs/parallel.hpp"
 #include "core/response/analysis.hpp"
-#include "optimization/generic_numbers.hpp"
+#include "optimization/problem.hpp"
 #include "sensitivity/finite_difference.hpp"
 
 namespace pleuel {
@@ -39,16 +38,6 @@ std::vector<DifferenceLevel> difference_table(Eigen::VectorXd differences) {
   return levels;
 }
 
-/// Entries of generic size and sign relative to the variables, the same in every run.
-Eigen::VectorXd generic_direction(const ProblemFile& problem, const Eigen::VectorXd& x) {
-  GenericNumbers numbers;
-  Eigen::VectorXd direction(x.size());
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    direction(i) = numbers.signed_size() * step_scale(problem.variables[i], x(i));
-  }
-  return direction;
-}
-
 /// NaN where the simulation fails.
 Eigen::VectorXd values_at(const ProblemFile& problem, const Eigen::VectorXd& x) {
   try {
@@ -59,30 +48,24 @@ Eigen::VectorXd values_at(const ProblemFile& problem, const Eigen::VectorXd& x) 
   }
 }
 
-/// responses × points of a line through x, which lies in its middle between two points.
-Eigen::MatrixXd values_on_line(const ProblemFile& problem, const Eigen::VectorXd& x, double spacing,
-                               int threads) {
-  const Eigen::VectorXd direction = generic_direction(problem, x);
-  Eigen::MatrixXd values(problem.responses.size(), line_points);
-  for_each_in_parallel(line_points, threads, [&](int i) {
-    const double place = spacing * (i - 0.5 * (line_points - 1));
-    values.col(i) = values_at(problem, x + place * direction);
-  });
-  return values;
-}
-
-/// responses × 2: as the file says, and with a thousandth of Newton's tolerance.
-Eigen::MatrixXd values_of_tolerances(const ProblemFile& problem, const Eigen::VectorXd& x,
-                                     int threads) {
-  ProblemFile tight = problem;
-  tight.simulation.newton_tolerance *= 1e-3;
-  Eigen::MatrixXd values(problem.responses.size(), 2);
-  for_each_in_parallel(2, threads,
-                       [&](int i) { values.col(i) = values_at(i == 0 ? problem : tight, x); });
+/// The values of several problems, or of one at several designs.
+/// @returns responses × count
+template <class ValuesOf>
+Eigen::MatrixXd columns_of_values(const ProblemFile& problem, int count, int threads,
+                                  const ValuesOf& values_of_one) {
+  Eigen::MatrixXd values(problem.responses.size(), count);
+  for_each_in_parallel(count, threads, [&](int i) { values.col(i) = values_of_one(i); });
   return values;
 }
 
 }  // namespace
+
+Eigen::VectorXd generic_direction(const ProblemFile& problem, const Eigen::VectorXd& x) {
+  GenericNumbers numbers;
+  Eigen::VectorXd direction = step_scales(problem.variables, x);
+  for (double& change : direction) change *= numbers.signed_size();
+  return direction;
+}
 
 double noise_of(const Eigen::VectorXd& values) {
   const std::vector<DifferenceLevel> levels = difference_table(values);
@@ -99,9 +82,14 @@ double noise_of(const Eigen::VectorXd& values) {
 ResponseNoise response_noise(const ProblemFile& problem, const Eigen::VectorXd& x, int threads) {
   const Eigen::Index responses = problem.responses.size();
   ResponseNoise noise{Eigen::VectorXd::Zero(responses), Eigen::VectorXd::Zero(responses)};
+  const Eigen::VectorXd direction = generic_direction(problem, x);
   bool is_known = false;
   for (const double spacing : spacings) {
-    const Eigen::MatrixXd values = values_on_line(problem, x, spacing, threads);
+    // x lies in the middle of the line, between two points.
+    const Eigen::MatrixXd values = columns_of_values(problem, line_points, threads, [&](int i) {
+      const double place = spacing * (i - 0.5 * (line_points - 1));
+      return values_at(problem, x + place * direction);
+    });
     if (!values.allFinite()) continue;
     is_known = true;
     for (Eigen::Index i = 0; i < responses; ++i) {
@@ -111,7 +99,10 @@ ResponseNoise response_noise(const ProblemFile& problem, const Eigen::VectorXd& 
   if (!is_known) {
     throw SimulationError("the noise is unknown: simulations fail around this design");
   }
-  const Eigen::MatrixXd values = values_of_tolerances(problem, x, threads);
+  ProblemFile tight = problem;
+  tight.simulation.newton_tolerance *= 1e-3;
+  const Eigen::MatrixXd values = columns_of_values(
+      problem, 2, threads, [&](int i) { return values_at(i == 0 ? problem : tight, x); });
   if (values.allFinite()) noise.remainder = (values.col(1) - values.col(0)).cwiseAbs();
   return noise;
 }

@@ -21,6 +21,10 @@ namespace pleuel {
 /// @param values  at least 6, in the order of the points
 double noise_of(const Eigen::VectorXd& values);
 
+/// A direction from a design: entries of generic size and sign relative to the variables, the same in
+/// every run.
+Eigen::VectorXd generic_direction(const ProblemFile& problem, const Eigen::VectorXd& x);
+
 /// Noise of all responses at a design [SI].
 struct ResponseNoise {
   /// Standard deviation, the largest along three lines of 8 designs: of relative spacing 1e-11,

@@ -1,22 +1,140 @@
 #include "studies/number_prices.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <set>
 
 #include <fmt/format.h>
 
 #include "core/base/dense_solvers.hpp"
 #include "core/base/eager_matrices.hpp"
+#include "core/base/error.hpp"
 #include "core/base/int_size.hpp"
 #include "core/integration/period_map.hpp"
 #include "core/integration/repetition.hpp"
+#include "core/model/motion_plane.hpp"
 #include "core/response/analysis.hpp"
-#include "optimization/design/size_trials.hpp"
+#include "core/scene/body_rules.hpp"
+#include "optimization/design/size_lists.hpp"
 #include "optimization/scaling.hpp"
-#include "studies/priced_numbers.hpp"
 #include "studies/row_prices.hpp"
 
 namespace pleuel {
+
+namespace {
+
+using Groups = std::vector<NumberGroup>;
+
+constexpr const char* point_ends[] = {"/from", "/to", "/at", "/at/0", "/at/1"};
+
+/// "…/at/1" is the second component of the point "…/at".
+struct Component {
+  std::string point;
+  int index = 0;
+};
+
+/// Of a body, a joint or a load, or one of the two of a spring.
+bool is_point(const std::string& pointer) {
+  return std::any_of(std::begin(point_ends), std::end(point_ends),
+                     [&](const char* end) { return pointer.ends_with(end); });
+}
+
+std::optional<Component> component_of(const SceneNumber& number) {
+  const std::size_t slash = number.pointer.rfind('/');
+  const std::string point = number.pointer.substr(0, slash);
+  if (!is_point(point)) return std::nullopt;
+  return Component{point, std::stoi(number.pointer.substr(slash + 1))};
+}
+
+/// Equal for points at one place.
+std::string place_text(double x, double y, double z) {
+  const auto rounded = [](double value) { return value == 0.0 ? 0.0 : value; };  // no −0
+  return fmt::format("{:.12g} {:.12g} {:.12g}", rounded(x), rounded(y), rounded(z));
+}
+
+/// The coordinates of points; one that is not fixed is missing.
+using Coordinates = std::map<std::string, std::array<std::optional<double>, 3>>;
+
+Coordinates coordinates_of(const std::vector<SceneNumber>& numbers) {
+  Coordinates all;
+  for (const SceneNumber& number : numbers) {
+    if (const auto component = component_of(number)) {
+      all[component->point][component->index] = number.value;
+    }
+  }
+  return all;
+}
+
+bool leaves_plane(const Component& component, const std::optional<MotionPlane>& plane) {
+  return plane && std::abs(plane->normal(component.index)) > 1e-12;
+}
+
+/// @param taken  places of points that variables move: what is there cannot be moved by itself
+Groups grouped(const std::vector<SceneNumber>& numbers, const std::optional<MotionPlane>& plane,
+               const std::set<std::string>& taken) {
+  const Coordinates coordinates = coordinates_of(numbers);
+  Groups groups;
+  std::map<std::string, std::size_t> group_of_place;
+  for (const SceneNumber& number : numbers) {
+    const auto component = component_of(number);
+    if (!component) {
+      if (number.value != 0.0) groups.push_back({number.pointer, {number.pointer}});
+      continue;
+    }
+    const auto& [x, y, z] = coordinates.at(component->point);
+    const std::string place = x && y && z ? place_text(*x, *y, *z) : component->point;
+    if (leaves_plane(*component, plane) || taken.contains(place)) continue;
+    const std::string key = fmt::format("{} {}", place, component->index);
+    const auto [found, is_new] = group_of_place.try_emplace(key, groups.size());
+    if (is_new) groups.push_back({number.pointer, {}});
+    groups[found->second].pointers.push_back(number.pointer);
+  }
+  return groups;
+}
+
+bool can_be_bound(const ProblemText& text, const Groups& groups) {
+  try {
+    bind_numbers(text, groups);
+    return true;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+/// Those that variables can stand for, by halves: mostly all of them, and one reading will do.
+Groups bindable(const ProblemText& text, const Groups& groups) {
+  if (groups.empty() || can_be_bound(text, groups)) return groups;
+  if (groups.size() == 1) return {};
+  const auto middle = groups.begin() + static_cast<std::ptrdiff_t>(groups.size() / 2);
+  Groups kept = bindable(text, Groups(groups.begin(), middle));
+  const Groups rest = bindable(text, Groups(middle, groups.end()));
+  kept.insert(kept.end(), rest.begin(), rest.end());
+  return kept;
+}
+
+}  // namespace
+
+PricedNumbers priced_numbers(const ProblemText& text, const ProblemFile& problem) {
+  const Eigen::VectorXd start = start_design(problem);
+  const Design<double> design(start.begin(), start.end());
+  std::set<std::string> taken;
+  for (const Eigen::Vector3d& point : bound_points(problem.scene, design)) {
+    taken.insert(place_text(point.x(), point.y(), point.z()));
+  }
+  const PlaneAnalysis plane = find_motion_plane(problem.scene, design);
+  const Groups wanted = grouped(scene_numbers(text), plane.plane, taken);
+  PricedNumbers priced{bindable(text, wanted), {}};
+  for (const NumberGroup& group : wanted) {
+    const bool is_priced = std::ranges::any_of(
+        priced.groups, [&](const NumberGroup& one) { return one.name == group.name; });
+    if (!is_priced) priced.left_out.push_back(group.name);
+  }
+  return priced;
+}
 
 namespace {
 
@@ -27,106 +145,76 @@ constexpr double least_change = 1e-10;
 /// Of the magnitude of a limit: what counts as reaching it.
 constexpr double at_limit = 1e-6;
 
-/// How an optimum answers a small change of its rows.
-class OptimumResponse {
- public:
-  explicit OptimumResponse(const RowPrices& prices) : prices_(prices) {}
-
-  /// The first limit beyond those that decide now which a change of the rows makes a design break
-  /// that answers it; empty if there is none.
-  /// @param change  of the values of the rows, at the design as it is
-  std::string next_limit(const Eigen::VectorXd& change) const {
-    const Eigen::VectorXd step = answer(change);
-    const Evaluation& evaluation = rows().evaluation();
-    const Eigen::VectorXd values =
-        evaluation.constraints + change + evaluation.constraint_jacobian * step;
-    const std::vector<Constraint>& constraints = problem().constraints();
-    for (Eigen::Index i = 0; i < values.size(); ++i) {
-      const Constraint& limits = constraints[i];
-      const double excess = std::max(values(i) - limits.upper, limits.lower - values(i));
-      if (!decides(i) && excess > at_limit * prices_.scales()(i)) return name_of_row(i);
-    }
-    for (Eigen::Index i = 0; i < step.size(); ++i) {
-      const Variable& variable = problem().variables()[i];
-      const double value = rows().x()(i) + step(i);
-      const double room = at_limit * std::abs(value);
-      if (!is_at_bound(i) && !variable.is_fixed() &&
-          (value > variable.upper + room || value < variable.lower - room)) {
-        return variable.name;
-      }
-    }
-    return "";
+/// The least change of the free variables, in their magnitudes, that keeps the rows which decide
+/// where they are. The whole answer if as many rows decide as there are free variables.
+/// @param change  of the values of the rows, at the design as it is
+Eigen::VectorXd answer_to(const Eigen::VectorXd& change, const RowPrices& optimum) {
+  const Eigen::VectorXd s = local_scales(optimum.at.rows, optimum.at.x);
+  std::vector<Eigen::Index> free, deciding;
+  for (Eigen::Index i = 0; i < s.size(); ++i) {
+    const bool is_fixed = optimum.at.rows.variables()[i].is_fixed();
+    if (optimum.bound_multipliers(i) == 0.0 && !is_fixed) free.push_back(i);
   }
-
- private:
-  const Problem& problem() const { return rows().peaks(); }
-  const DesignRows& rows() const { return prices_.rows(); }
-  bool decides(Eigen::Index row) const { return prices_.multipliers()(row) != 0.0; }
-  bool is_at_bound(Eigen::Index variable) const {
-    return prices_.bound_multipliers()(variable) != 0.0;
+  for (Eigen::Index i = 0; i < change.size(); ++i) {
+    if (optimum.multipliers(i) != 0.0) deciding.push_back(i);
   }
+  Eigen::VectorXd step = Eigen::VectorXd::Zero(s.size());
+  if (free.empty() || deciding.empty()) return step;
+  const Eigen::MatrixXd scaled = optimum.at.evaluation.constraint_jacobian * s.asDiagonal();
+  const Eigen::VectorXd magnitudes = optimum.scales(deciding).cwiseInverse();
+  const Eigen::MatrixXd matrix = magnitudes.asDiagonal() * scaled(deciding, free);
+  const Eigen::VectorXd right = -magnitudes.cwiseProduct(change(deciding));
+  const Eigen::VectorXd found = least_norm_solution(matrix, right);
+  for (std::size_t k = 0; k < free.size(); ++k) step(free[k]) = s(free[k]) * found(k);
+  return step;
+}
 
-  /// A row of a constraint that decides already is another of its peaks.
-  std::string name_of_row(Eigen::Index row) const {
-    const std::string& name = problem().constraints()[row].name;
-    for (Eigen::Index i = 0; i < prices_.multipliers().size(); ++i) {
-      const bool is_same = problem().constraints()[i].name == name;
-      if (is_same && decides(i)) return "another peak of " + name;
+/// The first limit beyond those that decide now which a change of the rows makes a design break
+/// that answers it; empty if there is none. A row of a constraint that decides already is another of
+/// its peaks.
+std::string next_limit(const Eigen::VectorXd& change, const RowPrices& optimum) {
+  const Eigen::VectorXd step = answer_to(change, optimum);
+  const Evaluation& evaluation = optimum.at.evaluation;
+  const Eigen::VectorXd values =
+      evaluation.constraints + change + evaluation.constraint_jacobian * step;
+  const std::vector<Constraint>& limits = optimum.at.rows.constraints();
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    const bool decides = optimum.multipliers(i) != 0.0;
+    if (decides || !(limits[i].excess(values(i)) > at_limit * optimum.scales(i))) continue;
+    for (Eigen::Index k = 0; k < values.size(); ++k) {
+      const bool is_same = limits[k].name == limits[i].name;
+      if (is_same && optimum.multipliers(k) != 0.0) return "another peak of " + limits[i].name;
     }
-    return name;
+    return limits[i].name;
   }
-
-  /// The least change of the free variables, in their magnitudes, that keeps the rows which decide
-  /// where they are. The whole answer if as many rows decide as there are free variables.
-  Eigen::VectorXd answer(const Eigen::VectorXd& change) const {
-    const Eigen::VectorXd s = local_scales(problem(), rows().x());
-    std::vector<Eigen::Index> free, deciding;
-    for (Eigen::Index i = 0; i < s.size(); ++i) {
-      const bool is_fixed = problem().variables()[i].is_fixed();
-      if (!is_at_bound(i) && !is_fixed) free.push_back(i);
-    }
-    for (Eigen::Index i = 0; i < change.size(); ++i) {
-      if (decides(i)) deciding.push_back(i);
-    }
-    Eigen::VectorXd step = Eigen::VectorXd::Zero(s.size());
-    if (free.empty() || deciding.empty()) return step;
-    const Eigen::MatrixXd scaled = rows().evaluation().constraint_jacobian * s.asDiagonal();
-    const Eigen::VectorXd magnitudes = prices_.scales()(deciding).cwiseInverse();
-    const Eigen::MatrixXd matrix = magnitudes.asDiagonal() * scaled(deciding, free);
-    const Eigen::VectorXd right = -magnitudes.cwiseProduct(change(deciding));
-    const Eigen::VectorXd found = least_norm_solution(matrix, right);
-    for (std::size_t k = 0; k < free.size(); ++k) {
-      step(free[k]) = s(free[k]) * found(k);
-    }
-    return step;
+  for (Eigen::Index i = 0; i < step.size(); ++i) {
+    const Variable& variable = optimum.at.rows.variables()[i];
+    const double value = optimum.at.x(i) + step(i);
+    const double room = at_limit * std::abs(value);
+    const bool is_free = optimum.bound_multipliers(i) == 0.0 && !variable.is_fixed();
+    const bool is_outside = value > variable.upper + room || value < variable.lower - room;
+    if (is_free && is_outside) return variable.name;
   }
-
-  const RowPrices& prices_;
-};
+  return "";
+}
 
 /// Prices of variables from the gradient of their problem, at the multipliers of the optimum.
-class Pricing {
- public:
-  Pricing(const RowPrices& optimum, const Evaluation& evaluation)
-      : optimum_(optimum), evaluation_(evaluation) {}
+struct Pricing {
+  const RowPrices& optimum;
+  const Evaluation& evaluation;
 
   void set(Eigen::Index variable, NumberPrice& price) const {
-    const double direct = evaluation_.objective_gradient(variable);
-    const Eigen::VectorXd through =
-        optimum_.multipliers().cwiseProduct(evaluation_.constraint_jacobian.col(variable));
+    const double direct = evaluation.objective_gradient(variable);
+    const Eigen::VectorXd slopes = evaluation.constraint_jacobian.col(variable);
+    const Eigen::VectorXd through = optimum.multipliers.cwiseProduct(slopes);
     const double terms = std::abs(direct) + through.cwiseAbs().sum();
     const double sum = direct + through.sum();
     const double change = price.value == 0.0 ? sum : 0.01 * price.value * sum;
     const bool is_noise = std::abs(sum) <= round_off * terms ||
-                          std::abs(change) <= least_change * std::abs(evaluation_.objective);
+                          std::abs(change) <= least_change * std::abs(evaluation.objective);
     price.per_unit = is_noise ? 0.0 : sum;
-    price.next_limit = OptimumResponse(optimum_).next_limit(
-        0.01 * price.value * evaluation_.constraint_jacobian.col(variable));
+    price.next_limit = next_limit(0.01 * price.value * slopes, optimum);
   }
-
- private:
-  const RowPrices& optimum_;
-  const Evaluation& evaluation_;
 };
 
 /// The problem with all numbers as variables; decisions that a measurement made stay.
@@ -176,8 +264,7 @@ PricedNumbers without_periods(const ProblemText& text, const ProblemFile& proble
 }
 
 void add_limits(const ProblemFile& problem, const RowPrices& optimum, PriceList& list) {
-  const Eigen::VectorXd multipliers =
-      optimum.rows().peaks().fold_multipliers(optimum.multipliers());
+  const Eigen::VectorXd multipliers = optimum.at.peaks.fold_multipliers(optimum.multipliers);
   for (std::size_t i = 0; i < problem.constraints.size(); ++i) {
     const double multiplier = multipliers(i);
     if (multiplier == 0.0) continue;
@@ -208,7 +295,7 @@ void add_variables(const ProblemFile& problem, const RowPrices& optimum, const P
       price.value = variable.lower;
       pricing.set(i, price);
     } else {
-      const double multiplier = optimum.bound_multipliers()(i);
+      const double multiplier = optimum.bound_multipliers(i);
       if (multiplier == 0.0) continue;
       const bool is_upper = multiplier > 0.0;
       price.kind = NumberPrice::Kind::bound;
@@ -249,24 +336,22 @@ PriceList number_prices(const ProblemText& text, const ProblemFile& file, const 
   }
   const std::vector<NumberGroup>& groups = numbers.groups;
   const ProblemFile extended = with_sizes_at(with_numbers(text, problem, groups), x);
-  DesignRows rows(extended, extended_design(extended, x), windows, threads);
-  const Pricing pricing(optimum, rows.evaluation());
+  const DesignRows rows(extended, extended_design(extended, x), windows, threads);
+  const Pricing pricing{optimum, rows.evaluation};
   PriceList list;
   list.unknown = numbers.left_out;
-  const Evaluation& evaluation = optimum.rows().evaluation();
-  list.objective =
-      optimum.rows().peaks().fold_objective(evaluation.objective, evaluation.constraints);
-  list.residual = optimum.residual();
+  const Evaluation& evaluation = optimum.at.evaluation;
+  list.objective = optimum.at.peaks.fold_objective(evaluation.objective, evaluation.constraints);
+  list.residual = optimum.residual;
   add_limits(problem, optimum, list);
   add_variables(problem, optimum, pricing, list);
   add_numbers(extended, groups, pricing, list);
   const double sign = problem.objective->sign();
   list.objective *= sign;
   for (NumberPrice& price : list.prices) price.per_unit *= sign;
-  std::stable_sort(list.prices.begin(), list.prices.end(),
-                   [](const NumberPrice& a, const NumberPrice& b) {
-                     return std::abs(a.per_percent()) > std::abs(b.per_percent());
-                   });
+  std::ranges::stable_sort(list.prices, [](const NumberPrice& a, const NumberPrice& b) {
+    return std::abs(a.per_percent()) > std::abs(b.per_percent());
+  });
   return list;
 }
 

@@ -4,25 +4,19 @@
 #include <cmath>
 #include <iterator>
 #include <map>
-#include <optional>
 #include <utility>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/base/find_named.hpp"
 #include "core/base/int_size.hpp"
-#include "core/base/number_text.hpp"
 #include "core/base/stop.hpp"
-#include "core/jobs/parallel.hpp"
 #include "core/scene/case_goals.hpp"
 #include "optimization/design/design_problem.hpp"
 #include "optimization/design/size_choice.hpp"
 #include "optimization/design/size_lists.hpp"
-#include "optimization/design/size_trials.hpp"
 #include "optimization/scaling.hpp"
-#include "studies/front_ends.hpp"
 #include "studies/missing_settings.hpp"
-#include "studies/varied_limit.hpp"
 
 namespace pleuel {
 
@@ -76,18 +70,23 @@ ProblemFile trade_off_problem(ProblemFile problem) {
 
 namespace {
 
-/// An end as a point of the front.
-FoundPoint point_of(const FrontEnd& end, const ProblemFile& problem, const Execution& execution) {
-  FoundPoint found;
-  found.start = end.result.x;
-  ParetoPoint& point = found.point;
-  point.is_end = true;
-  point.is_choice = has_choices(problem);
-  point.result = end.result;
-  point.sizes = end.sizes;
-  point.limit = point.limited_value = end.values[1];
-  take_as_point(point, problem, execution.store);
-  return found;
+/// Scales of the constraints, from the first design that can be simulated.
+std::optional<Eigen::VectorXd> scales_at(const ProblemFile& problem,
+                                         const std::vector<Eigen::VectorXd>& designs,
+                                         const Execution& execution) {
+  DesignProblem design(problem, execution.tasks.jobs, execution.store);
+  for (const Eigen::VectorXd& x : designs) {
+    const Attempt attempt = attempt_evaluation(design, x, Request::values_and_gradients);
+    if (!attempt.evaluation) continue;
+    return constraint_scales(design, *attempt.evaluation, variable_scales(design, x));
+  }
+  return std::nullopt;
+}
+
+/// Whether there is nothing to design but sizes from lists, with at most 300 choices of them.
+bool is_enumerable(const ProblemFile& problem) {
+  return has_choices(problem) && !needs_optimization(problem) &&
+         SizeLists(problem.variables).combinations() <= most_simulated_choices;
 }
 
 /// The front as it grows.
@@ -119,6 +118,42 @@ class Front {
     return front;
   }
 
+  /// Simulates every choice of sizes. The front is all of them that keep the limits and that no other
+  /// dominates, to round-off: that of the problem itself, not of searches. Of a limit that goes from
+  /// one value to another it is what is best at some limit between. Each point is judged like any
+  /// optimum, with its own value as its limit.
+  ParetoFront of_choices() const {
+    ProblemFile any = problem_;  // with any value of what is limited
+    set_limit(any, sign() * infinity);
+    const SizeLists lists(problem_.variables);
+    std::vector<Eigen::VectorXd> designs;
+    for (const Sizes& sizes : lists.all()) {
+      designs.push_back(lists.design(sizes, start_design(problem_)));
+    }
+    ParetoFront front;
+    front.choices = ChoiceCounts{.all = int_size(designs)};
+    const auto scales = scales_at(any, designs, execution_);
+    if (!scales) {
+      front.choices->failed = front.choices->all;
+      return front;
+    }
+    std::vector<PointSearch> choices;
+    std::vector<Goals> goals;
+    for (const SizeTrial& trial : try_sizes(any, designs, *scales, options_, execution_)) {
+      if (trial.has_failed()) ++front.choices->failed;
+      if (!trial.keeps_limits()) continue;
+      ++front.choices->feasible;
+      const double limited = limited_value(any, trial.constraints);
+      choices.push_back({.limit = limited, .start = trial.x, .keeps_sizes = true});
+      goals.push_back({trial.objective, sign() * limited});
+    }
+    FoundPoints found =
+        search_points(problem_, best_of(choices, goals), options_, execution_, observer_);
+    for (FoundPoint& one : found.points) front.points.push_back(std::move(one.point));
+    front.is_whole = found.is_whole;
+    return front;
+  }
+
  private:
   /// At equal steps of the limit.
   std::vector<PointSearch> first_searches(std::vector<FoundPoint> ends) const {
@@ -137,7 +172,10 @@ class Front {
     for (const FrontProbe& probe : probes) {
       PointSearch search{probe.limit, std::nullopt, found_[probe.from].next_start()};
       if (probe.other != probe.from) search.other = found_[probe.other].next_start();
-      search.objective_limit = probe.objective_limit;
+      if (probe.objective_limit) {
+        search.objective_limit = probe.objective_limit;
+        search.other_problem = with_exchanged_goals(problem_, *probe.objective_limit);
+      }
       searches.push_back(std::move(search));
     }
     return searches;
@@ -149,7 +187,7 @@ class Front {
     FoundPoints news = search_points(problem_, searches, options_, execution_, observer_);
     for (FoundPoint& one : news.points) found_.push_back(std::move(one));
     const bool is_falling = settings_.to < settings_.from;
-    std::stable_sort(found_.begin(), found_.end(), [&](const FoundPoint& a, const FoundPoint& b) {
+    std::ranges::stable_sort(found_, [&](const FoundPoint& a, const FoundPoint& b) {
       return is_falling ? a.point.limit > b.point.limit : a.point.limit < b.point.limit;
     });
     if (found_.empty()) throw Stopped();
@@ -162,6 +200,30 @@ class Front {
     mark_dominated(points, side_);
     return points;
   }
+
+  /// Of searches for choices with these goals, those that are best for some limit from the tight to the
+  /// loose end.
+  std::vector<PointSearch> best_of(const std::vector<PointSearch>& choices,
+                                   const std::vector<Goals>& goals) const {
+    const std::vector<bool> is_kept = non_dominated(goals);
+    const auto signed_limit = [&](const PointSearch& one) { return sign() * one.limit; };
+    std::vector<PointSearch> front;
+    for (std::size_t i = 0; i < choices.size(); ++i) {
+      if (is_kept[i]) front.push_back(choices[i]);
+    }
+    std::ranges::stable_sort(front, {}, signed_limit);
+    if (!settings_.goals.empty()) return front;
+    const auto [tight, loose] = std::minmax({sign() * settings_.from, sign() * settings_.to});
+    std::erase_if(front,
+                  [&](const PointSearch& one) { return !is_no_better(loose, signed_limit(one)); });
+    // The best at the tight end is the last within it; none within: the front begins further on.
+    while (front.size() > 1 && is_no_better(tight, signed_limit(front[1]))) {
+      front.erase(front.begin());
+    }
+    return front;
+  }
+
+  double sign() const { return side_ == GoodSide::low ? 1.0 : -1.0; }
 
   const ProblemFile& problem_;
   const ParetoSettings& settings_;
@@ -185,18 +247,14 @@ ParetoFront front_of_ends(std::vector<FoundPoint> ends, const ParetoObserver& ob
 /// Between two responses; one point if there is nothing to trade.
 ParetoFront front_between(ProblemFile problem, const SolveOptions& options,
                           const Execution& execution, const ParetoObserver& observer) {
-  ProblemFile file = problem;
-  remove_limit(file, file.pareto->constraint);
-  std::vector<FoundPoint> ends;
-  const std::vector<FrontEnd> found = find_front_ends(file, options, execution);
-  for (const FrontEnd& end : found) ends.push_back(point_of(end, problem, execution));
+  auto [ends, scales] = find_front_ends(problem, options, execution);
   ParetoSettings& settings = *problem.pareto;
   settings.from = ends[0].point.limit;
   settings.to = ends[1].point.limit;
   const bool has_ends = ends[0].point.has_design() && ends[1].point.has_design();
   if (!has_ends) return front_of_ends(std::move(ends), observer);
-  const bool trades_limited = end_scale(found, 1).is_traded();
-  if (!trades_limited || !end_scale(found, 0).is_traded()) {
+  const bool trades_limited = scales[1].is_traded();
+  if (!trades_limited || !scales[0].is_traded()) {
     // The end that is better in what the other one is as good as.
     ends.erase(ends.begin() + (trades_limited ? 0 : 1));
     return front_of_ends(std::move(ends), observer);
@@ -210,7 +268,7 @@ ParetoFront pareto_front(const ProblemFile& problem, const SolveOptions& options
                          const Execution& execution, const ParetoObserver& observer) {
   require_pareto(problem);
   DesignProblem{problem};  // says what is missing
-  if (is_enumerable(problem)) return choice_front(problem, options, execution, observer);
+  if (is_enumerable(problem)) return Front(problem, options, execution, observer).of_choices();
   if (has_choices(problem) && problem.pareto->gap > 0.0) {
     throw InputError(
         "/pareto/gap: a front of sizes from lists has only the points that \"points\" asks for, "
@@ -219,110 +277,6 @@ ParetoFront pareto_front(const ProblemFile& problem, const SolveOptions& options
   }
   if (!problem.pareto->goals.empty()) return front_between(problem, options, execution, observer);
   return Front(problem, options, execution, observer).run({});
-}
-
-namespace {
-
-/// The problem with any value of what is limited.
-ProblemFile without_limit(ProblemFile problem, GoodSide side) {
-  set_limit(problem, side == GoodSide::low ? infinity : -infinity);
-  return problem;
-}
-
-/// Scales of the constraints, from the first design that can be simulated.
-std::optional<Eigen::VectorXd> scales_at(const ProblemFile& problem,
-                                         const std::vector<Eigen::VectorXd>& designs,
-                                         const Execution& execution) {
-  DesignProblem design(problem, execution.tasks.jobs, execution.store);
-  for (const Eigen::VectorXd& x : designs) {
-    const Attempt attempt = attempt_evaluation(design, x, Request::values_and_gradients);
-    if (!attempt.evaluation) continue;
-    return constraint_scales(design, *attempt.evaluation, variable_scales(design, x));
-  }
-  return std::nullopt;
-}
-
-/// A choice that keeps all limits but the one that is varied.
-struct TriedChoice {
-  Eigen::VectorXd x;
-  double objective = 0.0, limited = 0.0;  ///< [SI]
-};
-
-/// Those that are best for some limit from the tight to the loose end.
-std::vector<TriedChoice> front_of(std::vector<TriedChoice> choices, const ParetoSettings& settings,
-                                  GoodSide side) {
-  const double sign = side == GoodSide::low ? 1.0 : -1.0;
-  std::vector<Goals> goals;
-  for (const TriedChoice& one : choices) goals.push_back({one.objective, sign * one.limited});
-  const std::vector<bool> is_kept = non_dominated(goals);
-  std::vector<TriedChoice> front;
-  for (std::size_t i = 0; i < choices.size(); ++i) {
-    if (is_kept[i]) front.push_back(std::move(choices[i]));
-  }
-  std::stable_sort(front.begin(), front.end(),
-                   [&](const TriedChoice& one, const TriedChoice& other) {
-                     return sign * one.limited < sign * other.limited;
-                   });
-  if (!settings.goals.empty()) return front;
-  const double tight = std::min(sign * settings.from, sign * settings.to);
-  const double loose = std::max(sign * settings.from, sign * settings.to);
-  std::erase_if(front,
-                [&](const TriedChoice& one) { return !is_no_better(loose, sign * one.limited); });
-  // The best at the tight end is the last within it; none within: the front begins further on.
-  while (front.size() > 1 && is_no_better(tight, sign * front[1].limited)) {
-    front.erase(front.begin());
-  }
-  return front;
-}
-
-/// All of them judged, each with its own value as its limit.
-std::vector<PointSearch> judgements(const std::vector<TriedChoice>& front) {
-  std::vector<PointSearch> searches;
-  for (const TriedChoice& one : front) {
-    PointSearch search;
-    search.limit = one.limited;
-    search.start = one.x;
-    search.keeps_sizes = true;
-    searches.push_back(std::move(search));
-  }
-  return searches;
-}
-
-}  // namespace
-
-bool is_enumerable(const ProblemFile& problem) {
-  return has_choices(problem) && !needs_optimization(problem) &&
-         SizeLists(problem.variables).combinations() <= most_simulated_choices;
-}
-
-ParetoFront choice_front(const ProblemFile& problem, const SolveOptions& options,
-                         const Execution& execution, const ParetoObserver& observer) {
-  const GoodSide side = good_side(problem);
-  const ProblemFile any = without_limit(problem, side);
-  const SizeLists lists(problem.variables);
-  std::vector<Eigen::VectorXd> designs;
-  for (const Sizes& sizes : lists.all()) {
-    designs.push_back(lists.design(sizes, start_design(problem)));
-  }
-  ParetoFront front;
-  front.choices = ChoiceCounts{.all = int_size(designs)};
-  const auto scales = scales_at(any, designs, execution);
-  if (!scales) {
-    front.choices->failed = front.choices->all;
-    return front;
-  }
-  std::vector<TriedChoice> choices;
-  for (const SizeTrial& trial : try_sizes(any, designs, *scales, options, execution)) {
-    if (trial.has_failed()) ++front.choices->failed;
-    if (!trial.keeps_limits()) continue;
-    ++front.choices->feasible;
-    choices.push_back({trial.x, trial.objective, limited_value(any, trial.constraints)});
-  }
-  const auto searches = judgements(front_of(std::move(choices), *problem.pareto, side));
-  FoundPoints found = search_points(problem, searches, options, execution, observer);
-  for (FoundPoint& one : found.points) front.points.push_back(std::move(one.point));
-  front.is_whole = found.is_whole;
-  return front;
 }
 
 }  // namespace pleuel

@@ -6,10 +6,24 @@
 #include "core/scene/problem_file.hpp"
 #include "optimization/evaluation_store.hpp"
 #include "optimization/solve.hpp"
-#include "studies/pareto_front.hpp"
+#include "studies/front_gaps.hpp"
+#include "studies/pareto_point.hpp"
 #include "studies/point_searches.hpp"
 
 namespace pleuel {
+
+/// Of sizes from lists, where all choices were simulated.
+struct ChoiceCounts {
+  int all = 0, failed = 0;  ///< failed: could not be simulated
+  int feasible = 0;         ///< keep the limits other than the one that is varied
+};
+
+struct ParetoFront {
+  std::vector<ParetoPoint> points;  ///< in the order of limits
+  FrontGaps gaps;                   ///< of a front that was asked for a gap
+  std::optional<ChoiceCounts> choices;
+  bool is_whole = true;  ///< no stop was asked for before its end
+};
 
 /// The order in which points are found, and the one that each begins at: ends first, then the
 /// middle of each gap from the nearer end of it.
@@ -44,19 +58,5 @@ ProblemFile trade_off_problem(ProblemFile problem);
 ///         sizes that cannot all be simulated
 ParetoFront pareto_front(const ProblemFile& problem, const SolveOptions& options,
                          const Execution& execution = {}, const ParetoObserver& observer = {});
-
-// Fronts of sizes that are chosen from lists, where all choices can be simulated.
-
-/// Whether there is nothing to design but sizes from lists, with at most 300 choices of them.
-bool is_enumerable(const ProblemFile& problem);
-
-/// Simulates every choice of sizes. The front is all of them that keep the limits and that no other
-/// dominates, to round-off: that of the problem itself, not of searches. Of a limit that goes from
-/// one value to another it is what is best at some limit between. Each point is judged like any
-/// optimum.
-/// @param problem  of two responses: that of trade_off_problem()
-/// @throws Stopped before the first point
-ParetoFront choice_front(const ProblemFile& problem, const SolveOptions& options,
-                         const Execution& execution, const ParetoObserver& observer);
 
 }  // namespace pleuel

@@ -1,34 +1,55 @@
 #include "studies/point_searches.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
 #include "core/base/stop.hpp"
 #include "core/jobs/parallel.hpp"
+#include "core/scene/case_goals.hpp"
 #include "core/scene/packed_problem.hpp"
-#include "optimization/design/design_problem.hpp"
 #include "optimization/design/design_solve.hpp"
 #include "optimization/design/size_choice.hpp"
-#include "optimization/design/size_trials.hpp"
-#include "optimization/evaluation_store.hpp"
+#include "optimization/design/size_lists.hpp"
 #include "optimization/result.hpp"
-#include "optimization/solve.hpp"
-#include "studies/front_ends.hpp"
-#include "studies/sized_search.hpp"
-#include "studies/varied_limit.hpp"
 
 namespace pleuel {
 
 namespace {
 
+/// See PointSearch::other_problem.
+void take_as_point(ParetoPoint& point, const ProblemFile& problem, EvaluationStore* store) {
+  DesignProblem design(problem, available_threads(), store);
+  Result& result = point.result;
+  result.evaluation = design.evaluate(result.x, Request::values_and_gradients);
+  design.confirm([&](const Eigen::VectorXd& x) { return x == result.x; });
+  result.constraint_multipliers = Eigen::VectorXd::Zero(result.evaluation.constraints.size());
+  result.error.reset();  // of the response that it is best for
+  point.limit = point.limited_value = limited_value(problem, result.evaluation.constraints);
+}
+
 /// A point a task.
 struct PointData {
   static constexpr const char* kind = point_work_name;
+  using Answer = FoundPoint;
 
   ProblemFile problem;
   std::vector<PointSearch> searches;
   SolveOptions options;
+
+  int count() const { return int_size(searches); }
+
+  std::optional<int> needed_by(int task) const { return searches[task].from; }
+
+  FoundPoint lost(int task, const std::string& failure) const {
+    FoundPoint found;
+    found.start = found.point.result.x = start_of(searches[task], "");
+    found.point.limit = searches[task].limit;
+    found.point.result.message = "the search was lost: " + failure;
+    return found;
+  }
 
   std::string run(int task, const std::string& needed, TaskCaller& /*caller*/,
                   EvaluationStore* known) const {
@@ -47,42 +68,33 @@ struct PointData {
     return packed(found);
   }
 
+ private:
   FoundPoint point_from(const Eigen::VectorXd& start, const PointSearch& search,
                         EvaluationStore* known) const {
-    if (search.objective_limit) return exchanged(start, search, known);
     FoundPoint found;
     found.start = start;
-    ProblemFile varied = problem;
-    set_limit(varied, search.limit);
     ParetoPoint& point = found.point;
     point.limit = search.limit;
+    point.objective_limit = search.objective_limit;
     point.is_choice = has_choices(problem);
+    ProblemFile file = search.other_problem.value_or(problem);
+    if (!search.other_problem) set_limit(file, search.limit);
     if (search.keeps_sizes) {
-      point.result = judged(varied, start, known);
+      point.result = judged(file, start, known);
     } else {
-      start_from(start, varied.variables);
-      SizedDesign best = search_with_sizes(varied, options, known);
-      found.between = std::move(best.between);
+      start_from(start, file.variables);
+      SizedDesign best = search_with_sizes(file, options, known);
+      if (!search.other_problem) found.between = std::move(best.between);
       point.sizes = best.sizes;
       point.result = std::move(best.result);
     }
     if (!point.has_design()) return found;
-    point.limited_value = limited_value(varied, point.result.evaluation.constraints);
-    point.multiplier = multiplier_of_limit(varied, point.result.constraint_multipliers);
-    return found;
-  }
-
-  /// With the limit on the objective.
-  FoundPoint exchanged(const Eigen::VectorXd& start, const PointSearch& search,
-                       EvaluationStore* known) const {
-    FoundPoint found;
-    found.start = start;
-    found.point.limit = search.limit;
-    found.point.objective_limit = search.objective_limit;
-    ProblemFile file = with_exchanged_goals(problem, *search.objective_limit);
-    start_from(start, file.variables);
-    found.point.result = search_with_sizes(file, options, known).result;
-    take_as_point(found.point, problem, known);
+    if (search.other_problem) {
+      take_as_point(point, problem, known);
+    } else {
+      point.limited_value = limited_value(file, point.result.evaluation.constraints);
+      point.multiplier = multiplier_of_limit(file, point.result.constraint_multipliers);
+    }
     return found;
   }
 
@@ -99,49 +111,30 @@ struct PointData {
   }
 };
 
-class PointSearches : public StoredTasks<PointData> {
- public:
-  PointSearches(PointData data, EvaluationStore* store, const ParetoObserver& observer)
-      : StoredTasks(std::move(data), store), observer_(observer) {}
-
-  int count() const override { return int_size(data().searches); }
-
-  std::optional<int> needed_by(int task) const override { return data().searches[task].from; }
-
-  void take(int /*task*/, const std::string& answer) override { add(unpacked<FoundPoint>(answer)); }
-
-  void fail(int task, const std::string& failure) override {
-    FoundPoint found;
-    found.start = data().start_of(data().searches[task], "");
-    found.point.limit = data().searches[task].limit;
-    found.point.result.message = "the search was lost: " + failure;
-    found.point.result.x = found.start;
-    add(std::move(found));
-  }
-
-  std::vector<FoundPoint> take_points() { return std::move(points_); }
-
- private:
-  void add(FoundPoint found) {
-    if (observer_) observer_(found.point);
-    points_.push_back(std::move(found));
-  }
-
-  const ParetoObserver& observer_;
-  std::vector<FoundPoint> points_;
-};
-
 }  // namespace
 
-void take_as_point(ParetoPoint& point, const ProblemFile& problem, EvaluationStore* store) {
-  if (!point.has_design()) return;
-  DesignProblem design(problem, available_threads(), store);
-  Result& result = point.result;
-  result.evaluation = design.evaluate(result.x, Request::values_and_gradients);
-  design.confirm([&](const Eigen::VectorXd& x) { return x == result.x; });
-  result.constraint_multipliers = Eigen::VectorXd::Zero(result.evaluation.constraints.size());
-  result.error.reset();  // of the response that it is best for
-  point.limit = point.limited_value = limited_value(problem, result.evaluation.constraints);
+SizedDesign search_with_sizes(const ProblemFile& file, const SolveOptions& options,
+                              EvaluationStore* store) {
+  StagedSolution solution;
+  solution.problem = std::make_unique<DesignProblem>(file, available_threads(), store);
+  solution.result = solve_design(*solution.problem, options);
+  if (!has_choices(file)) return {std::move(solution.result), std::move(solution.problem), {}, {}};
+  const SizeChoiceReport report =
+      choose_sizes(solution, {options, {{.jobs = available_threads()}, store}});
+  if (!report.is_choice && solution.result.evaluation.has_gradients()) {
+    solution.result.status = Status::failed;
+    solution.result.message = "no choice of sizes could be simulated";
+    solution.result.evaluation = {};
+  }
+  const TriedSizes sizes = {report.combinations, report.tried, report.is_exhaustive,
+                            report.penalty(solution.result.evaluation.objective)};
+  return {std::move(solution.result), std::move(solution.problem), report.relaxed_x, sizes};
+}
+
+void start_from(const Eigen::VectorXd& x, std::vector<DesignVariable>& variables) {
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    variables[i].start = std::clamp(x(i), variables[i].lower, variables[i].upper);
+  }
 }
 
 std::unique_ptr<TaskWork> make_point_work(const std::string& content) {
@@ -151,14 +144,138 @@ std::unique_ptr<TaskWork> make_point_work(const std::string& content) {
 FoundPoints search_points(const ProblemFile& problem, const std::vector<PointSearch>& searches,
                           const SolveOptions& options, const Execution& execution,
                           const ParetoObserver& observer) {
-  PointSearches tasks({problem, searches, options}, execution.store, observer);
+  AnsweredTasks<PointData> tasks({problem, searches, options}, execution.store,
+                                 [&](const FoundPoint& found) {
+                                   if (observer) observer(found.point);
+                                 });
   bool is_whole = true;
   try {
     run_tasks(tasks, execution.tasks);
   } catch (const Stopped&) {
     is_whole = false;
   }
-  return {tasks.take_points(), is_whole};
+  return {tasks.take_answers(), is_whole};
+}
+
+namespace {
+
+/// By how much goals may be missed where the other one is improved, relative to their value.
+constexpr double end_tolerance = 1e-4;
+
+/// The file with another objective, and at most this value (of what is maximized at least) of
+/// another response.
+ProblemFile with_goal(ProblemFile file, const Objective& goal,
+                      const std::optional<std::pair<Objective, double>>& limit) {
+  set_objective(file, goal);
+  if (limit) add_limit(file, limit->first, limit->second, limit->first.response);
+  return file;
+}
+
+/// What the best of a response may lose for the good of the other one: a share of its value, which may
+/// be much smaller than the front is long, but no less than round-off of the front. Of a response
+/// that is the same at both ends all that cannot be told apart.
+double end_slack(double value, const GoalScale& scale) {
+  if (!scale.is_traded()) return scale.accuracy;
+  return end_tolerance * std::clamp(std::abs(value), 1e-4 * scale.range(), scale.range());
+}
+
+class EndSearch {
+ public:
+  EndSearch(const ProblemFile& problem, const SolveOptions& options, const Execution& execution)
+      : problem_(problem), file_(problem), options_(options), execution_(execution) {
+    remove_limit(file_, problem.pareto->constraint);
+  }
+
+  FrontEnds run() {
+    const Eigen::VectorXd start = start_design(file_);
+    FrontEnds ends{searched({goal(0), std::nullopt, start}, {goal(1), std::nullopt, start}), {}};
+    for (std::size_t i = 0; i < 2; ++i) {
+      const History& history = ends.points[i].point.result.history;
+      start_values_[i] = history.empty() ? 0.0 : first_design(history).objective;
+    }
+    measure(ends);
+    const bool are_found = keeps_limits(ends.points[0]) && keeps_limits(ends.points[1]);
+    if (are_found && (ends.scales[0].is_traded() || ends.scales[1].is_traded())) refine(ends);
+    for (FoundPoint& end : ends.points) {
+      end.start = end.point.result.x;
+      end.point.is_end = true;
+    }
+    return ends;
+  }
+
+ private:
+  struct Goal {
+    const Objective& best;
+    std::optional<std::pair<Objective, double>> limit;
+    Eigen::VectorXd start;
+  };
+
+  const Objective& goal(std::size_t i) const { return problem_.pareto->goals[i]; }
+
+  std::vector<FoundPoint> searched(const Goal& first, const Goal& second) const {
+    std::vector<PointSearch> searches;
+    for (const Goal* one : {&first, &second}) {
+      PointSearch search{.start = one->start};
+      search.other_problem = with_goal(file_, one->best, one->limit);
+      searches.push_back(std::move(search));
+    }
+    FoundPoints found = search_points(problem_, searches, options_, execution_);
+    if (!found.is_whole) throw Stopped();
+    return std::move(found.points);
+  }
+
+  static bool keeps_limits(const FoundPoint& end) {
+    return end.point.has_design() && end.point.result.max_violation <= Tolerances().violation;
+  }
+
+  double value(const FoundPoint& end, std::size_t i) const {
+    return i == 0 ? goal(0).sign() * end.point.result.evaluation.objective
+                  : end.point.limited_value;
+  }
+
+  /// Where a response is 0 at both ends, round-off of what it was at the start is its accuracy.
+  void measure(FrontEnds& ends) const {
+    for (std::size_t i = 0; i < 2; ++i) {
+      const auto [low, high] = std::minmax({value(ends.points[0], i), value(ends.points[1], i)});
+      ends.scales[i] = {
+          low, high,
+          std::max({optimum_accuracy * std::abs(low), optimum_accuracy * std::abs(high),
+                    equal_numbers * std::abs(start_values_[i])})};
+    }
+  }
+
+  /// Takes designs whose other response is better, where there are some that are as good.
+  void refine(FrontEnds& ends) const {
+    const auto as_good_as = [&](std::size_t i) {
+      const double best = value(ends.points[i], i);
+      const double limit = best + goal(i).sign() * end_slack(best, ends.scales[i]);
+      return Goal{goal(1 - i), std::pair(goal(i), limit), ends.points[i].point.result.x};
+    };
+    std::vector<FoundPoint> refined = searched(as_good_as(0), as_good_as(1));
+    for (std::size_t i = 0; i < 2; ++i) {
+      const std::size_t other = 1 - i;
+      const GoalScale& scale = ends.scales[other];
+      const double gain =
+          goal(other).sign() * (value(ends.points[i], other) - value(refined[i], other));
+      const bool is_better =
+          gain > (scale.is_traded() ? 10.0 * end_tolerance * scale.range() : scale.accuracy);
+      if (keeps_limits(refined[i]) && is_better) ends.points[i] = std::move(refined[i]);
+    }
+    measure(ends);
+  }
+
+  const ProblemFile& problem_;
+  ProblemFile file_;  ///< that of the user: without the limit that is varied
+  const SolveOptions& options_;
+  const Execution& execution_;
+  std::array<double, 2> start_values_{};
+};
+
+}  // namespace
+
+FrontEnds find_front_ends(const ProblemFile& problem, const SolveOptions& options,
+                          const Execution& execution) {
+  return EndSearch(problem, options, execution).run();
 }
 
 }  // namespace pleuel

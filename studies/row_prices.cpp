@@ -1,14 +1,12 @@
 #include "studies/row_prices.hpp"
 
 #include <algorithm>
-#include <string>
 #include <vector>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "optimization/design/peak_windows.hpp"
 #include "optimization/kkt_audit.hpp"
-#include "optimization/prices.hpp"
 #include "optimization/scaling.hpp"
 
 namespace pleuel {
@@ -34,14 +32,14 @@ double nearby_value(const std::vector<Constraint>& rows, const Eigen::VectorXd& 
 
 }  // namespace
 
-DesignRows::DesignRows(const ProblemFile& problem, const Eigen::VectorXd& x, int windows,
+DesignRows::DesignRows(const ProblemFile& problem, const Eigen::VectorXd& start, int windows,
                        int threads, Request request)
-    : design_(problem, threads),
-      peaks_(design_, windows, x),
-      robust_(with_margins(peaks_, design_, peaks_.constraint_of_row())) {
-  x_ = checked_start(rows());
-  evaluation_ = rows().evaluate(x_, request);
-}
+    : design(problem, threads),
+      peaks(design, windows, start),
+      robust(with_margins(peaks, design, peaks.constraint_of_row())),
+      rows(robust ? *robust : peaks),
+      x(checked_start(rows)),
+      evaluation(rows.evaluate(x, request)) {}
 
 int windows_at(const ProblemFile& problem, const Eigen::VectorXd& x, int threads) {
   if (problem.simulation.local_error > 0.0) return 1;
@@ -49,32 +47,33 @@ int windows_at(const ProblemFile& problem, const Eigen::VectorXd& x, int threads
   return windows_that_part_peaks(design, x, fewest_windows, most_windows);
 }
 
-RowPrices::RowPrices(const ProblemFile& problem, const Eigen::VectorXd& x, int windows, int threads)
-    : design_(x), windows_(windows), threads_(threads), rows_(problem, x, windows, threads) {
-  const Problem& peaks = rows_.rows();
-  const Evaluation& evaluation = rows_.evaluation();
-  scales_ = constraint_scales(peaks, evaluation, variable_scales(peaks, rows_.x()));
-  const double violation = max_violation(peaks, evaluation.constraints, scales_);
+RowPrices::RowPrices(const ProblemFile& problem, const Eigen::VectorXd& x, int window_count,
+                     int thread_count)
+    : design(x),
+      windows(window_count),
+      threads(thread_count),
+      at(problem, x, windows, threads),
+      scales(constraint_scales(at.rows, at.evaluation, variable_scales(at.rows, at.x))) {
+  const double violation = max_violation(at.rows, at.evaluation.constraints, scales);
   // No search led here: the objective itself says what is small of its slopes.
-  Evaluation reference = evaluation;
+  Evaluation reference = at.evaluation;
   reference.objective *= 2.0;
-  const KktAudit audit = audit_kkt(peaks, {rows_.x(), evaluation, violation}, reference, scales_);
-  residual_ = audit.residual;
-  multipliers_ = prices_of(peaks, evaluation.constraints, audit.constraint_multipliers, scales_);
-  bound_multipliers_ = audit.bound_multipliers;
+  const KktAudit audit = audit_kkt(at.rows, {at.x, at.evaluation, violation}, reference, scales);
+  residual = audit.residual;
+  multipliers = prices_of(at.rows, at.evaluation.constraints, audit.constraint_multipliers, scales);
+  bound_multipliers = audit.bound_multipliers;
 }
 
 double RowPrices::lagrangian(const ProblemFile& other) const {
-  DesignRows rows(other, design_, windows_, threads_, Request::values);
+  const DesignRows there(other, design, windows, threads, Request::values);
   // The bound of the peak that is minimized is that of this design, not of the other problem.
   const Evaluation evaluation =
-      rows.x() == rows_.x() ? rows.evaluation() : rows.rows().evaluate(rows_.x(), Request::values);
+      there.x == at.x ? there.evaluation : there.rows.evaluate(at.x, Request::values);
   double sum = evaluation.objective;
-  for (Eigen::Index i = 0; i < multipliers_.size(); ++i) {
-    const double multiplier = multipliers_(i);
-    if (multiplier == 0.0) continue;
-    sum += multiplier *
-           nearby_value(rows_.rows().constraints(), evaluation.constraints, i, multiplier);
+  for (Eigen::Index i = 0; i < multipliers.size(); ++i) {
+    if (multipliers(i) == 0.0) continue;
+    sum += multipliers(i) *
+           nearby_value(at.rows.constraints(), evaluation.constraints, i, multipliers(i));
   }
   return sum;
 }
@@ -84,7 +83,7 @@ PricedDesign::PricedDesign(const ProblemFile& problem, const Eigen::VectorXd& x)
   if (!problem.objective || x.size() == 0 || x == start_design(problem)) return;
   try {
     prices_ = std::make_unique<RowPrices>(problem, x, windows_at(problem, x, 1), 1);
-    if (prices_->residual() > nearly_optimal) prices_.reset();
+    if (prices_->residual > nearly_optimal) prices_.reset();
   } catch (const SimulationError&) {
     prices_.reset();
   }
@@ -104,10 +103,8 @@ std::optional<double> PricedDesign::lagrangian(const ProblemFile& other) const {
 
 std::optional<double> PricedDesign::change(const std::optional<double>& before,
                                            const ProblemFile& after) const {
-  if (!before) return std::nullopt;
-  const std::optional<double> changed = lagrangian(after);
-  if (!changed) return std::nullopt;
-  return *changed - *before;
+  const std::optional<double> changed = before ? lagrangian(after) : std::nullopt;
+  return changed ? std::optional(*changed - *before) : std::nullopt;
 }
 
 }  // namespace pleuel

@@ -11,30 +11,19 @@
 /// design.
 namespace pleuel {
 
-/// A design with its rows and their gradients.
-class DesignRows {
- public:
+/// A design with its rows and their gradients. Its parts refer to each other.
+struct DesignRows {
   /// @param windows  of time that peaks are split into
   DesignRows(const ProblemFile& problem, const Eigen::VectorXd& x, int windows, int threads,
              Request request = Request::values_and_gradients);
-  DesignRows(const DesignRows&) = delete;  // its parts refer to each other
+  DesignRows(const DesignRows&) = delete;
 
-  Problem& rows() { return robust_ ? *robust_ : peaks_; }
-  const Problem& rows() const {
-    if (robust_) return *robust_;
-    return peaks_;
-  }
-  const PeakProblem& peaks() const { return peaks_; }
-  /// With the peak that is minimized, if one is.
-  const Eigen::VectorXd& x() const { return x_; }
-  const Evaluation& evaluation() const { return evaluation_; }
-
- private:
-  DesignProblem design_;
-  PeakProblem peaks_;
-  std::unique_ptr<Problem> robust_;
-  Eigen::VectorXd x_;
-  Evaluation evaluation_;
+  DesignProblem design;
+  PeakProblem peaks;
+  std::unique_ptr<Problem> robust;  ///< the peaks with their margins, if there are any
+  Problem& rows;
+  Eigen::VectorXd x;  ///< with the peak that is minimized, if one is
+  Evaluation evaluation;
 };
 
 /// So many windows that no two peaks which tie at a design share one. Windows have so many steps
@@ -42,20 +31,10 @@ class DesignRows {
 int windows_at(const ProblemFile& problem, const Eigen::VectorXd& x, int threads);
 
 /// Multipliers of a design by the audit (kkt_audit.hpp), row by row.
-class RowPrices {
- public:
+struct RowPrices {
   /// @throws InputError if the problem has no variables or no objective
   /// @throws SimulationError
   RowPrices(const ProblemFile& problem, const Eigen::VectorXd& x, int windows, int threads);
-
-  const DesignRows& rows() const { return rows_; }
-  /// Relative: how well the multipliers explain the design.
-  double residual() const { return residual_; }
-  /// Of the rows: 0 where a limit has slack.
-  const Eigen::VectorXd& multipliers() const { return multipliers_; }
-  const Eigen::VectorXd& bound_multipliers() const { return bound_multipliers_; }
-  /// Magnitudes of the rows.
-  const Eigen::VectorXd& scales() const { return scales_; }
 
   /// f + Σ μ_j c_j of another problem at the design, with these multipliers. How it differs between
   /// two problems is, to first order, how their optima do (envelope theorem). Where a peak is
@@ -64,12 +43,13 @@ class RowPrices {
   /// @throws SimulationError
   double lagrangian(const ProblemFile& other) const;
 
- private:
-  Eigen::VectorXd design_;
-  int windows_, threads_;
-  DesignRows rows_;
-  Eigen::VectorXd scales_, multipliers_, bound_multipliers_;
-  double residual_ = 0.0;
+  Eigen::VectorXd design;
+  int windows, threads;
+  DesignRows at;
+  Eigen::VectorXd scales;       ///< magnitudes of the rows
+  Eigen::VectorXd multipliers;  ///< of the rows: 0 where a limit has slack
+  Eigen::VectorXd bound_multipliers;
+  double residual = 0.0;  ///< relative: how well the multipliers explain the design
 };
 
 /// A design of a problem, and what changes of the problem are worth there if it is an optimum.

@@ -1,7 +1,6 @@
 #include "studies/stability.hpp"
 
 #include "core/base/eager_matrices.hpp"
-#include "core/base/error.hpp"
 #include "core/base/stop.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/response/analysis.hpp"
@@ -10,18 +9,19 @@
 #include "core/scene/load_cases.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/trust/checks.hpp"
+#include "studies/accuracy_run.hpp"
 
 namespace pleuel {
 
 namespace {
 
 /// What all runs of a study are read with.
-struct Reading {
+struct FileReading {
   const std::vector<std::string>& overrides;
   const std::optional<std::string>& load_case;
 };
 
-UndecidedProblem read_with(const std::filesystem::path& file, const Reading& reading,
+UndecidedProblem read_with(const std::filesystem::path& file, const FileReading& reading,
                            const ComparedFormulation& formulation) {
   std::vector<std::string> overrides = reading.overrides;
   overrides.insert(overrides.end(), formulation.overrides.begin(), formulation.overrides.end());
@@ -59,19 +59,13 @@ std::vector<std::string> formulation(const std::string& name,
 
 /// A failure may also be that the problem does not go with the formulation, as a motion that repeats
 /// itself with one that drifts.
-StabilityRun try_to_measure(const std::filesystem::path& file, const Reading& reading,
+StabilityRun try_to_measure(const std::filesystem::path& file, const FileReading& reading,
                             const ComparedFormulation& formulation) {
   StabilityRun run;
   run.file = file;
   run.formulation = formulation.name;
   run.problem = read_with(file, reading, compared_formulations().front()).complete().name;
-  try {
-    measure(read_with(file, reading, formulation), run);
-  } catch (const SimulationError& error) {
-    run.failure = error.what();
-  } catch (const InputError& error) {
-    run.failure = error.what();
-  }
+  run.failure = failure_of([&] { measure(read_with(file, reading, formulation), run); });
   return run;
 }
 
@@ -100,7 +94,7 @@ std::vector<StabilityRun> stability_study(const std::vector<std::filesystem::pat
                                           const std::vector<std::string>& overrides,
                                           const StabilityObserver& observer,
                                           const std::optional<std::string>& load_case) {
-  const Reading reading{overrides, load_case};
+  const FileReading reading{overrides, load_case};
   // Bad input shall not cost the runs before it.
   for (const auto& file : files) read_with(file, reading, compared_formulations().front());
   std::vector<StabilityRun> runs;

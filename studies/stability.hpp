@@ -22,7 +22,6 @@ struct StabilityRun {
   double seconds = 0.0;               ///< wall time of the simulation, one thread
 
   bool is_ok() const { return failure.empty(); }
-  double iterations_per_step() const { return static_cast<double>(newton_iterations) / steps; }
 };
 
 /// A formulation by what it changes in a file.

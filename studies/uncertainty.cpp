@@ -13,8 +13,7 @@
 #include "core/scene/packed_problem.hpp"
 #include "core/scene/problem_file.hpp"
 #include "core/trust/checks.hpp"
-#include "optimization/design/setting_text.hpp"
-#include "optimization/evaluation_store.hpp"
+#include "optimization/design/design_case.hpp"
 #include "optimization/verdict.hpp"
 #include "sensitivity/gradients.hpp"
 #include "sensitivity/method_choice.hpp"
@@ -25,30 +24,13 @@ namespace pleuel {
 
 namespace {
 
-/// Derivatives with respect to the uncertain parameters, from those with respect to all variables.
-Eigen::MatrixXd columns_of(const Eigen::MatrixXd& gradients,
-                           const std::vector<UncertainParameter>& parameters) {
-  Eigen::MatrixXd columns(gradients.rows(), parameters.size());
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    columns.col(i) = gradients.col(parameters[i].variable);
-  }
-  return columns;
-}
-
-Eigen::VectorXd deviations_of(const std::vector<UncertainParameter>& parameters) {
-  Eigen::VectorXd deviations(parameters.size());
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    deviations(i) = parameters[i].standard_deviation();
-  }
-  return deviations;
-}
-
-Eigen::VectorXd half_widths_of(const std::vector<UncertainParameter>& parameters) {
-  Eigen::VectorXd widths(parameters.size());
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
-    widths(i) = parameters[i].half_width();
-  }
-  return widths;
+/// A number of each parameter.
+template <class Number>
+Eigen::VectorXd of_parameters(const std::vector<UncertainParameter>& parameters,
+                              const Number& number) {
+  Eigen::VectorXd all(parameters.size());
+  for (Eigen::Index i = 0; i < all.size(); ++i) all(i) = std::invoke(number, parameters[i]);
+  return all;
 }
 
 /// Mean and variance of numbers that come one by one (Welford 1962).
@@ -79,16 +61,6 @@ class Moments {
 bool breaks(const LimitScatter& limit, double value) {
   const double excess = limit.is_upper ? value - limit.limit : limit.limit - value;
   return excess > Tolerances().violation * std::abs(limit.limit);
-}
-
-LimitScatter limit_scatter(const UncertainResponse& response, bool is_upper, double limit) {
-  LimitScatter scatter;
-  scatter.is_upper = is_upper;
-  scatter.limit = limit;
-  scatter.worst = response.value + (is_upper ? response.bound : -response.bound);
-  scatter.distance = (is_upper ? limit - response.value : response.value - limit) /
-                     response.deviation;  // infinite where nothing scatters
-  return scatter;
 }
 
 /// Without values if the design could not be simulated, without histories if its steps differ.
@@ -226,10 +198,11 @@ class Study {
   Study(const ProblemFile& problem, const UncertaintySettings& settings)
       : settings_(settings),
         x_(start_design(problem)),
-        deviations_(deviations_of(settings.parameters)),
+        deviations_(of_parameters(settings.parameters, &UncertainParameter::standard_deviation)),
         analysis_(analyze(problem, x_)),
         simulation_seconds_(stopwatch_.seconds()),
         with_same_steps_(with_steps_of(analysis_->trajectory, problem)) {
+    for (const UncertainParameter& one : settings.parameters) columns_.push_back(one.variable);
     const Monitors monitors = monitor(analysis_->model, analysis_->trajectory);
     Trust trust = judge_run(TrustedRun{problem, x_, *analysis_, monitors});
     study_.findings = std::move(trust.findings);
@@ -239,10 +212,11 @@ class Study {
   void linearize() {
     const Stopwatch stopwatch;
     const auto values = response_values(*analysis_);
-    const Eigen::MatrixXd gradients =
-        columns_of(sampled_gradients(*analysis_, values, choose_method(*analysis_, values).method),
-                   settings_.parameters);
-    const Eigen::VectorXd widths = half_widths_of(settings_.parameters);
+    const Eigen::MatrixXd all =
+        sampled_gradients(*analysis_, values, choose_method(*analysis_, values).method);
+    const Eigen::MatrixXd gradients = all(Eigen::all, columns_);
+    const Eigen::VectorXd widths =
+        of_parameters(settings_.parameters, &UncertainParameter::half_width);
     for (Eigen::Index i = 0; i < gradients.rows(); ++i) {
       const Eigen::VectorXd parts = gradients.row(i).transpose().cwiseProduct(deviations_);
       UncertainResponse response;
@@ -283,11 +257,13 @@ class Study {
     for (std::size_t c = 0; c < constraints.size(); ++c) {
       const auto response = index_of_named(with_same_steps_.responses, constraints[c].response);
       if (!response) continue;  // a limit on variables alone
+      const UncertainResponse& of = study_.responses[*response];
       const auto add = [&](bool is_upper, const std::optional<double>& limit) {
         if (!limit) return;
-        study_.limits.push_back(limit_scatter(study_.responses[*response], is_upper, *limit));
-        study_.limits.back().constraint = c;
-        study_.limits.back().response = *response;
+        // Infinite where nothing scatters.
+        const double distance = (is_upper ? *limit - of.value : of.value - *limit) / of.deviation;
+        study_.limits.push_back({c, *response, is_upper, *limit,
+                                 of.value + (is_upper ? of.bound : -of.bound), distance});
       };
       add(true, constraints[c].upper);
       add(false, constraints[c].lower);
@@ -299,7 +275,7 @@ class Study {
     study_.time = analysis_->trajectory.time;
     for (const HistoryGradients& history : history_gradients(*analysis_)) {
       const Eigen::MatrixXd parts =
-          columns_of(history.gradients, settings_.parameters) * deviations_.asDiagonal();
+          history.gradients(Eigen::all, columns_) * deviations_.asDiagonal();
       study_.histories.push_back({history.response, history.values, parts.rowwise().norm(), {}});
       places_.push_back(history.place);
     }
@@ -323,10 +299,7 @@ class Study {
   }
 
   SampleData sample_data(SampledNumbers numbers) const {
-    SampleData data;
-    data.problem = with_same_steps_;
-    data.designs = draw();
-    data.instants = study_.time.size();
+    SampleData data{with_same_steps_, draw(), study_.time.size(), {}, {}};
     if (numbers == SampledNumbers::values) return data;
     for (const UncertainHistory& history : study_.histories) {
       data.responses.push_back(history.response);
@@ -379,6 +352,7 @@ class Study {
 
   const UncertaintySettings& settings_;
   Eigen::VectorXd x_, deviations_;
+  std::vector<Eigen::Index> columns_;  ///< the variables that are uncertain
   Stopwatch stopwatch_;
   std::unique_ptr<Analysis> analysis_;
   double simulation_seconds_;

@@ -1,16 +1,19 @@
 #pragma once
 
+/// The commands of the program, one file each, and what they are made of. All throw InputError and
+/// SimulationError.
+
 #include <algorithm>
 #include <optional>
 
 #include <fmt/format.h>
 
-#include "cli/commands/accurate_input.hpp"
 #include "cli/commands/progress_line.hpp"
 #include "cli/files/csv_file.hpp"
 #include "cli/files/run_picture.hpp"
 #include "cli/files/run_record.hpp"
 #include "cli/files/run_store.hpp"
+#include "cli/input/problem_input.hpp"
 #include "cli/reports/document_table.hpp"
 #include "cli/reports/warnings.hpp"
 #include "cli/text/console.hpp"
@@ -19,9 +22,11 @@
 #include "core/base/number_text.hpp"
 #include "core/base/stopwatch.hpp"
 
-/// The commands of the program, one file each, and what they are made of. All throw InputError and
-/// SimulationError.
 namespace pleuel {
+
+/// read_input() with steps, elements and effects for the accuracy, where the file or the command line
+/// names one; says so in a line. @throws InputError
+ProblemInput read_input_with_accuracy(const Arguments& arguments);
 
 Outcome run_accuracy(const Arguments& arguments);
 Outcome run_uncertainty(const Arguments& arguments);

@@ -2,7 +2,6 @@
 #include <map>
 
 #include "cli/commands/commands.hpp"
-#include "cli/reports/analysis_report.hpp"
 #include "cli/reports/derivative_report.hpp"
 #include "cli/reports/limits_report.hpp"
 #include "cli/reports/time_text.hpp"

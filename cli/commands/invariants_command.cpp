@@ -4,8 +4,8 @@
 #include "core/model/divided_beams.hpp"
 #include "core/response/analysis.hpp"
 #include "core/response/body_export.hpp"
-#include "core/scene/invariants_file.hpp"
-#include "core/scene/variable_quantity.hpp"
+#include "core/scene/body_constants.hpp"
+#include "core/scene/shown_unit.hpp"
 
 namespace pleuel {
 

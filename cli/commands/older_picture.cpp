@@ -4,7 +4,7 @@
 
 #include "cli/files/csv_file.hpp"
 #include "cli/files/run_picture.hpp"
-#include "cli/input/design_file.hpp"
+#include "cli/input/problem_input.hpp"
 #include "cli/reports/case_report.hpp"
 #include "cli/reports/optimum_report.hpp"
 

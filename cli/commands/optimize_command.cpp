@@ -1,24 +1,288 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "cli/commands/commands.hpp"
-#include "cli/commands/examined_optimum.hpp"
+#include "cli/files/csv_file.hpp"
 #include "cli/files/failed_design.hpp"
+#include "cli/files/run_picture.hpp"
+#include "cli/files/run_record.hpp"
 #include "cli/input/run_setting.hpp"
+#include "cli/reports/case_report.hpp"
 #include "cli/reports/effects_report.hpp"
 #include "cli/reports/iteration_lines.hpp"
+#include "cli/reports/limits_report.hpp"
+#include "cli/reports/optimum_document.hpp"
 #include "cli/reports/optimum_report.hpp"
 #include "cli/reports/setting_report.hpp"
 #include "cli/reports/starts_report.hpp"
+#include "cli/text/wrapped_text.hpp"
+#include "core/base/error.hpp"
+#include "core/base/number_text.hpp"
+#include "core/base/stop.hpp"
+#include "core/response/value_over_cases.hpp"
 #include "core/scene/body_rules.hpp"
 #include "core/scene/load_cases.hpp"
+#include "core/scene/shown_unit.hpp"
+#include "core/trust/checks.hpp"
 #include "core/trust/lint.hpp"
-#include "optimization/design/optimum_error.hpp"
+#include "core/trust/refined_runs.hpp"
+#include "optimization/design/multi_start.hpp"
+#include "optimization/design/number_judgement.hpp"
 #include "optimization/design/staged_solve.hpp"
-#include "optimization/design/whole_search.hpp"
+#include "optimization/result.hpp"
+#include "picture/companions.hpp"
 
 namespace pleuel {
 
 namespace {
+
+/// What is told of the first and the last design.
+struct Examined {
+  Json effects = Json::array();  ///< that are simulated
+  std::string drives;            ///< what they need at both designs, for people
+  bool is_whole = true;          ///< no interrupt has ended it
+};
+
+/// Both designs as one load case simulates them.
+struct CaseDesigns {
+  const ProblemFile* problem;
+  std::unique_ptr<Analysis> start, end;
+  std::vector<Eigen::VectorXd> bands;  ///< of histories at the end
+  std::optional<DesignInfluence> influence;
+};
+
+std::vector<Eigen::VectorXd> bands_of_case(const ProblemFile& joined, const Result& result,
+                                           std::size_t load_case) {
+  if (!joined.has_cases() || result.response_bands.empty()) return result.response_bands;
+  std::vector<Eigen::VectorXd> bands(joined.cases[load_case].responses.size());
+  for (std::size_t i = 0; i < bands.size(); ++i) {
+    bands[i] = result.response_bands[joined_response(joined, {load_case, i})];
+  }
+  return bands;
+}
+
+std::vector<CaseDesigns> simulate_designs(RunRecord& record, const Optimum& optimum) {
+  std::vector<CaseDesigns> all;
+  for (const ProblemFile* problem : simulated_problems(optimum.problem)) {
+    CaseDesigns one{problem, analyze(*problem, first_design(optimum.result.history).x), {}, {}, {}};
+    one.bands = bands_of_case(optimum.problem, optimum.result, all.size());
+    write_trajectory(record.result(name_of_case_file("trajectory-start", *problem)), *one.start);
+    one.end = analyze(*problem, optimum.result.x);
+    write_trajectory(record.result(name_of_case_file("trajectory-optimum", *problem)), *one.end,
+                     one.bands);
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+/// Of all cases, in the order of the joined problem.
+Eigen::VectorXd joined_values(const ProblemFile& joined, const std::vector<CaseDesigns>& designs,
+                              const Eigen::VectorXd& x,
+                              const std::function<Eigen::VectorXd(const CaseDesigns&)>& values_in) {
+  std::vector<Eigen::VectorXd> values;
+  for (const CaseDesigns& one : designs) values.push_back(values_in(one));
+  if (!joined.has_cases()) return values.front();
+  const ValueInCase value_of = [&](std::size_t response) {
+    const auto [load_case, index] = joined.case_responses[response];
+    return values[load_case](static_cast<Eigen::Index>(index));
+  };
+  Eigen::VectorXd all(std::ssize(joined.responses));
+  for (std::size_t i = 0; i < joined.responses.size(); ++i) {
+    try {
+      all(i) = value_over_cases(joined, i, x, value_of);
+    } catch (const SimulationError&) {  // of one that is only looked at
+      all(i) = std::numeric_limits<double>::quiet_NaN();
+    }
+  }
+  return all;
+}
+
+/// The largest of all cases.
+void add_monitors(Monitors& all, const Monitors& one) {
+  all.position_drift = std::max(all.position_drift, one.position_drift);
+  all.velocity_drift = std::max(all.velocity_drift, one.velocity_drift);
+  all.energy_error = std::max(all.energy_error, one.energy_error);
+  all.elastic_energy_error = std::max(all.elastic_energy_error, one.elastic_energy_error);
+  if (one.elastic_rotation <= all.elastic_rotation) return;
+  all.elastic_rotation = one.elastic_rotation;
+  all.most_bent = one.most_bent;
+}
+
+/// By those of single cases. @returns NaN where there is none
+template <class GradientInCase>
+Eigen::VectorXd gradient_over_cases(const Optimum& optimum, std::size_t response,
+                                    const GradientInCase& gradient_in_case) {
+  const ValueInCase value_of = [&](std::size_t part) { return optimum.responses(part); };
+  try {
+    const LinearizedResponse linear =
+        linearized_over_cases(optimum.problem, response, optimum.result.x, value_of);
+    Eigen::VectorXd gradient = linear.design;
+    for (const WeightedResponse& part : linear.parts) {
+      gradient += part.weight * gradient_in_case(part.response);
+    }
+    return gradient;
+  } catch (const SimulationError&) {
+    return Eigen::VectorXd::Constant(optimum.result.x.size(),
+                                     std::numeric_limits<double>::quiet_NaN());
+  }
+}
+
+/// Gradients of the responses of all cases; none if those of a case are not known.
+std::optional<DesignInfluence> joined_influence(const Optimum& optimum,
+                                                const std::vector<CaseDesigns>& designs) {
+  const ProblemFile& joined = optimum.problem;
+  if (!joined.has_cases()) return designs.front().influence;
+  for (const CaseDesigns& one : designs) {
+    if (!one.influence) return std::nullopt;
+  }
+  DesignInfluence all;
+  all.gradients.resize(std::ssize(joined.responses), std::ssize(joined.variables));
+  const auto gradient_in_case = [&](std::size_t response) -> Eigen::VectorXd {
+    const auto [load_case, index] = joined.case_responses[response];
+    return designs[load_case].influence->gradients.row(index);
+  };
+  for (std::size_t i = 0; i < joined.responses.size(); ++i) {
+    all.gradients.row(i) = is_over_cases(joined, i)
+                               ? gradient_over_cases(optimum, i, gradient_in_case)
+                               : gradient_in_case(i);
+  }
+  return all;
+}
+
+const char* word_of(ResponseType type) {
+  if (type == ResponseType::drive_torque) return "torque";
+  return type == ResponseType::drive_force ? "force" : "power";
+}
+
+/// " (−57.1 %)"; nothing where there was nothing before.
+std::string change_text(double before, double after) {
+  if (before == 0.0) return "";
+  const double percents = 100.0 * (after / before - 1.0);
+  if (std::abs(percents) < 0.05) return " (the same)";
+  return fmt::format(" ({}{:.1f} %)", percents < 0.0 ? "−" : "+", std::abs(percents));
+}
+
+/// "Drive bearing: torque 464.28 → 199.13 N m (−57.1 %), power 92856 → 39826 W (−57.1 %)", a line
+/// for each drive: the largest magnitudes over time of two designs. Empty without drives.
+std::string drives_text(const ProblemFile& problem, const Analysis& start,
+                        const Analysis& optimum) {
+  const Companions before = find_drive_efforts(problem, start),
+                   after = find_drive_efforts(problem, optimum);
+  std::string text, line;
+  for (std::size_t i = 0; i < after.all.size(); ++i) {
+    const ResponseSettings& settings = after.all[i].settings;
+    const ShownUnit unit = unit_of(settings);
+    const double from = before.all[i].value, to = after.all[i].value;
+    const bool is_power = settings.type == ResponseType::drive_power;
+    line += fmt::format("{} {} → {} {}{}", word_of(settings.type), significant(unit.shown(from)),
+                        significant(unit.shown(to)), unit.name, change_text(from, to));
+    if (!is_power) {
+      line += ", ";
+      continue;
+    }
+    text += wrapped(fmt::format("Drive {}: {}\n", settings.joint, line), "  ");
+    line.clear();
+  }
+  return text;
+}
+
+/// What each case says of the design; several are told apart by their names.
+Examined examine_cases(Optimum& optimum, std::vector<CaseDesigns>& designs) {
+  Examined examined;
+  std::vector<std::vector<Finding>> findings;
+  for (CaseDesigns& one : designs) {
+    one.influence = design_influence(*one.problem, *one.end);
+    const Monitors monitors = monitor(one.end->model, one.end->trajectory);
+    if (&one == &designs.front()) optimum.monitors = monitors;
+    add_monitors(optimum.monitors, monitors);
+    // Of an answer with gradients the findings are known: they are part of its verdict.
+    if (!optimum.result.evaluation.has_gradients()) {
+      findings.push_back(check_run(TrustedRun{*one.problem, optimum.result.x, *one.end, monitors}));
+    }
+    const std::string& load_case = one.problem->load_case;
+    for (Json& effect : effects_document(*one.problem, one.end->model, optimum.influences)) {
+      if (!load_case.empty()) effect["case"] = load_case;
+      examined.effects.push_back(std::move(effect));
+    }
+    const std::string drives = drives_text(*one.problem, *one.start, *one.end);
+    if (!drives.empty() && !load_case.empty()) {
+      examined.drives += fmt::format("Case \"{}\":\n", load_case);
+    }
+    examined.drives += drives;
+  }
+  if (!optimum.result.evaluation.has_gradients()) {
+    const std::vector<Finding> joined = joined_findings(optimum.problem, findings);
+    optimum.warnings = texts_of(joined);
+    optimum.consequences = count_consequences(joined);
+  }
+  return examined;
+}
+
+/// Of all cases; that which decides is shown first.
+Json picture_of(const Optimum& optimum, const std::vector<CaseDesigns>& designs) {
+  const Eigen::VectorXd& start = first_design(optimum.result.history).x;
+  const std::string end = name_of_end(to_string(optimum.result.status));
+  std::vector<Json> cases;
+  for (const CaseDesigns& one : designs) {
+    cases.push_back(run_picture(*one.problem,
+                                {{"start", start, one.start.get()},
+                                 {end, optimum.result.x, one.end.get(), one.bands,
+                                  one.influence ? &*one.influence : nullptr}},
+                                designs.size()));
+  }
+  if (!optimum.problem.has_cases()) return cases.front();
+  return picture_of_cases(optimum.problem, std::move(cases),
+                          deciding_case(optimum.problem, optimum.result));
+}
+
+/// Simulates both for their trajectory files and for what is reported of them.
+Examined examine_designs(RunRecord& record, Optimum& optimum) {
+  std::vector<CaseDesigns> designs = simulate_designs(record, optimum);
+  const EvaluationRecord& first = first_design(optimum.result.history);
+  optimum.start_responses =
+      joined_values(optimum.problem, designs, first.x,
+                    [](const CaseDesigns& one) { return values_of(*one.start); });
+  optimum.responses = joined_values(optimum.problem, designs, optimum.result.x,
+                                    [](const CaseDesigns& one) { return values_of(*one.end); });
+  record.begin_phase("influence");
+  Examined examined = examine_cases(optimum, designs);
+  optimum.influence = joined_influence(optimum, designs);
+  record.show_picture([&] { return picture_of(optimum, designs); });
+  record.begin_phase("trajectories");
+  return examined;
+}
+
+/// What each effect brings and costs at an optimum with prices.
+std::vector<EffectInfluence> influences_at(const Optimum& optimum, InfluenceTimes times) {
+  if (optimum.problem.has_cases()) return {};  // of one case: `pleuel simulate --effects`
+  if (!has_prices(optimum.result) || !optimum.problem.simulation.checks_resolution) return {};
+  constexpr double factor = 2.0;  // of the step: effects change little of the errors by it
+  try {
+    return effect_influences(refined(optimum.problem, {factor, 1.0}), optimum.result.x, times);
+  } catch (const Stopped&) {
+    return {};
+  }
+}
+
+/// Simulates both designs in every load case, for their trajectory files, the picture of the page, and
+/// what else is told of the optimum. An interrupt ends that, but not what was found.
+Examined examine_optimum(RunRecord& record, Optimum& optimum, InfluenceTimes times) {
+  try {
+    record.begin_phase("effects");
+    optimum.influences = influences_at(optimum, times);
+    record.begin_phase("trajectories");
+    return examine_designs(record, optimum);
+  } catch (const Stopped&) {
+    Examined cut;
+    cut.is_whole = false;
+    return cut;
+  }
+}
 
 const char* const cut_message =
     "interrupted after the search had ended: its result stands, but trajectories, influences and "
@@ -72,8 +336,8 @@ WholeSearch solve_visibly(const ProblemInput& input, const SolveOptions& options
   const Notice notice = [out](const std::string& text) {
     show(out, wrapped("  " + text, "  ") + "\n");
   };
-  return search_design(input.problem, starts_of(input.problem, input.design, count), options,
-                       {arguments.tasks(), &store}, observer, notice);
+  return search_design(input.problem, starts_of(input.problem, input.design, count),
+                       {options, {arguments.tasks(), &store}, observer, notice});
 }
 
 /// Steps and elements of the last stage; of several load cases each has its own.

@@ -7,7 +7,7 @@
 #include "core/scene/shown_unit.hpp"
 #include "studies/missing_settings.hpp"
 #include "studies/pareto.hpp"
-#include "studies/varied_limit.hpp"
+#include "studies/pareto_point.hpp"
 
 namespace pleuel {
 

@@ -10,7 +10,7 @@
 #include "optimization/design/design_solve.hpp"
 #include "optimization/design/size_choice.hpp"
 #include "studies/number_prices.hpp"
-#include "studies/sized_search.hpp"
+#include "studies/point_searches.hpp"
 
 namespace pleuel {
 

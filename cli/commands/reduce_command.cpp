@@ -3,7 +3,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/files/output_file.hpp"
 #include "cli/text/table.hpp"
-#include "core/scene/invariants_file.hpp"
+#include "core/scene/body_constants.hpp"
 #include "reduction/reduce.hpp"
 
 namespace pleuel {

@@ -5,7 +5,7 @@
 #include "cli/text/csv_table.hpp"
 #include "core/base/error.hpp"
 #include "core/response/history_reduction.hpp"
-#include "sensitivity/history_gradients.hpp"
+#include "sensitivity/gradients.hpp"
 
 namespace pleuel {
 

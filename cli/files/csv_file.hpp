@@ -6,7 +6,7 @@
 #include "cli/text/json.hpp"
 #include "core/response/analysis.hpp"
 #include "optimization/design/design_problem.hpp"
-#include "optimization/history.hpp"
+#include "optimization/result.hpp"
 
 namespace pleuel {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cli/files/run_record.hpp"
-#include "optimization/history.hpp"
+#include "optimization/result.hpp"
 
 /// What an optimization leaves of a design that could not be evaluated, so that it can be looked
 /// at.

@@ -6,10 +6,10 @@
 
 #include "cli/files/csv_file.hpp"
 #include "cli/files/scene_picture.hpp"
-#include "cli/reports/analysis_report.hpp"
 #include "cli/reports/document_table.hpp"
+#include "cli/reports/limits_report.hpp"
 #include "cli/reports/scene_report.hpp"
-#include "core/model/imported_constants.hpp"
+#include "core/model/imported_builder.hpp"
 #include "core/response/history_reduction.hpp"
 #include "core/response/peak_place.hpp"
 #include "core/scene/response_kind.hpp"

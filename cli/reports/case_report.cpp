@@ -18,7 +18,7 @@
 #include "core/scene/case_goals.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/shown_unit.hpp"
-#include "optimization/prices.hpp"
+#include "optimization/result.hpp"
 
 namespace pleuel {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cli/text/json.hpp"
-#include "sensitivity/history_gradients.hpp"
+#include "sensitivity/gradients.hpp"
 
 /// What the variables change of the responses of a simulated design.
 namespace pleuel {

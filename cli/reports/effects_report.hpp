@@ -2,7 +2,7 @@
 
 #include "cli/text/json.hpp"
 #include "core/model/model.hpp"
-#include "core/response/effect_influence.hpp"
+#include "core/response/effect_measurement.hpp"
 
 /// Which effects are simulated, why, and what each of them brings and costs.
 namespace pleuel {

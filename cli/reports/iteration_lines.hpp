@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/scene/shown_unit.hpp"
-#include "optimization/history.hpp"
+#include "optimization/result.hpp"
 
 namespace pleuel {
 

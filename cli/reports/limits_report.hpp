@@ -1,14 +1,43 @@
 #pragma once
 
-#include "cli/reports/document_table.hpp"
-#include "cli/reports/warnings.hpp"
-#include "core/response/analysis.hpp"
-#include "sensitivity/kinks.hpp"
-#include "studies/pareto_front.hpp"
+/// What simulate, gradient and check have in common to say of one simulated design.
 
 /// How one simulated design stands to the limits of its problem, without the margins that
 /// `deviations` ask for.
+
+#include "cli/reports/document_table.hpp"
+#include "cli/reports/warnings.hpp"
+#include "core/response/analysis.hpp"
+#include "core/response/monitors.hpp"
+#include "sensitivity/kinks.hpp"
+#include "studies/pareto.hpp"
+
 namespace pleuel {
+
+/// {NAME: {"value", "unit", "error", "peak"}} [SI]; without "error" where none are known, and
+/// "peak" (time, place) of peaks over time only
+Json responses_document(const ProblemFile& problem, const Analysis& analysis,
+                        const ErrorBars& errors = {});
+
+/// Of the mechanism as it is drawn; 0 if nothing in it moves [m].
+double size_of(const Model& model);
+
+/// The value of a response for people: 0 where it is round-off of its history (1e-14 of the largest
+/// number in it), or a length that is round-off of the size of the mechanism.
+double without_round_off(const Analysis& analysis, std::size_t response);
+
+/// Table of values in engineering units.
+std::string responses_text(const ProblemFile& problem, const Analysis& analysis,
+                           const ErrorBars& errors = {});
+
+/// {"position_drift", "velocity_drift", "energy_error", "elastic_rotation"} [SI]
+Json monitors_document(const Monitors& monitors);
+
+/// Sentences about constraints (if there are multipliers) and energy.
+std::string monitors_text(const Monitors& monitors, int multipliers);
+
+/// "4514 steps of 2.5e-05 s, 41 coordinates, 24 multipliers"
+std::string size_text(const Analysis& analysis);
 
 /// {"value", "limit", "side", "unit", "utilisation"} of the limit of a constraint that is nearer to its
 /// value [SI]: how much of it is used, 1 = at the limit, where the ratio says something.

@@ -4,14 +4,13 @@
 
 #include <fmt/format.h>
 
-#include "cli/reports/analysis_report.hpp"
 #include "cli/reports/case_report.hpp"
 #include "cli/reports/limits_report.hpp"
 #include "cli/reports/scene_report.hpp"
 #include "core/base/number_text.hpp"
 #include "core/scene/case_goals.hpp"
-#include "core/scene/response_quantity.hpp"
-#include "optimization/prices.hpp"
+#include "core/scene/shown_unit.hpp"
+#include "optimization/result.hpp"
 
 namespace pleuel {
 

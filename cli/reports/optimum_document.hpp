@@ -1,7 +1,7 @@
 #pragma once
 
 #include "cli/reports/design_influence.hpp"
-#include "core/response/effect_influence.hpp"
+#include "core/response/effect_measurement.hpp"
 #include "core/response/monitors.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "optimization/design/size_choice.hpp"

@@ -12,7 +12,7 @@
 #include "cli/reports/starts_report.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/number_text.hpp"
-#include "core/mechanism/configuration.hpp"
+#include "core/mechanism/mechanism.hpp"
 #include "core/scene/joint_kind.hpp"
 #include "core/scene/time_breaks.hpp"
 

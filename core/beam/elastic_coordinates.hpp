@@ -1,11 +1,17 @@
 #pragma once
 
+/// Which nodal displacements of a beam are its elastic coordinates q_f.
+
+/// Constants of geometric stiffening of an element (core/effects/geometric_stiffening.hpp).
+
 #include <array>
 #include <vector>
 
-#include "core/base/int_size.hpp"
+#include <Eigen/Core>
 
-/// Which nodal displacements of a beam are its elastic coordinates q_f.
+#include "core/base/int_size.hpp"
+#include "core/beam/beam.hpp"
+
 namespace pleuel {
 
 /// The six displacements of a node in local axes, in this order: u v w θx θy θz.
@@ -44,5 +50,17 @@ ElasticCoordinates tangent_end_coordinates(int node_count, const NodalFlags& act
 
 /// Chord frame: u, v, w, θx of the first node and v, w of the last vanish.
 ElasticCoordinates chord_coordinates(int node_count, const NodalFlags& active);
+
+/// Which of the twelve coordinates of an element are elastic coordinates, in their order.
+std::vector<int> active_displacements(const ElasticCoordinates& coordinates, int element);
+
+/// b of Δu = bᵀ d, one entry an active coordinate.
+Eigen::VectorXd elongation_of(const std::vector<int>& active);
+
+/// κ = EA/ℓ [N/m]
+template <class Scalar>
+Scalar axial_stiffness(const BeamElement<Scalar>& element) {
+  return element.young * element.section.area / element.length;
+}
 
 }  // namespace pleuel

@@ -26,7 +26,7 @@ void set_body_motion(const BodyFrame& frame, const Eigen::Vector3d& gravity,
                      const Coordinates<double>& a, BodyMotion& motion);
 
 /// Forces and tangents of one body in the floating frame of reference formulation, written for one
-/// kind of motion of its frame. The equations stand in floating_frame_residual.hpp.
+/// kind of motion of its frame. The equations stand in general_body_equations.hpp.
 class BodyEquations {
  public:
   virtual ~BodyEquations() = default;

@@ -4,14 +4,14 @@
 
 #include <Eigen/SparseCore>
 
-#include "core/beam/invariant_vector.hpp"
+#include "core/beam/invariants.hpp"
 #include "core/effects/body_equations.hpp"
 #include "core/system/term.hpp"
 
 namespace pleuel {
 
 /// Inertia (with all velocity forces), linear elasticity, Rayleigh damping and weight of one body.
-/// The equations stand in floating_frame_residual.hpp; body_equations.hpp has them with their
+/// The equations stand in general_body_equations.hpp; body_equations.hpp has them with their
 /// tangents, derived by hand, since this is where the time goes.
 class FloatingFrameBody : public Term {
  public:

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "core/system/quadratic_strain.hpp"
 #include "core/system/term.hpp"
 
 namespace pleuel {

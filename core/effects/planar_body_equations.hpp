@@ -25,7 +25,7 @@ struct PlanarProducts {
 
 /// The invariants of a body whose frame turns by an angle about a fixed normal n (body axes, where
 /// it is fixed, too). With P = I − n nᵀ and J = ñ the matrices of the general equations
-/// (floating_frame_residual.hpp) are
+/// (general_body_equations.hpp) are
 ///     X = −ω² P + α J,   Y = 2ω J
 /// so that of all S_kl and H_kl two sums each are left, C = P_kl S_kl = Cᵀ, D = J_kl S_kl = −Dᵀ,
 /// and with g_C = P_kl H_lk + C q_f, g_D = J_kl H_lk + D q_f

@@ -1,7 +1,6 @@
 #include "core/forces/joint_force.hpp"
 
 #include "core/forces/force_term.hpp"
-#include "core/forces/marker_gauge.hpp"
 #include "core/forces/spring_damper.hpp"
 
 namespace pleuel {

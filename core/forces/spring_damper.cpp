@@ -1,5 +1,6 @@
 #include "core/forces/spring_damper.hpp"
 
+#include <cmath>
 #include <sstream>
 
 #include "core/base/error.hpp"
@@ -9,9 +10,14 @@ namespace pleuel {
 
 namespace {
 
+/// Added to the length where squares are added, so that the force and its derivatives are finite where
+/// both points coincide, too [m]; and what counts as no force there [N].
+constexpr double no_length = 1e-100, no_pull = 1e-50;
+
 /// With D = P₂ − P₁, l = |D|, e = D/l and l̇ = e · Ḋ:
 ///     F = k (l − l₀) + c l̇ + r(l − l₀, l̇, t),   δW = −F δl = F e · δP₁ − F e · δP₂
-/// (Haug, Computer Aided Kinematics and Dynamics of Mechanical Systems, 1989, sec. 6.2).
+/// (Haug, Computer Aided Kinematics and Dynamics of Mechanical Systems, 1989, sec. 6.2). Where the
+/// points coincide nothing may pull: with l₀ = 0 the force is k D there, and none within a clearance.
 struct SpringDamperLaw {
   static constexpr std::size_t marker_count = 2;
   template <class Scalar>
@@ -67,12 +73,15 @@ struct SpringDamperLaw {
     const Vector3<Scalar> D =
         markers.position(1, data.points[1]) - markers.position(0, data.points[0]);
     const Scalar squared = D.dot(D);
-    if (value_of(squared) == 0.0) throw_coincident(time);
-    const Scalar length = sqrt(squared);
+    const Scalar length = sqrt(squared + no_length * no_length);
     const Vector3<Scalar> e = D / length;
     const Vector3<Scalar> D_dot =
         markers.velocity(1, data.points[1]) - markers.velocity(0, data.points[0]);
-    return {length, e.dot(D_dot), e};
+    const Stretch<Scalar> now{length, e.dot(D_dot), e};
+    if (value_of(squared) == 0.0 && std::abs(value_of(pull(data, time, now))) > no_pull) {
+      throw_coincident(time);
+    }
+    return now;
   }
 
   template <class Scalar>
@@ -84,8 +93,10 @@ struct SpringDamperLaw {
 
   [[noreturn]] void throw_coincident(double time) const {
     std::ostringstream message;
-    message << name << ": its ends coincide at t = " << time
-            << " s, where its force has no direction; attach it so that its length stays positive";
+    message
+        << name << ": its ends coincide at t = " << time
+        << " s, where its force has no direction; give it no free length, or attach it so that its "
+           "length stays positive";
     throw SimulationError(message.str());
   }
 };

@@ -38,7 +38,7 @@ struct SpringDamperTopology {
 
 /// Pulls its two points together with k (l − l₀) + c l̇ + r. Its gauge reads l, l̇, this pull and
 /// the power that the damper takes.
-/// Both throw SimulationError, with name and time, where the two points coincide.
+/// Both throw SimulationError, with name and time, where the two points coincide and it would pull.
 /// @param derivatives  of the numbers with respect to the variables they depend on
 ForceElement make_spring_damper(
     const SpringDamperTopology& topology, const SpringDamperData<double>& data,

@@ -20,7 +20,7 @@ namespace pleuel {
 /// d/m + s²k/m)⁻¹ does. With the line through both,
 ///     a = a(0) + O(h²),   w = a(δ) + O(h²) with the delay δ of the scheme
 /// so multipliers keep their order from the first step on (Jay & Negrut 2007). Index 3 also needs
-/// velocities that start off the constraints (jerk.hpp).
+/// velocities that start off the constraints.
 ///
 /// Where the damping of elastic coordinates is no stiffer than the step, or the step resolves the
 /// start, so that both agree, a₀ itself serves: a = a₀, and w = a₀ + δ j with the jerk j of the

@@ -6,7 +6,7 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/integration/step_differentiation.hpp"
-#include "core/mechanism/configuration.hpp"
+#include "core/mechanism/mechanism.hpp"
 
 namespace pleuel {
 

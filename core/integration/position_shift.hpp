@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/integration/state_sensitivity.hpp"
+#include "core/integration/state_columns.hpp"
 #include "core/mechanism/mechanism.hpp"
 #include "core/system/linear_forces.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "core/integration/state_sensitivity.hpp"
+#include "core/integration/state_columns.hpp"
 #include "core/mechanism/linear_solver.hpp"
 #include "core/mechanism/mechanism.hpp"
 #include "core/system/linear_forces.hpp"

@@ -12,7 +12,7 @@ namespace pleuel {
 /// in which it fails is halved, up to six times. Nothing is allocated in the time loop but by the
 /// observer, and for instants that are more than the regular ones. With a projection each step of
 /// index 1 ends with it (projection.hpp). With a period, it starts from the motion that repeats
-/// itself (periodic_simulation.hpp).
+/// itself.
 /// @throws InputError if the memory does not even hold enough checkpoints of equal steps
 /// @throws SimulationError saying time, step, iteration, equation and what to try; or that the
 ///         local error is too large with the smallest step

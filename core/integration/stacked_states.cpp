@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/mechanism/configuration.hpp"
+#include "core/mechanism/mechanism.hpp"
 
 namespace pleuel {
 

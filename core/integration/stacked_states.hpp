@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/integration/scheme.hpp"
-#include "core/integration/state_sensitivity.hpp"
+#include "core/integration/state_columns.hpp"
 #include "core/mechanism/mechanism.hpp"
 
 namespace pleuel {

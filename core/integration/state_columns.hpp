@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include "core/system/system.hpp"
 
 namespace pleuel {
@@ -37,6 +39,16 @@ class StateColumns {
   Eigen::Index drifted_coordinates_ = 0;  ///< n or none
   /// Rows: time; q, v, a; λ; η; drifted q and v.
   Eigen::MatrixXd values_;
+};
+
+/// With respect to what: the design variables, or anything that acts through the state before only.
+enum class DerivativesOf { design, old_state };
+
+/// Derivatives of one instant (one column for each variable).
+struct StateSensitivity {
+  Eigen::MatrixXd q, v, a;  ///< n × variables
+  Eigen::MatrixXd w;        ///< of the scheme's algorithmic acceleration, n × variables
+  Eigen::MatrixXd lambda;   ///< m × variables
 };
 
 }  // namespace pleuel

@@ -4,7 +4,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/stop.hpp"
-#include "core/mechanism/configuration.hpp"
+#include "core/mechanism/mechanism.hpp"
 
 namespace pleuel {
 

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "core/integration/sparse_products.hpp"
-#include "core/mechanism/configuration.hpp"
+#include "core/mechanism/mechanism.hpp"
 #include "core/system/system.hpp"
 
 namespace pleuel {

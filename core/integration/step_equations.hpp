@@ -7,7 +7,6 @@
 #include "core/integration/position_shift.hpp"
 #include "core/integration/scheme.hpp"
 #include "core/integration/state_columns.hpp"
-#include "core/integration/state_sensitivity.hpp"
 #include "core/system/system.hpp"
 
 namespace pleuel {

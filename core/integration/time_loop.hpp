@@ -6,14 +6,85 @@
 #include "core/base/int_size.hpp"
 #include "core/integration/damped_start.hpp"
 #include "core/integration/newton_corrector.hpp"
-#include "core/integration/predictor.hpp"
 #include "core/integration/projection.hpp"
 #include "core/integration/scheme.hpp"
 #include "core/integration/simulation_options.hpp"
-#include "core/integration/state_window.hpp"
+#include "core/integration/state_columns.hpp"
+#include "core/integration/step_equations.hpp"
 #include "core/integration/trajectory.hpp"
 
 namespace pleuel {
+
+/// The state that Newton's method begins a step with: y⁺ = history · y (for q as q ⊕ increment),
+/// then the correction that leads to the acceleration expected. a and λ are expected on a straight
+/// line through the last two states. Coordinates in which the equations are linear may ring or
+/// jump: they are right after one iteration wherever it begins.
+class Predictor {
+ public:
+  explicit Predictor(const StepEquations& equations) : correction_(equations.size()) {}
+
+  /// @param time       the end of the step [s]
+  /// @param equations  those of the step
+  void predict(const StepState& old, double time, const Scheme& scheme,
+               const StepEquations& equations, StepState& state);
+
+  /// Takes note of a step that was accepted.
+  void record(const StepState& old, const StepState& state);
+  bool looks_ahead() const { return experience_.step > 0.0; }
+  /// Expects the accelerations that are, until a step is recorded.
+  void forget() { experience_.step = 0.0; }
+
+  /// How the last step went.
+  struct Experience {
+    double step = 0.0;                 ///< its size [s]; 0: there is none
+    Eigen::VectorXd change_of_a;       ///< from its start to its end (n)
+    Eigen::VectorXd change_of_lambda;  ///< (m)
+  };
+  const Experience& experience() const { return experience_; }
+  void set_experience(const Experience& experience) { experience_ = experience; }
+
+ private:
+  Experience experience_;
+  Eigen::VectorXd correction_;  ///< scratch
+};
+
+/// The states of consecutive instants.
+class StateWindow {
+ public:
+  /// Of no capacity.
+  StateWindow() = default;
+  /// @param like  a state of the same size
+  StateWindow(const RecordedState& like, Eigen::Index capacity) : columns_(like, capacity) {}
+
+  /// Makes it empty, with this instant to come.
+  void clear(Eigen::Index next) {
+    first_ = next;
+    count_ = 0;
+  }
+
+  /// Where there are more states than expected, it grows.
+  void push(const RecordedState& state) {
+    if (count_ == columns_.capacity()) columns_.resize(count_ + count_ / 8 + 64);
+    columns_.set(count_++, state);
+  }
+
+  bool holds(Eigen::Index instant) const { return instant >= first_ && instant < first_ + count_; }
+  void load(Eigen::Index instant, State& state) const { columns_.load(instant - first_, state); }
+  void load_record(Eigen::Index instant, RecordedState& state) const {
+    columns_.load_record(instant - first_, state);
+  }
+
+  /// All states; leaves none.
+  StateColumns take() {
+    if (count_ < columns_.capacity()) columns_.resize(count_);
+    count_ = 0;
+    return std::move(columns_);
+  }
+
+ private:
+  Eigen::Index first_ = 0, count_ = 0;
+  StateColumns columns_;
+};
 
 /// A simulation that can be stopped after each regular step, and taken up again at a checkpoint.
 class TimeLoop {

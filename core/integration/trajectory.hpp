@@ -80,7 +80,7 @@ struct Trajectory {
   /// The scheme that made a step, from 1.
   Scheme scheme_of(int step) const;
   /// What the first step adds to the initial velocities, as a multiple of the jerk that the
-  /// constraints prescribe (jerk.hpp) [s²].
+  /// constraints prescribe (damped_start.cpp) [s²].
   double weight_of_start_jerk() const;
 };
 

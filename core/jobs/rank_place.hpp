@@ -7,7 +7,6 @@
 
 #include "core/base/packed.hpp"
 #include "core/jobs/task_place.hpp"
-#include "core/jobs/task_work.hpp"
 #include "core/jobs/worker.hpp"
 
 namespace pleuel {

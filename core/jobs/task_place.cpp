@@ -4,7 +4,6 @@
 
 #include "core/base/stop.hpp"
 #include "core/jobs/parallel.hpp"
-#include "core/jobs/worker.hpp"
 
 namespace pleuel {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/jobs/task_work.hpp"
+#include "core/jobs/task_place.hpp"
 
 namespace pleuel {
 

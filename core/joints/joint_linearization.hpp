@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "core/frame/elastic_rotation.hpp"
+#include "core/frame/marker_kinematics.hpp"
 #include "core/joints/joint.hpp"
 
 namespace pleuel {

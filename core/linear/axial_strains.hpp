@@ -2,8 +2,8 @@
 
 #include <Eigen/SparseCore>
 
-#include "core/system/quadratic_strain.hpp"
 #include "core/system/system.hpp"
+#include "core/system/term.hpp"
 
 namespace pleuel {
 

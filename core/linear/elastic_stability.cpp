@@ -15,7 +15,6 @@
 #include "core/linear/axial_strains.hpp"
 #include "core/linear/free_deformations.hpp"
 #include "core/linear/linearization.hpp"
-#include "core/linear/turning.hpp"
 
 namespace pleuel {
 

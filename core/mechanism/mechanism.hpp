@@ -1,10 +1,14 @@
 #pragma once
 
+/// Configurations q whose rotation vectors are composed, not added. `rotations` lists the first
+/// coordinate of each (Mechanism::rotations); everything else in q is an ordinary coordinate.
+
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <Eigen/Core>
 #include <Eigen/SparseCore>
 
 #include "core/system/system.hpp"
@@ -58,9 +62,38 @@ struct Mechanism {
   /// assembly moves frames rather than deforms bodies.
   Eigen::VectorXd assembly_weight;
   std::vector<BentStart> bent_starts;
-  /// What the square of each multiplier weighs in the norm of the reactions (least_norm.hpp): 1 for
+  /// What the square of each multiplier weighs in the norm of the reactions (redundancy.hpp): 1 for
   /// forces, one over the square of a length [1/m²] for moments.
   Eigen::VectorXd reaction_weight;
 };
+
+using Rotations = std::vector<int>;
+
+/// q = start ⊕ increment. q is not start.
+void advance(const Rotations& rotations, const Eigen::VectorXd& start,
+             const Eigen::VectorXd& increment, Eigen::VectorXd& q);
+
+/// The increment that leads from start to q.
+Eigen::VectorXd difference(const Rotations& rotations, const Eigen::VectorXd& q,
+                           const Eigen::VectorXd& start);
+
+/// The step increments Δ change q by right perturbations T(Δ) δΔ: adds q_weight · R_q (T − I) to a
+/// step matrix.
+/// @param R_q  tangent with weight one on q
+void add_increment_tangent(const Rotations& rotations, const Eigen::VectorXd& increment,
+                           const System::Matrix& R_q, double q_weight, System::Matrix& matrix);
+
+// Sensitivities of q⁺ = q ⊕ Δ:  s_q⁺ = exp(−Δ̃) s_q + T(Δ) s_Δ = T(Δ) (T(Δ)⁻ᵀ s_q + s_Δ).
+
+/// s ← T(Δ)⁻ᵀ s in the rows of each rotation.
+void pull_back(const Rotations& rotations, const Eigen::VectorXd& increment, Eigen::MatrixXd& s);
+
+/// s ← T(Δ) s in the rows of each rotation.
+void push_forward(const Rotations& rotations, const Eigen::VectorXd& increment, Eigen::MatrixXd& s);
+
+// And the transposed ones, for adjoints: s ← T(Δ)⁻¹ s, s ← T(Δ)ᵀ s.
+void pull_back_transposed(const Rotations& rotations, const Eigen::VectorXd& increment, Columns s);
+void push_forward_transposed(const Rotations& rotations, const Eigen::VectorXd& increment,
+                             Columns s);
 
 }  // namespace pleuel

@@ -9,7 +9,7 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/quoted.hpp"
-#include "core/model/drive_rows.hpp"
+#include "core/model/model.hpp"
 
 namespace pleuel {
 

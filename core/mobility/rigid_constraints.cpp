@@ -7,8 +7,8 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
-#include "core/mechanism/configuration.hpp"
 #include "core/mechanism/linear_solver.hpp"
+#include "core/mechanism/mechanism.hpp"
 
 namespace pleuel {
 

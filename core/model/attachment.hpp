@@ -5,7 +5,7 @@
 #include "core/frame/marker.hpp"
 #include "core/model/body_builder.hpp"
 #include "core/model/body_point.hpp"
-#include "core/system/coordinate_map.hpp"
+#include "core/system/projected_term.hpp"
 
 namespace pleuel {
 

@@ -3,7 +3,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
 #include "core/beam/beam_shape.hpp"
-#include "core/beam/element_stretching.hpp"
+#include "core/beam/elastic_coordinates.hpp"
 #include "core/effects/geometric_stiffening.hpp"
 
 namespace pleuel {

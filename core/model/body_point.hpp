@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/beam/beam_place.hpp"
+#include "core/beam/beam_shape.hpp"
 #include "core/model/model.hpp"
 
 namespace pleuel {

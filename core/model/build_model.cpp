@@ -12,7 +12,6 @@
 #include "core/model/beam_shapes.hpp"
 #include "core/model/body_builder.hpp"
 #include "core/model/divided_beams.hpp"
-#include "core/model/drive_rows.hpp"
 #include "core/model/imported_builder.hpp"
 #include "core/model/initial_deflections.hpp"
 #include "core/model/joint_builder.hpp"

@@ -14,7 +14,7 @@
 #include "core/integration/simulate.hpp"
 #include "core/model/divided_beams.hpp"
 #include "core/model/model.hpp"
-#include "core/start/least_norm.hpp"
+#include "core/start/redundancy.hpp"
 
 namespace pleuel {
 

@@ -8,7 +8,6 @@
 #include "core/base/find_named.hpp"
 #include "core/forces/force_term.hpp"
 #include "core/forces/joint_force.hpp"
-#include "core/forces/load_over_joint.hpp"
 #include "core/forces/point_load.hpp"
 #include "core/forces/spring_damper.hpp"
 #include "core/frame/number_data.hpp"

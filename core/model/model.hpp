@@ -17,10 +17,9 @@
 #include "core/model/end_fittings.hpp"
 #include "core/model/joint_holds.hpp"
 #include "core/model/motion_plane.hpp"
-#include "core/model/stretched_members.hpp"
 #include "core/scene/beam_mesh.hpp"
 #include "core/scene/problem_file.hpp"
-#include "core/system/coordinate_map.hpp"
+#include "core/system/projected_term.hpp"
 #include "core/system/term.hpp"
 
 namespace pleuel {
@@ -72,7 +71,7 @@ struct BodyModel : ElasticBody {
   }
 };
 
-class Gauge;  // core/system/gauge.hpp
+class Gauge;  // core/system/term.hpp
 
 /// What can be read of a joint or a load. Its coordinates are local where `map` is set.
 struct GaugeModel {
@@ -162,5 +161,14 @@ struct Model {
 Model build_model(const Scene& scene, const EffectSettings& effects, const Design<double>& start,
                   const Design<double>& design,
                   const InvariantDifferentiation& differentiation = {});
+
+/// Multipliers of the drives of a model.
+inline std::vector<int> drive_rows(const Model& model) {
+  std::vector<int> rows;
+  for (const JointModel& joint : model.joints) {
+    if (joint.drive_row >= 0) rows.push_back(joint.drive_row);
+  }
+  return rows;
+}
 
 }  // namespace pleuel

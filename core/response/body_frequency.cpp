@@ -7,7 +7,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/beam/elastic_basis.hpp"
-#include "core/response/motion_along.hpp"
+#include "core/response/modal_vectors.hpp"
 
 namespace pleuel {
 

@@ -10,8 +10,8 @@
 #include "core/base/int_size.hpp"
 #include "core/frame/body_frame.hpp"
 #include "core/response/signal.hpp"
-#include "core/scene/magnitude_direction.hpp"
-#include "core/system/coordinate_map.hpp"
+#include "core/scene/response_kind.hpp"
+#include "core/system/projected_term.hpp"
 
 namespace pleuel {
 

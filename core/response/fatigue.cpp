@@ -1,9 +1,13 @@
 #include "core/response/fatigue.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/base/eager_matrices.hpp"
+#include "core/integration/period_map.hpp"
+#include "core/response/history_jump.hpp"
 
 namespace pleuel {
 
@@ -170,6 +174,192 @@ class CycleSearch {
   const BrokenInstants& breaks_;
 };
 
+/// Damages within this relative distance of the largest are called tied.
+constexpr double damage_tie_gap = 1e-3;
+/// So many ties are remembered.
+constexpr std::size_t max_damage_ties = 16;
+
+/// A maximum or minimum of a history: Σ weight · sample.
+struct TurningPoint {
+  int step;  ///< of the sample next to it
+  std::vector<std::pair<int, double>> samples;
+
+  double value(const Eigen::MatrixXd& values, int row) const {
+    double sum = 0.0;
+    for (const auto& [at, weight] : samples) sum += weight * values(row, at);
+    return sum;
+  }
+};
+
+/// What a cycle adds to the damage, with its derivatives by both turning points in both rows.
+struct CycleDamage {
+  double value = 0.0;
+  double by_amplitude = 0.0, by_mean = 0.0;
+};
+
+/// 2 σ̂^k, σ̂ = a/(1 − m), of Gerber a/(1 − m²): a = σ_a/σ_f', m = σ_m/S.
+CycleDamage cycle_damage(FatigueCriterion criterion, double exponent, double amplitude,
+                         double mean) {
+  const bool is_gerber = criterion == FatigueCriterion::gerber;
+  const double m = std::max(mean, 0.0), room = is_gerber ? 1.0 - m * m : 1.0 - m;
+  if (room <= 0.0) return {std::numeric_limits<double>::infinity()};
+  if (amplitude <= 0.0) return {};
+  const double full = amplitude / room, value = 2.0 * std::pow(full, exponent);
+  const double slope = exponent * value / full;  // by σ̂
+  return {value, slope / room,
+          mean > 0.0 ? slope * full / room * (is_gerber ? 2.0 * m : 1.0) : 0.0};
+}
+
+class PointDamage {
+ public:
+  PointDamage(FatigueCriterion criterion, double exponent, const Eigen::VectorXd& time,
+              const Eigen::MatrixXd& values, const StepRange& range, const BrokenInstants& breaks,
+              RangeEnds ends)
+      : criterion_(criterion),
+        exponent_(exponent),
+        time_(time),
+        values_(values),
+        range_(range),
+        breaks_(breaks),
+        repeats_(ends == RangeEnds::repeating) {}
+
+  /// Of the point whose rows begin at `row`.
+  Reduction of(int row) const {
+    std::vector<TurningPoint> turning = repeats_ ? extremes(row) : turning_points(row);
+    if (repeats_) begin_at_largest(row, turning);
+    std::vector<double> heights;
+    for (const TurningPoint& point : turning) heights.push_back(point.value(values_, row));
+    Reduction damage;
+    for (const CountedCycle& cycle : count_rainflow(heights)) {
+      add(cycle, turning, row, damage);
+    }
+    return damage;
+  }
+
+ private:
+  bool is_broken(int step) const {
+    if (breaks_.empty()) return false;
+    const auto broken = [&](int at) { return breaks_[at]; };
+    return broken(step) || broken(before(step)) || broken(after(step));
+  }
+
+  /// Steps beside a step; of a range that repeats itself the last one is the first.
+  int before(int step) const {
+    return repeats_ && step == range_.first ? range_.last - 1 : step - 1;
+  }
+  int after(int step) const {
+    return repeats_ && step + 1 == range_.last ? range_.first : step + 1;
+  }
+
+  /// First and last sample, and what lies between.
+  std::vector<TurningPoint> turning_points(int row) const {
+    std::vector<TurningPoint> turning = {{range_.first, {{range_.first, 1.0}}}};
+    for (TurningPoint& point : extremes(row)) turning.push_back(std::move(point));
+    turning.push_back({range_.last, {{range_.last, 1.0}}});
+    return turning;
+  }
+
+  /// Where the history turns: by the parabola through three samples.
+  std::vector<TurningPoint> extremes(int row) const {
+    std::vector<TurningPoint> turning;
+    double way = repeats_ ? last_way(row) : 0.0;  // of the last step that was none
+    for (int step = range_.first + 1; step <= range_.last; ++step) {
+      const double change = values_(row, step) - values_(row, step - 1);
+      if (change == 0.0) continue;
+      if (change * way < 0.0) turning.push_back(extreme(row, step - 1));
+      way = change;
+    }
+    return turning;
+  }
+
+  double last_way(int row) const {
+    for (int step = range_.last; step > range_.first; --step) {
+      const double change = values_(row, step) - values_(row, step - 1);
+      if (change != 0.0) return change;
+    }
+    return 0.0;
+  }
+
+  /// Near a step; where a stretch is level, its last sample.
+  TurningPoint extreme(int row, int step) const {
+    const std::array<int, 3> steps = {before(step), step, after(step)};
+    const double value = values_(row, step), previous = values_(row, steps[0]);
+    if (value == previous || is_broken(step) || jumps_beside(time_, values_, row, step)) {
+      return {step, {{step, 1.0}}};
+    }
+    const double turn = time_(range_.last) - time_(range_.first);
+    const Eigen::Vector3d times(time_(steps[0]) - (steps[0] > step ? turn : 0.0), time_(step),
+                                time_(steps[2]) + (steps[2] < step ? turn : 0.0));
+    const Eigen::RowVector3d three(previous, value, values_(row, steps[2]));
+    const Reduction vertex = reduce(value > previous ? OverTime::max : OverTime::min, times, three);
+    TurningPoint point{step, {}};
+    for (const Sample& sample : vertex.samples) {
+      point.samples.emplace_back(steps[sample.step], sample.weight);
+    }
+    return point;
+  }
+
+  void begin_at_largest(int row, std::vector<TurningPoint>& turning) const {
+    const auto largest =
+        std::max_element(turning.begin(), turning.end(), [&](const auto& one, const auto& other) {
+          return one.value(values_, row) < other.value(values_, row);
+        });
+    if (largest == turning.end()) return;
+    std::rotate(turning.begin(), largest, turning.end());
+    turning.push_back(turning.front());
+  }
+
+  void add(const CountedCycle& cycle, const std::vector<TurningPoint>& turning, int row,
+           Reduction& damage) const {
+    const TurningPoint &from = turning[cycle.from], &to = turning[cycle.to];
+    const double change = to.value(values_, row) - from.value(values_, row);
+    const double mean = 0.5 * (to.value(values_, row + 1) + from.value(values_, row + 1));
+    const CycleDamage one = cycle_damage(criterion_, exponent_, 0.5 * std::abs(change), mean);
+    if (one.value == 0.0) return;
+    damage.value += cycle.count * one.value;
+    const double of_change = 0.5 * cycle.count * one.by_amplitude * (change < 0.0 ? -1.0 : 1.0);
+    const double of_mean = 0.5 * cycle.count * one.by_mean;
+    const auto add_samples = [&](const TurningPoint& point, double of_first) {
+      for (const auto& [step, weight] : point.samples) {
+        damage.samples.push_back({step, row, of_first * weight});
+        if (of_mean != 0.0) damage.samples.push_back({step, row + 1, of_mean * weight});
+      }
+    };
+    add_samples(from, -of_change);
+    add_samples(to, of_change);
+  }
+
+  FatigueCriterion criterion_;
+  double exponent_;
+  const Eigen::VectorXd& time_;
+  const Eigen::MatrixXd& values_;
+  StepRange range_;
+  const BrokenInstants& breaks_;
+  bool repeats_;
+};
+
+/// One sample a step and channel, those that count most first.
+void gather(std::vector<Sample>& samples) {
+  const auto before = [](const Sample& a, const Sample& b) {
+    return std::pair(a.step, a.channel) < std::pair(b.step, b.channel);
+  };
+  std::sort(samples.begin(), samples.end(), before);
+  std::vector<Sample> sums;
+  for (const Sample& sample : samples) {
+    const bool is_new = sums.empty() || before(sums.back(), sample);
+    if (is_new) {
+      sums.push_back(sample);
+    } else {
+      sums.back().weight += sample.weight;
+    }
+  }
+  // The history that is shown is that of the first sample's channel: the even one of both.
+  const auto even = std::find_if(sums.begin(), sums.end(),
+                                 [](const Sample& sample) { return sample.channel % 2 == 0; });
+  if (even != sums.end()) std::iter_swap(sums.begin(), even);
+  samples = std::move(sums);
+}
+
 }  // namespace
 
 CycleUse cycle_use(FatigueCriterion criterion, double amplitude, double mean) {
@@ -183,6 +373,65 @@ Reduction reduce_cycle(FatigueCriterion criterion, const Eigen::VectorXd& time,
                        const Eigen::MatrixXd& values, const StepRange& range,
                        const BrokenInstants& breaks) {
   return CycleSearch(criterion, time, values, range, breaks).run();
+}
+
+Reduction reduce_damage(FatigueCriterion criterion, double exponent, const Eigen::VectorXd& time,
+                        const Eigen::MatrixXd& values, const StepRange& range,
+                        const BrokenInstants& breaks, RangeEnds ends) {
+  const PointDamage damage(criterion, exponent, time, values, range, breaks, ends);
+  std::vector<Reduction> points;
+  for (int row = 0; row < values.rows(); row += 2) points.push_back(damage.of(row));
+  const auto worst =
+      std::max_element(points.begin(), points.end(),
+                       [](const Reduction& a, const Reduction& b) { return a.value < b.value; });
+  Reduction reduction{worst->value, worst->samples, {}};
+  gather(reduction.samples);
+  for (auto other = points.begin(); other != points.end(); ++other) {
+    const double gap = 1.0 - other->value / worst->value;
+    if (other == worst || !(gap <= damage_tie_gap)) continue;
+    const double end = time(range.last);
+    gather(other->samples);
+    reduction.ties.push_back({end, end, 2 * static_cast<int>(worst - points.begin()),
+                              2 * static_cast<int>(other - points.begin()), gap, other->samples});
+  }
+  std::stable_sort(reduction.ties.begin(), reduction.ties.end(),
+                   [](const PeakTie& a, const PeakTie& b) { return a.gap < b.gap; });
+  if (reduction.ties.size() > max_damage_ties) reduction.ties.resize(max_damage_ties);
+  return reduction;
+}
+
+RangeEnds ends_of(const StepRange& range, const Trajectory& trajectory) {
+  constexpr double round_off = 1e-9;
+  if (!trajectory.periodic) return RangeEnds::cut;
+  const double duration = trajectory.time(range.last) - trajectory.time(range.first);
+  const double turns = duration / trajectory.periodic->period, whole = std::round(turns);
+  const bool is_whole = whole >= 1.0 && std::abs(turns - whole) <= round_off * whole;
+  return is_whole ? RangeEnds::repeating : RangeEnds::cut;
+}
+
+std::vector<CountedCycle> count_rainflow(const std::vector<double>& turning) {
+  std::vector<CountedCycle> cycles;
+  std::vector<std::size_t> open;  // turning points that are not counted yet
+  const auto range = [&](std::size_t from, std::size_t to) {
+    return std::abs(turning[open[to]] - turning[open[from]]);
+  };
+  for (std::size_t next = 0; next < turning.size(); ++next) {
+    open.push_back(next);
+    while (open.size() >= 3) {
+      const std::size_t last = open.size() - 1;
+      if (range(last - 1, last) < range(last - 2, last - 1)) break;
+      const bool holds_the_start = last == 2;
+      cycles.push_back({open[last - 2], open[last - 1], holds_the_start ? 0.5 : 1.0});
+      // Of the range that holds the start its first point goes, else both of its points do.
+      if (holds_the_start) {
+        open.erase(open.begin());
+      } else {
+        open.erase(open.end() - 3, open.end() - 1);
+      }
+    }
+  }
+  for (std::size_t i = 1; i < open.size(); ++i) cycles.push_back({open[i - 1], open[i], 0.5});
+  return cycles;
 }
 
 }  // namespace pleuel

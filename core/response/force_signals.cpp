@@ -10,7 +10,7 @@
 #include "core/response/composed_signals.hpp"
 #include "core/response/response.hpp"
 #include "core/scene/response_kind.hpp"
-#include "core/system/gauge.hpp"
+#include "core/system/term.hpp"
 
 namespace pleuel {
 

@@ -5,7 +5,7 @@
 #include "core/model/model.hpp"
 #include "core/response/signal.hpp"
 #include "core/response/term_product.hpp"
-#include "core/start/least_norm.hpp"
+#include "core/start/redundancy.hpp"
 
 namespace pleuel {
 
@@ -19,7 +19,7 @@ std::unique_ptr<Signal> make_drive_effort_signal(const JointModel& joint);
 std::unique_ptr<Signal> make_drive_power_signal(const JointModel& joint);
 
 /// Position and velocity of a joint, length and pull of a spring, power of a motor: what a gauge of
-/// the model reads (core/system/gauge.hpp).
+/// the model reads (core/system/term.hpp).
 /// @throws InputError where the model has no such gauge
 std::unique_ptr<Signal> make_gauge_signal(const ResponseSettings& settings, const Model& model);
 

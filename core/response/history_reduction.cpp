@@ -8,7 +8,6 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/response/fatigue.hpp"
-#include "core/response/fatigue_damage.hpp"
 
 namespace pleuel {
 

@@ -15,7 +15,7 @@
 #include "core/response/motion_signals.hpp"
 #include "core/response/signal_of_body.hpp"
 #include "core/scene/response_kind.hpp"
-#include "core/scene/response_quantity.hpp"
+#include "core/scene/shown_unit.hpp"
 
 namespace pleuel {
 

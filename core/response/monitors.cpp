@@ -10,7 +10,7 @@
 #include "core/base/error.hpp"
 #include "core/base/quoted.hpp"
 #include "core/model/body_energy.hpp"
-#include "core/model/drive_rows.hpp"
+#include "core/model/model.hpp"
 #include "core/start/redundancy.hpp"
 
 namespace pleuel {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/model/body_point.hpp"
-#include "core/response/place_kinematics.hpp"
+#include "core/response/body_state.hpp"
 #include "core/response/signal.hpp"
 
 /// What can be observed of a point of a body. The model must outlive the signals.

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/response/body_state.hpp"
-#include "core/response/place_kinematics.hpp"
 
 namespace pleuel {
 

@@ -30,7 +30,7 @@ enum class AmongChannels {
 /// Reduces a history over time (and over channels: the smallest for min, the largest for the
 /// others). Peaks between steps are found by the parabola through three samples; at the ends of the
 /// range, and where the history jumps (history_jump.hpp), they are samples. Where a range begins or
-/// ends with a jump, that from within counts (limits_at_ends.hpp). rms, mean and integral use the
+/// ends with a jump, that from within counts. rms, mean and integral use the
 /// trapezoidal rule.
 /// @param time    steps + 1 instants [s]
 /// @param values  channels × (steps + 1)

@@ -1,10 +1,25 @@
 #pragma once
 
-#include "core/response/named_places.hpp"
+#include <string>
+#include <vector>
+
+#include "core/beam/beam_shape.hpp"
+#include "core/model/model.hpp"
 #include "core/response/station.hpp"
+#include "core/scene/problem_file.hpp"
 #include "core/section/section_stress.hpp"
 
 namespace pleuel {
+
+struct NamedPlace {
+  std::string name;
+  BeamPlace place;
+  double x = 0.0;  ///< along the beam [m]
+};
+
+/// The nodes of a beam and wherever joints, loads and responses are, along the beam. A place has
+/// the name of the first joint, load or response there, else "node 3".
+std::vector<NamedPlace> named_places(const ProblemFile& problem, const BodyModel& body);
 
 /// Stress of a beam as matrices: of its coordinates, of accelerations of its places, and of the
 /// forces of its stretched members (core/scene/body_constants.hpp). Body and places must outlive

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/scene/response_quantity.hpp"
+#include "core/scene/shown_unit.hpp"
 
 namespace pleuel {
 

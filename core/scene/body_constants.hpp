@@ -1,6 +1,13 @@
 #pragma once
 
+/// What the equations of motion and the responses know of the finite-element model of an elastic
+/// body: plain numbers, from whatever code, in SI units and in the axes of the body frame. The n
+/// elastic coordinates q_f leave no rigid motion: the reference condition of the body frame.
+
+/// The files by which bodies come from other codes and go to them (docs/invariants.md).
+
 #include <array>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,9 +17,6 @@
 #include "core/base/strengths.hpp"
 #include "core/scene/units.hpp"
 
-/// What the equations of motion and the responses know of the finite-element model of an elastic
-/// body: plain numbers, from whatever code, in SI units and in the axes of the body frame. The n
-/// elastic coordinates q_f leave no rigid motion: the reference condition of the body frame.
 namespace pleuel {
 
 using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
@@ -131,5 +135,16 @@ int nearest_place(const BodyConstants& constants, const Eigen::Vector3d& point);
 
 /// The largest distance of a place from the origin or from another place [m].
 double size_of(const BodyConstants& constants);
+
+/// The text of a file. Numbers read back exactly.
+std::string write_invariants(const InvariantsFile& file);
+
+/// Reads a file and checks it: sizes, finite numbers, a mass that is positive, matrices that are
+/// symmetric and positive definite, S_xx + S_yy + S_zz = mass matrix.
+/// @throws InputError that names the file and the JSON pointer.
+InvariantsFile read_invariants(const std::filesystem::path& path);
+
+/// @param file  how messages name the text
+InvariantsFile read_invariants_text(const std::string& text, const std::string& file);
 
 }  // namespace pleuel

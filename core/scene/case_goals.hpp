@@ -1,13 +1,14 @@
 #pragma once
 
+/// Goals of a problem that are exchanged for others: its objective, and limits that trade one
+/// response for another. With load cases and without.
+
 #include <cstddef>
 #include <string>
 #include <vector>
 
 #include "core/scene/problem_file.hpp"
 
-/// Goals of a problem that are exchanged for others: its objective, and limits that trade one
-/// response for another. With load cases and without.
 namespace pleuel {
 
 /// The goal by a response of the problem: one over cases is made such a response, "peak [worst]", if
@@ -37,5 +38,13 @@ std::vector<std::size_t> constraints_of_limit(const ProblemFile& problem, const 
 
 /// What is minimized or limited has to be accurate (AccuracySettings::responses of the cases).
 void ask_for_accuracy(ProblemFile& problem, std::size_t response);
+
+/// Joins the problems of cases (ProblemFile::cases). What is the same in all stands once under its
+/// own name; each other response, and limit on it, once for each case that it is for. An objective
+/// over cases is one response more, the last: "peak [worst]".
+/// @param cases    at least one, read from one file; constraints that a case is not meant by are
+///                 taken from its problem
+/// @param is_same  one a response of the file: whether it is the same in all cases
+ProblemFile joined_cases(std::vector<ProblemFile> cases, const std::vector<bool>& is_same);
 
 }  // namespace pleuel

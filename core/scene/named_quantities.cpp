@@ -1,5 +1,7 @@
 #include "core/scene/named_quantities.hpp"
 
+#include <fmt/format.h>
+
 namespace pleuel {
 
 std::optional<Quantity> find_quantity(const std::string& unit) {
@@ -7,6 +9,22 @@ std::optional<Quantity> find_quantity(const std::string& unit) {
     if (quantity.unit == unit) return quantity;
   }
   return std::nullopt;
+}
+
+bool has_dimension(const Quantity& quantity, const Dimension& dimension, const UnitSystem& units) {
+  return units.measure(std::string(quantity.unit)).dimension == dimension;
+}
+
+std::optional<Quantity> find_quantity(const Dimension& dimension, const UnitSystem& units) {
+  for (const Quantity& quantity : named_quantities) {
+    if (has_dimension(quantity, dimension, units)) return quantity;
+  }
+  return std::nullopt;
+}
+
+std::string describe(const Dimension& dimension, const UnitSystem& units) {
+  if (const auto quantity = find_quantity(dimension, units)) return describe(*quantity);
+  return fmt::format("a quantity [{}]", base_units(dimension));
 }
 
 }  // namespace pleuel

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "core/scene/dimension.hpp"
 #include "core/scene/units.hpp"
 
 namespace pleuel {
@@ -35,5 +36,15 @@ inline constexpr std::array named_quantities = {quantities::pure_number,
 
 /// The quantity of a number of a scene that has this SI unit, if there is one.
 std::optional<Quantity> find_quantity(const std::string& unit);
+
+/// The quantity that numbers of the file with this dimension have, if it has a name: of m² kg s⁻²
+/// "a torque [N m]".
+std::optional<Quantity> find_quantity(const Dimension& dimension, const UnitSystem& units);
+
+/// "a length [m]", "a number without unit"; of a quantity without name "a quantity [kg m]".
+std::string describe(const Dimension& dimension, const UnitSystem& units);
+
+/// Whether a unit has this dimension. @pre the unit is known
+bool has_dimension(const Quantity& quantity, const Dimension& dimension, const UnitSystem& units);
 
 }  // namespace pleuel

@@ -1,6 +1,5 @@
 #include "core/scene/number.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace pleuel {

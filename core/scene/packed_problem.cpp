@@ -3,8 +3,8 @@
 #include <set>
 
 #include "core/jobs/child_program.hpp"
+#include "core/scene/body_constants.hpp"
 #include "core/scene/body_source.hpp"
-#include "core/scene/invariants_file.hpp"
 
 /// What does not go member by member.
 namespace pleuel {

@@ -1,8 +1,6 @@
 #include "core/scene/problem_reader.hpp"
 
 #include <algorithm>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 

@@ -1,5 +1,7 @@
 #pragma once
 
+/// What is to be known of a type of response without looking at its settings.
+
 #include <cstddef>
 #include <optional>
 #include <string_view>
@@ -8,8 +10,10 @@
 #include "core/scene/problem_file.hpp"
 #include "core/scene/units.hpp"
 
-/// What is to be known of a type of response without looking at its settings.
 namespace pleuel {
+
+/// In place of the number of a component of a vector (0 … 2): its magnitude is asked for.
+inline constexpr int magnitude_direction = -1;
 
 struct ResponseKind {
   ResponseType type;

@@ -9,6 +9,17 @@
 
 namespace pleuel {
 
+/// What a response measures: mass [kg], stress [Pa], deflection and position [m], drive torque
+/// [N m]; an integral over time multiplies by [s]. `.unit` is the SI unit of values and limits.
+Quantity quantity_of(const ResponseSettings& response);
+
+/// The quantity of the integral over time of what a response measures: "Pa s".
+Quantity times_time(const Quantity& quantity);
+
+/// What a design variable measures: the quantity of the first number of the scene that is bound to
+/// it; else that of the other variables of its linear constraint; else a pure number.
+Quantity variable_quantity(const ProblemFile& problem, int variable);
+
 /// In which unit people see a quantity. JSON and CSV stay in SI.
 struct ShownUnit {
   std::string si;       ///< "m"

@@ -7,7 +7,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
 #include "core/base/sparse_rows.hpp"
-#include "core/mechanism/configuration.hpp"
+#include "core/mechanism/mechanism.hpp"
 #include "core/start/assembly.hpp"
 
 namespace pleuel {

@@ -12,8 +12,8 @@
 #include "core/base/rotation_vector.hpp"
 #include "core/linear/elastic_stability.hpp"
 #include "core/linear/free_deformations.hpp"
-#include "core/mechanism/configuration.hpp"
 #include "core/mechanism/linear_solver.hpp"
+#include "core/mechanism/mechanism.hpp"
 #include "core/system/linear_forces.hpp"
 
 namespace pleuel {

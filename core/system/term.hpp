@@ -104,4 +104,40 @@ struct DesignDerivative {
   Data data;
 };
 
+/// What can be read of a force element.
+enum class Reading {
+  coordinate,   ///< its length or relative coordinate [m] or [rad]
+  rate,         ///< of that
+  force,        ///< of its spring and damper: a pull, or on the second body [N] or [N m]
+  motor_power,  ///< what its motor supplies [W]
+  damper_power  ///< what its damper takes, and its resistance to a rate [W]
+};
+
+/// Reads a force element in a state, with derivatives. It acts on nothing.
+class Gauge {
+ public:
+  virtual ~Gauge() = default;
+  virtual double read(const State& state, Reading reading) const = 0;
+  /// q += weight · ∂(reading)/∂q; v and design alike.
+  virtual void add_gradient(const State& state, Reading reading, double weight, Eigen::VectorXd& q,
+                            Eigen::VectorXd& v, Eigen::VectorXd& design) const = 0;
+};
+
+/// A strain that is quadratic in some of the generalized coordinates, with its stiffness:
+///     g = bᵀ q + ½ qᵀ G q,   force κ g (b + G q)
+struct QuadraticStrain {
+  std::vector<int> coordinates;  ///< indices in q
+  Eigen::VectorXd linear;        ///< b
+  Eigen::MatrixXd quadratic;     ///< G, symmetric
+  double stiffness = 0.0;        ///< κ
+};
+
+/// What a term implements that is made of such strains: who solves for an equilibrium treats their
+/// forces as unknowns of their own (core/linear/axial_strains.hpp).
+class StrainSource {
+ public:
+  virtual ~StrainSource() = default;
+  virtual std::vector<QuadraticStrain> strains() const = 0;
+};
+
 }  // namespace pleuel

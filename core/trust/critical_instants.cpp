@@ -12,7 +12,7 @@
 #include "core/base/error.hpp"
 #include "core/base/int_size.hpp"
 #include "core/linear/elastic_stability.hpp"
-#include "core/linear/turning.hpp"
+#include "core/linear/linearization.hpp"
 #include "core/model/state_in_space.hpp"
 #include "core/response/full_mechanism.hpp"
 #include "core/response/lateral_buckling_signal.hpp"

@@ -1,5 +1,3 @@
-#include "core/trust/frequency_meaning.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -10,10 +8,11 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
+#include "core/linear/linearization.hpp"
 #include "core/linear/modes.hpp"
-#include "core/linear/turning.hpp"
 #include "core/response/full_mechanism.hpp"
 #include "core/scene/shown_unit.hpp"
+#include "core/trust/check_list.hpp"
 
 namespace pleuel {
 

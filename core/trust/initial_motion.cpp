@@ -1,5 +1,3 @@
-#include "core/trust/initial_motion.hpp"
-
 #include <algorithm>
 #include <array>
 
@@ -9,6 +7,7 @@
 #include "core/mechanism/linear_solver.hpp"
 #include "core/model/scene_geometry.hpp"
 #include "core/response/make_responses.hpp"
+#include "core/trust/check_list.hpp"
 
 namespace pleuel {
 

@@ -15,7 +15,7 @@
 #include "core/base/find_named.hpp"
 #include "core/frame/body_frame.hpp"
 #include "core/mobility/lock.hpp"
-#include "core/model/drive_rows.hpp"
+#include "core/model/model.hpp"
 #include "core/model/scene_geometry.hpp"
 #include "core/response/monitors.hpp"
 #include "core/start/degrees_of_freedom.hpp"

@@ -29,7 +29,7 @@ std::vector<Finding> check_rest(const TrustedRun& run);
 std::string blocked_drives_text(const Model& model, const State& state);
 
 /// Reactions of joints that hold more than they have to, as two hinges of a door do: the equations
-/// of motion do not say which one takes how much (least_norm.hpp).
+/// of motion do not say which one takes how much (redundancy.hpp).
 std::vector<Finding> check_undetermined_reactions(const TrustedRun& run);
 
 }  // namespace pleuel

@@ -1,5 +1,3 @@
-#include "core/trust/laws_over_coordinates.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,6 +8,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/model/scene_geometry.hpp"
 #include "core/response/force_signals.hpp"
+#include "core/trust/check_list.hpp"
 #include "core/trust/fast_laws.hpp"
 
 namespace pleuel {

@@ -14,10 +14,8 @@
 #include "core/base/number_text.hpp"
 #include "core/base/quoted.hpp"
 #include "core/scene/body_groups.hpp"
+#include "core/trust/bent_beams.hpp"
 #include "core/trust/coarse_runs.hpp"
-#include "core/trust/far_bending.hpp"
-#include "core/trust/low_slenderness.hpp"
-#include "core/trust/response_changes.hpp"
 #include "core/trust/round_off.hpp"
 
 namespace pleuel {

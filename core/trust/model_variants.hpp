@@ -24,13 +24,13 @@ struct LeftOut {
 };
 
 /// Runs the variants whose indicators speak, in larger steps (coarse_runs.hpp):
-/// - `shear` in beams that leave it out and are stubby (low_slenderness.hpp),
+/// - `shear` in beams that leave it out and are stubby (bent_beams.hpp),
 /// - `more_frames`, by twice as many, in beams that bend or twist far against those they have: linear
 ///   elasticity in a frame is off by the square of rotations, of which twice the frames leave a
 ///   quarter.
 ///
 /// Told from 1 % of what a response is with it, serious from 10 % of that or of a tenth of its
-/// limits (response_changes.hpp), with the beams whose indicators say that they have a part in it. Where a response cannot be had of a divided beam, rotations tell (far_bending.hpp).
+/// limits (coarse_runs.hpp), with the beams whose indicators say that they have a part in it. Where a response cannot be had of a divided beam, rotations tell (bent_beams.hpp).
 LeftOut compare_variants(const TrustedRun& run);
 
 }  // namespace pleuel

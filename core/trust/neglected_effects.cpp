@@ -12,7 +12,7 @@
 #include "core/base/number_text.hpp"
 #include "core/model/effect_estimates.hpp"
 #include "core/response/effect_measurement.hpp"
-#include "core/trust/beam_state.hpp"
+#include "core/trust/bent_beams.hpp"
 #include "core/trust/coarse_runs.hpp"
 
 namespace pleuel {

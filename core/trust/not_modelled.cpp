@@ -1,5 +1,3 @@
-#include "core/trust/not_modelled.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -8,10 +6,11 @@
 #include <fmt/ranges.h>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/model/imported_constants.hpp"
+#include "core/model/imported_builder.hpp"
 #include "core/model/scene_geometry.hpp"
 #include "core/scene/body_source.hpp"
 #include "core/scene/joint_kind.hpp"
+#include "core/trust/check_list.hpp"
 
 namespace pleuel {
 

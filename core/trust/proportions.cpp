@@ -1,5 +1,3 @@
-#include "core/trust/proportions.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,6 +15,7 @@
 #include "core/model/scene_geometry.hpp"
 #include "core/scene/held_points.hpp"
 #include "core/scene/joint_kind.hpp"
+#include "core/trust/check_list.hpp"
 
 namespace pleuel {
 

@@ -9,11 +9,10 @@
 #include "core/response/history_reduction.hpp"
 #include "core/response/make_responses.hpp"
 #include "core/response/recorder.hpp"
-#include "core/scene/magnitude_direction.hpp"
 #include "core/scene/packed_problem.hpp"
 #include "core/scene/response_kind.hpp"
 #include "core/scene/response_parts.hpp"
-#include "core/scene/response_quantity.hpp"
+#include "core/scene/shown_unit.hpp"
 
 namespace pleuel {
 

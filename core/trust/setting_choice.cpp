@@ -14,10 +14,10 @@
 #include "core/base/relative_error.hpp"
 #include "core/integration/simulation_options.hpp"
 #include "core/response/effect_measurement.hpp"
+#include "core/trust/check_list.hpp"
 #include "core/trust/checks.hpp"
 #include "core/trust/error_bars.hpp"
 #include "core/trust/fast_laws.hpp"
-#include "core/trust/laws_over_coordinates.hpp"
 #include "core/trust/refinement_set.hpp"
 #include "core/trust/trusted_run.hpp"
 

@@ -12,7 +12,7 @@
 #include "core/base/int_size.hpp"
 #include "core/linear/elastic_stability.hpp"
 #include "core/response/lateral_buckling_signal.hpp"
-#include "core/trust/stability.hpp"
+#include "core/trust/check_list.hpp"
 
 namespace pleuel {
 
@@ -82,7 +82,7 @@ class SidewaysBuckling {
     time_ = time;
   }
 
-  /// 0: nothing is worth a word, or the axial force does it alone (stability.hpp).
+  /// 0: nothing is worth a word, or the axial force does it alone (check_list.hpp).
   double share() { return share_ > near_critical && is_bent() ? share_ : 0.0; }
 
   /// @pre share() > 0

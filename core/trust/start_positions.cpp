@@ -1,5 +1,3 @@
-#include "core/trust/start_positions.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,11 +11,12 @@
 #include "core/base/error.hpp"
 #include "core/base/find_named.hpp"
 #include "core/linear/free_deformations.hpp"
-#include "core/mechanism/configuration.hpp"
+#include "core/mechanism/mechanism.hpp"
 #include "core/model/model.hpp"
 #include "core/scene/response_parts.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "core/start/assembly.hpp"
+#include "core/trust/check_list.hpp"
 
 namespace pleuel {
 

@@ -1,5 +1,3 @@
-#include "core/trust/startup_transient.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +6,7 @@
 #include "core/base/error.hpp"
 #include "core/base/number_text.hpp"
 #include "core/response/linearized_expression.hpp"
+#include "core/trust/check_list.hpp"
 #include "core/trust/coarse_runs.hpp"
 #include "core/trust/round_off.hpp"
 #include "core/trust/trusted_run.hpp"

@@ -1,5 +1,3 @@
-#include "core/trust/tension_layers.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -9,6 +7,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/response/lateral_buckling_signal.hpp"
 #include "core/scene/response_parts.hpp"
+#include "core/trust/check_list.hpp"
 
 namespace pleuel {
 

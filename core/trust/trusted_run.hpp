@@ -46,9 +46,9 @@ struct CoarseRuns {
 struct SharedFindings {
   std::optional<CoarseRuns> coarse{};
   std::optional<std::vector<bool>> is_round_off{};  ///< round_off.hpp
-  /// Values of a run with short steps behind jumps, one a response; of one that was needed (unresolved_transients.hpp).
+  /// Values of a run with short steps behind jumps, one a response; of one that was needed (check_list.hpp).
   std::optional<Eigen::VectorXd> with_short_steps{};
-  std::optional<std::vector<LargestDeformation>> deformations{};  ///< beam_state.hpp
+  std::optional<std::vector<LargestDeformation>> deformations{};  ///< bent_beams.hpp
 };
 
 /// A simulated design, and what its findings are made from.

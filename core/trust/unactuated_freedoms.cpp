@@ -11,7 +11,7 @@
 #include "core/base/find_named.hpp"
 #include "core/base/quoted.hpp"
 #include "core/model/body_energy.hpp"
-#include "core/model/drive_rows.hpp"
+#include "core/model/model.hpp"
 #include "core/scene/body_groups.hpp"
 #include "core/scene/joint_kind.hpp"
 #include "core/scene/response_kind.hpp"

@@ -1,5 +1,3 @@
-#include "core/trust/unresolved_transients.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -14,6 +12,7 @@
 #include "core/base/number_text.hpp"
 #include "core/integration/fast_vibration.hpp"
 #include "core/response/fatigue.hpp"
+#include "core/trust/check_list.hpp"
 #include "core/trust/refined_runs.hpp"
 #include "core/trust/round_off.hpp"
 #include "core/trust/sudden_jumps.hpp"

@@ -1,16 +1,78 @@
 #include "optimization/design/design_case.hpp"
 
-#include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/find_named.hpp"
 #include "core/base/stopwatch.hpp"
-#include "optimization/design/setting_text.hpp"
+#include "core/scene/body_source.hpp"
 #include "sensitivity/method_choice.hpp"
 
 namespace pleuel {
+
+namespace {
+
+std::string beam_text(const std::string& name, const BeamBody& beam) {
+  std::string text = fmt::format("; {}:", name);
+  for (const Segment& segment : beam.segments) {
+    text += fmt::format(" {}", segment.elements);
+    if (segment.fraction) text += fmt::format(" of {}", *segment.fraction);
+  }
+  if (beam.reduction) text += fmt::format(" +{} modes", beam.reduction->more_modes);
+  return text;
+}
+
+std::string effects_text(const EffectSettings& effects) {
+  std::string text = fmt::format("; effects {}", effects.tolerance);
+  for (const auto& [body, estimates] : effects.decisions.estimates) {
+    const auto& [elasticity, axial, torsional, stiffening, rotary] = estimates;
+    text +=
+        fmt::format(" {} {} {} {} {} {}", body, elasticity, axial, torsional, stiffening, rotary);
+  }
+  for (const auto& [name, effect] : effects.decisions.measured) {
+    if (!effect.is_needed) text += fmt::format(" -{}/{}", name.first, name.second);
+  }
+  return text;
+}
+
+/// What is minimized and what is limited: the searches for the ends of a front differ in both.
+std::string goals_text(const ProblemFile& file) {
+  std::string text;
+  if (file.objective) {
+    const bool is_maximized = file.objective->aim == Aim::maximize;
+    text +=
+        fmt::format("; {} {}", is_maximized ? "maximize" : "minimize", file.objective->response);
+  }
+  text += "; limited";
+  for (const ConstraintSettings& one : file.constraints) {
+    text += fmt::format(" {}", one.response.empty() ? one.name : one.response);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string setting_text(const ProblemFile& file) {
+  const SimulationSettings& simulation = file.simulation;
+  std::string text =
+      fmt::format("step {} s, local error {}, smallest step {} s, newton {}", simulation.step,
+                  simulation.local_error, simulation.smallest_step, simulation.newton_tolerance);
+  for (const Body& body : file.scene.bodies) {
+    if (const auto* beam = std::get_if<BeamBody>(&body.shape)) text += beam_text(body.name, *beam);
+    const auto* imported = std::get_if<ImportedBody>(&body.shape);
+    if (imported && imported->maker) {
+      text += fmt::format("; {} made by {}", body.name, imported->maker->identity());
+    }
+  }
+  text +=
+      effects_text(file.effects) + "; gradients " + to_string(file.sensitivity.method) + "; start";
+  for (const DesignVariable& variable : file.variables) text += fmt::format(" {}", variable.start);
+  text += goals_text(file);
+  if (!file.load_case.empty()) text += fmt::format("; case {}", file.load_case);
+  return text;
+}
 
 std::size_t index_of_response(const ProblemFile& file, const std::string& name) {
   if (const auto index = index_of_named(file.responses, name)) return *index;
@@ -31,7 +93,7 @@ Analysis& DesignCase::analysis_at(const Eigen::VectorXd& x) {
   return *analysis_;
 }
 
-std::optional<std::size_t> DesignCase::response_of(const ConstraintRows& rows) const {
+std::optional<std::size_t> DesignCase::response_of(const RowSource& rows) const {
   if (rows.part) return rows.part;
   if (!rows.constraint) return index_of_response(file_, file_.objective->response);
   const std::string& name = file_.constraints[*rows.constraint].response;
@@ -39,35 +101,23 @@ std::optional<std::size_t> DesignCase::response_of(const ConstraintRows& rows) c
   return index_of_response(file_, name);
 }
 
-DesignCase::Row DesignCase::linear_row(std::size_t constraint) const {
-  Row row;
-  row.gradient = Eigen::VectorXd::Zero(x_.size());
-  for (const auto& [variable, factor] : file_.constraints[constraint].linear) {
-    row.value += factor * x_(variable);
-    row.gradient(variable) += factor;
-  }
-  return row;
-}
-
-std::vector<ConstraintRows> DesignCase::with_objective(
-    const std::vector<ConstraintRows>& rows) const {
-  std::vector<ConstraintRows> all = rows;
-  if (has_objective()) all.insert(all.begin(), ConstraintRows());
-  return all;
-}
-
 /// One after the other.
 std::vector<DesignCase::Row> DesignCase::rows_at(const Analysis& analysis,
-                                                 const std::vector<ConstraintRows>& rows) const {
+                                                 const std::vector<RowSource>& rows) const {
   std::vector<Row> all;
-  const auto add = [&](const ConstraintRows& of, std::size_t response, const Reduction& reduction) {
+  const auto add = [&](const RowSource& of, std::size_t response, const Reduction& reduction) {
     const double sign = of.sign.value_or(of.constraint ? 1.0 : objective_sign());
     all.push_back({sign * reduction.value, SampledValue{response, reduction.samples}, sign});
   };
-  for (const ConstraintRows& of : rows) {
+  for (const RowSource& of : rows) {
     const auto response = response_of(of);
     if (!response) {
-      all.push_back(linear_row(*of.constraint));
+      Row& row = all.emplace_back();
+      row.gradient = Eigen::VectorXd::Zero(x_.size());
+      for (const auto& [variable, factor] : file_.constraints[*of.constraint].linear) {
+        row.value += factor * x_(variable);
+        row.gradient(variable) += factor;
+      }
     } else if (of.division) {
       for (const Reduction& peak : divided_peaks(analysis, file_, *response, *of.division)) {
         add(of, *response, peak);
@@ -87,8 +137,7 @@ GradientMethod DesignCase::method_for(const Analysis& analysis,
   return has_more_rows ? GradientMethod::direct : choice_->method;
 }
 
-Eigen::MatrixXd DesignCase::gradients_of(Analysis& analysis,
-                                         const std::vector<ConstraintRows>& rows,
+Eigen::MatrixXd DesignCase::gradients_of(Analysis& analysis, const std::vector<RowSource>& rows,
                                          const std::vector<Row>& at_x) {
   std::vector<SampledValue> values;
   for (const Row& row : at_x) {
@@ -125,19 +174,14 @@ Eigen::MatrixXd DesignCase::gradients_of(Analysis& analysis,
   return gradients;
 }
 
-EvaluationKey DesignCase::key_of(const Eigen::VectorXd& x, Request request,
-                                 const std::string& rows) const {
+std::optional<StoredEvaluation> DesignCase::recall(const Eigen::VectorXd& x, Request request,
+                                                   const std::string& name,
+                                                   const std::vector<RowSource>& rows) {
+  if (!store_) return std::nullopt;
   const GradientMethod method = choice_ ? choice_->method : file_.sensitivity.method;
   const bool is_open = method == GradientMethod::automatic;
   const bool has_method = request == Request::values_and_gradients && !is_open;
-  return {setting_, rows, has_method ? to_string(method) : "", request, x};
-}
-
-std::optional<StoredEvaluation> DesignCase::recall(const Eigen::VectorXd& x, Request request,
-                                                   const std::string& name,
-                                                   const std::vector<ConstraintRows>& rows) {
-  if (!store_) return std::nullopt;
-  asked_ = key_of(x, request, name);
+  asked_ = {setting_, name, has_method ? to_string(method) : "", request, x};
   auto stored = store_->find(*asked_);
   if (!stored) return std::nullopt;
   if (stored->older_row > 0) recalled_.emplace_back(*asked_, rows);
@@ -148,7 +192,7 @@ std::optional<StoredEvaluation> DesignCase::recall(const Eigen::VectorXd& x, Req
 }
 
 StoredEvaluation DesignCase::compute(const Eigen::VectorXd& x, Request request,
-                                     const std::vector<ConstraintRows>& rows) {
+                                     const std::vector<RowSource>& rows) {
   const Stopwatch stopwatch;
   StoredEvaluation answer;
   try {
@@ -171,9 +215,10 @@ void DesignCase::confirm(const std::function<bool(const Eigen::VectorXd& x)>& co
 }
 
 Evaluation DesignCase::simulated_rows(const Eigen::VectorXd& x, Request request,
-                                      const std::vector<ConstraintRows>& rows) {
+                                      const std::vector<RowSource>& rows) {
   Analysis& analysis = analysis_at(x);
-  const std::vector<ConstraintRows> asked = with_objective(rows);
+  std::vector<RowSource> asked = rows;
+  if (has_objective()) asked.insert(asked.begin(), RowSource());
   const std::vector<Row> all = rows_at(analysis, asked);
   const Eigen::Index first = has_objective() ? 1 : 0, count = std::ssize(all) - first;
   Evaluation evaluation;

@@ -8,7 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "core/response/analysis.hpp"
+#include "core/response/value_over_cases.hpp"
+#include "core/scene/problem_file.hpp"
 #include "optimization/design/peak_rows.hpp"
 #include "optimization/evaluation_store.hpp"
 #include "optimization/problem.hpp"
@@ -19,17 +23,26 @@ namespace pleuel {
 /// Index of a response of a file. @throws InputError if there is none of this name
 std::size_t index_of_response(const ProblemFile& file, const std::string& name);
 
-/// What stands for one constraint of a file at each design, or, without a constraint, for the
-/// objective: one row, or one for each peak that is told apart.
-struct ConstraintRows {
-  std::optional<std::size_t> constraint = {};
+/// Where some components of a design problem come from: of a case what stands for one constraint or, without
+/// a constraint, for the objective: one component, or one for each peak that is told apart.
+struct RowSource {
+  std::size_t load_case = 0;
+  std::optional<std::size_t> constraint = {};  ///< in the problem of the case
   /// Of a response that is the largest, or smallest, of others: one of them.
   std::optional<std::size_t> part = {};
   std::optional<PeakDivision> division = {};
-  /// Of `part` by itself, neither limited nor minimized in its case: what it is multiplied with.
+  /// What a response by itself, neither limited nor minimized in its case, is multiplied with.
   std::optional<double> sign = {};
+  /// In place of a case: a response of the joined problem that is made from several. One component.
+  std::optional<std::size_t> over_cases = {};
 
-  int count() const { return division ? division->peaks() : 1; }
+  int count() const { return division && !over_cases ? division->peaks() : 1; }
+};
+
+/// Components of a design problem, with a name that tells them from others of the same file.
+struct NamedRows {
+  std::string name;
+  std::vector<RowSource> sources;
 };
 
 /// The mechanism that a problem file describes, simulated at designs: the part of a design problem
@@ -58,15 +71,15 @@ class DesignCase {
   void forget_analysis() { analysis_.reset(); }
 
   /// Index of the response of rows; none for a sum of variables.
-  std::optional<std::size_t> response_of(const ConstraintRows& rows) const;
+  std::optional<std::size_t> response_of(const RowSource& rows) const;
 
   /// What the store knows of an evaluation. Asks this process: not for other threads.
   std::optional<StoredEvaluation> recall(const Eigen::VectorXd& x, Request request,
                                          const std::string& name,
-                                         const std::vector<ConstraintRows>& rows);
+                                         const std::vector<RowSource>& rows);
   /// The evaluation itself, or why there is none; may run beside those of other cases.
   StoredEvaluation compute(const Eigen::VectorXd& x, Request request,
-                           const std::vector<ConstraintRows>& rows);
+                           const std::vector<RowSource>& rows);
   /// Tells the store of what recall() asked it for last.
   void keep(const StoredEvaluation& answer) {
     if (store_) store_->keep(*asked_, answer);
@@ -84,19 +97,15 @@ class DesignCase {
     Eigen::VectorXd gradient = {};  ///< of a sum of variables, which has no samples
   };
 
-  /// The rows, before them the objective, if there is one.
-  std::vector<ConstraintRows> with_objective(const std::vector<ConstraintRows>& rows) const;
   Evaluation simulated_rows(const Eigen::VectorXd& x, Request request,
-                            const std::vector<ConstraintRows>& rows);
-  EvaluationKey key_of(const Eigen::VectorXd& x, Request request, const std::string& rows) const;
-  Row linear_row(std::size_t constraint) const;
-  std::vector<Row> rows_at(const Analysis& analysis, const std::vector<ConstraintRows>& rows) const;
+                            const std::vector<RowSource>& rows);
+  std::vector<Row> rows_at(const Analysis& analysis, const std::vector<RowSource>& rows) const;
   /// That of the choice, which was made for the first rows: the adjoint method, if it was to choose, is
   /// none for more rows than there are variables.
   GradientMethod method_for(const Analysis& analysis,
                             const std::vector<SampledValue>& values) const;
   /// @param at_x  rows_at() the design
-  Eigen::MatrixXd gradients_of(Analysis& analysis, const std::vector<ConstraintRows>& rows,
+  Eigen::MatrixXd gradients_of(Analysis& analysis, const std::vector<RowSource>& rows,
                                const std::vector<Row>& at_x);
 
   ProblemFile file_;
@@ -106,11 +115,17 @@ class DesignCase {
   /// What the store was asked for last: the choice of gradients may have changed since.
   std::optional<EvaluationKey> asked_;
   /// What the store knew of an older run so far.
-  std::vector<std::pair<EvaluationKey, std::vector<ConstraintRows>>> recalled_;
+  std::vector<std::pair<EvaluationKey, std::vector<RowSource>>> recalled_;
   Eigen::VectorXd x_;
   std::unique_ptr<Analysis> analysis_;
   std::optional<GradientChoice> choice_;
   GradientMethod used_ = GradientMethod::automatic;  ///< for the gradients evaluated last
 };
+
+/// What may differ between the simulations of one optimization, as text from which doubles read back
+/// exactly: steps, tolerances, elements, modes, effects that are left out, the design for which the
+/// model decides, the method of gradients, the objective, and the responses that are limited. How far
+/// they are limited is not part of it, as no evaluation depends on that.
+std::string setting_text(const ProblemFile& file);
 
 }  // namespace pleuel

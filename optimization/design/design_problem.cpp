@@ -1,6 +1,7 @@
 #include "optimization/design/design_problem.hpp"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,10 +10,82 @@
 #include "core/base/int_size.hpp"
 #include "core/jobs/parallel.hpp"
 #include "core/scene/load_cases.hpp"
+#include "core/scene/response_parts.hpp"
 
 namespace pleuel {
 
+RowSource response_row(const ProblemFile& joined, std::size_t response, double sign) {
+  const OfCase of_case = case_of_response(joined, response);
+  if (is_of_several(of_case)) return {.sign = sign, .over_cases = response};
+  return {.load_case = of_case.load_case, .part = of_case.index, .sign = sign};
+}
+
 namespace {
+
+/// Rows that each case is asked for.
+using RowsOfCases = std::vector<std::vector<RowSource>>;
+
+/// What responses over cases are made from, as further rows of the cases: asked for behind their
+/// own, and put together when all are known.
+class PartRows {
+ public:
+  /// @param responses  over cases, or of one case, by their places in the joined problem
+  PartRows(const ProblemFile& joined, const std::vector<std::size_t>& responses) : joined_(joined) {
+    std::set<std::size_t> parts;
+    for (const std::size_t response : responses) {
+      for (const std::size_t part : parts_in_cases(joined, response)) parts.insert(part);
+    }
+    std::map<std::size_t, Eigen::Index> counts;
+    for (auto part = parts.rbegin(); part != parts.rend(); ++part) {
+      from_end_[*part] = ++counts[case_of_response(joined, *part).load_case];
+    }
+  }
+
+  /// Adds the rows of the parts behind others, and to their name.
+  void add_to(RowsOfCases& rows, std::string& name) const {
+    if (from_end_.empty()) return;
+    name += ", with";
+    for (const auto& [part, place] : from_end_) {
+      const RowSource source = response_row(joined_, part);
+      rows[source.load_case].push_back(source);
+      name += fmt::format(" {}", joined_.responses[part].name);
+    }
+  }
+
+  /// Value of one of the responses, and its gradient where it is asked for.
+  /// @param answers   one a case, to the rows of add_to()
+  /// @param gradient  may be null
+  double combined(std::size_t response, const Eigen::VectorXd& x,
+                  const std::vector<StoredEvaluation>& answers, Eigen::VectorXd* gradient) const {
+    const auto row_of = [&](std::size_t part, const Evaluation& evaluation) {
+      return evaluation.constraints.size() - from_end_.at(part);
+    };
+    const auto evaluation_of = [&](std::size_t part) -> const Evaluation& {
+      return answers[case_of_response(joined_, part).load_case].evaluation;
+    };
+    const ValueInCase value_of = [&](std::size_t part) {
+      const Evaluation& evaluation = evaluation_of(part);
+      return evaluation.constraints(row_of(part, evaluation));
+    };
+    if (gradient != nullptr) {
+      const LinearizedResponse linear = linearized_over_cases(joined_, response, x, value_of);
+      *gradient = linear.design;
+      for (const WeightedResponse& part : linear.parts) {
+        const Evaluation& evaluation = evaluation_of(part.response);
+        *gradient +=
+            part.weight *
+            evaluation.constraint_jacobian.row(row_of(part.response, evaluation)).transpose();
+      }
+    }
+    return value_over_cases(joined_, response, x, value_of);
+  }
+
+ private:
+  const ProblemFile& joined_;
+  /// Each part by its place in the joined problem: the number of its row, counted from the last of
+  /// its case.
+  std::map<std::size_t, Eigen::Index> from_end_;
+};
 
 std::string text_in(const ShownUnit& unit, double value) {
   return fmt::format("{:.6g}{}", unit.shown(value), unit.suffix());
@@ -113,17 +186,18 @@ Evaluation DesignProblem::evaluate(const Eigen::VectorXd& x, Request request) {
   for (std::size_t i = 0; i < constraints_.size(); ++i) {
     const OfCase of_case = case_of_constraint(file_, i);
     // As one over cases whatever it is made of: PartRows name its parts, by which records tell rows apart.
-    rows.sources.push_back(is_of_several(of_case) ? RowSource{0, {.sign = 1.0}, *response_of(i)}
-                                                  : RowSource{of_case.load_case, {of_case.index}});
+    rows.sources.push_back(is_of_several(of_case)
+                               ? RowSource{.sign = 1.0, .over_cases = response_of(i)}
+                               : RowSource{of_case.load_case, of_case.index});
   }
   return evaluate_rows(x, request, rows);
 }
 
 /// The store belongs to this process and is asked and told in the order of the cases: what it holds
 /// and what comes of it does not depend on how many run at a time.
-std::vector<StoredEvaluation> DesignProblem::answers_of(const Eigen::VectorXd& x, Request request,
-                                                        const std::string& name,
-                                                        const RowsOfCases& rows) {
+std::vector<StoredEvaluation> DesignProblem::answers_of(
+    const Eigen::VectorXd& x, Request request, const std::string& name,
+    const std::vector<std::vector<RowSource>>& rows) {
   std::vector<StoredEvaluation> answers(case_count());
   std::vector<std::size_t> open;
   for (std::size_t c = 0; c < case_count(); ++c) {
@@ -166,24 +240,21 @@ double DesignProblem::objective_of(const std::vector<StoredEvaluation>& answers,
   return sum;
 }
 
-std::vector<std::size_t> DesignProblem::responses_over_cases(const NamedRows& rows) const {
-  std::vector<std::size_t> responses;
-  if (!has_objective_in_cases()) responses.push_back(objective_response());
-  for (const RowSource& source : rows.sources) {
-    if (source.over_cases) responses.push_back(*source.over_cases);
-  }
-  return responses;
-}
-
 Evaluation DesignProblem::evaluate_rows(const Eigen::VectorXd& x, Request request,
                                         const NamedRows& rows) {
   RowsOfCases asked(case_count());
   Eigen::Index count = 0;
+  std::vector<std::size_t> over_cases;
+  if (!has_objective_in_cases()) over_cases.push_back(objective_response());
   for (const RowSource& source : rows.sources) {
     count += source.count();
-    if (!source.over_cases) asked[source.load_case].push_back(source.rows);
+    if (source.over_cases) {
+      over_cases.push_back(*source.over_cases);
+    } else {
+      asked[source.load_case].push_back(source);
+    }
   }
-  const PartRows parts(file_, responses_over_cases(rows));
+  const PartRows parts(file_, over_cases);
   std::string name = rows.name;
   parts.add_to(asked, name);
   const std::vector<StoredEvaluation> answers = answers_of(x, request, name, asked);
@@ -207,7 +278,7 @@ Evaluation DesignProblem::evaluate_rows(const Eigen::VectorXd& x, Request reques
   for (const RowSource& source : rows.sources) {
     const Eigen::Index size = source.count();
     if (source.over_cases) {
-      const double sign = *source.rows.sign;
+      const double sign = *source.sign;
       evaluation.constraints(row) = sign * parts.combined(*source.over_cases, x, answers, wanted);
       if (has_gradients) evaluation.constraint_jacobian.row(row) = sign * gradient;
     } else {

@@ -9,10 +9,12 @@
 
 #include "core/scene/shown_unit.hpp"
 #include "optimization/design/design_case.hpp"
-#include "optimization/design/rows_over_cases.hpp"
 #include "optimization/problem.hpp"
 
 namespace pleuel {
+
+/// A response of the joined problem by itself, neither limited nor minimized in its case.
+RowSource response_row(const ProblemFile& joined, std::size_t response, double sign = 1.0);
 
 /// The optimization problem that a problem file describes: responses of the simulated mechanism as
 /// objective (of a response that is maximized its negative) and constraints. Of a file with load
@@ -101,9 +103,9 @@ class DesignProblem : public Problem {
  private:
   double objective_of(const std::vector<StoredEvaluation>& answers,
                       Eigen::VectorXd* gradient) const;
-  std::vector<std::size_t> responses_over_cases(const NamedRows& rows) const;
   std::vector<StoredEvaluation> answers_of(const Eigen::VectorXd& x, Request request,
-                                           const std::string& name, const RowsOfCases& rows);
+                                           const std::string& name,
+                                           const std::vector<std::vector<RowSource>>& rows);
 
   ProblemFile file_;
   int threads_;

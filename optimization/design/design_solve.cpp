@@ -3,26 +3,22 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <optional>
 
 #include <fmt/format.h>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/base/number_text.hpp"
 #include "core/response/divided_deflection.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/response_parts.hpp"
 #include "core/trust/refined_runs.hpp"
-#include "optimization/broken_limits.hpp"
-#include "optimization/design/linear_limits.hpp"
 #include "optimization/design/margin_problem.hpp"
 #include "optimization/design/number_judgement.hpp"
 #include "optimization/design/peak_problem.hpp"
 #include "optimization/design/peak_windows.hpp"
-#include "optimization/find_optimum.hpp"
-#include "optimization/prices.hpp"
+#include "optimization/kkt_audit.hpp"
+#include "optimization/linear_choice.hpp"
+#include "optimization/result.hpp"
 #include "optimization/scaling.hpp"
-#include "sensitivity/kinks.hpp"
 
 namespace pleuel {
 
@@ -88,52 +84,6 @@ void fold_result(const PeakProblem& peaks, const Folding& folding, DesignProblem
   result.case_shares = peaks.objective_shares(result.constraint_multipliers);
   result.constraint_multipliers = peaks.fold_multipliers(result.constraint_multipliers);
   result.bound_multipliers = peaks.design_of(result.bound_multipliers);
-}
-
-/// A kink, and the case whose analysis has it.
-struct CaseKink {
-  std::size_t load_case = 0;
-  Kink kink;
-};
-
-/// Of the objective and of what is limited, at a design; none if it cannot be simulated.
-std::vector<CaseKink> optimized_kinks(DesignProblem& design, const Eigen::VectorXd& x) {
-  std::vector<CaseKink> kinks;
-  try {
-    for (std::size_t c = 0; c < design.case_count(); ++c) {
-      DesignCase& one = design.load_case(c);
-      const std::vector<std::size_t> optimized = optimized_responses(design, c);
-      for (const Kink& kink : find_kinks(one.analysis_at(x), one.file().variables)) {
-        const bool counts =
-            std::find(optimized.begin(), optimized.end(), kink.response) != optimized.end();
-        if (counts) kinks.push_back({c, kink});
-      }
-    }
-  } catch (const SimulationError&) {
-    return {};
-  }
-  return kinks;
-}
-
-/// The peaks that tie: the closest two of each response. Empty if there are none.
-std::string describe(const std::vector<CaseKink>& kinks, DesignProblem& design,
-                     const Eigen::VectorXd& x) {
-  std::vector<std::string> texts;
-  const CaseKink* last = nullptr;
-  for (const CaseKink& one : kinks) {
-    const Kink& kink = one.kink;
-    const bool is_told =
-        last && last->load_case == one.load_case && last->kink.response == kink.response;
-    last = &one;
-    if (is_told) continue;
-    const Response& response =
-        design.load_case(one.load_case).analysis_at(x).responses[kink.response];
-    const std::size_t joined = joined_response(design.file(), {one.load_case, kink.response});
-    texts.push_back(fmt::format("{} ({}; gradients differ by {:.3g} %)",
-                                design.file().responses[joined].name,
-                                describe_tie(kink.tie, response), 100.0 * kink.difference));
-  }
-  return texts.empty() ? "" : fmt::format("two peaks tie in {}", fmt::join(texts, " and in "));
 }
 
 /// A run of a backend on peaks as one on the file.
@@ -203,11 +153,10 @@ bool keeps_margins(DesignProblem& design, const Eigen::VectorXd& x, double toler
 }
 
 /// Why the run on the file as it is does not do.
-std::string reason_to_go_on(const Result& result, const std::vector<CaseKink>& kinks,
-                            DesignProblem& design) {
+std::string reason_to_go_on(const Result& result, DesignProblem& design) {
   if (result.status == Status::verified) return "other peaks do not keep their margins";
-  if (kinks.empty()) return "no optimum is verified so far";
-  return describe(kinks, design, result.x);
+  const std::string tie = tying_peaks(design, result.x);
+  return tie.empty() ? "no optimum is verified so far" : tie;
 }
 
 /// The limits are so far away that windows of time are no way to them.
@@ -243,20 +192,19 @@ Result attempt_optimum(DesignProblem& design, const SolveOptions& options, const
                            (!robust || keeps_margins(design, result.x, Tolerances().violation));
   if (is_verified || result.status == Status::failed || ends_far_outside(result)) return result;
   if (rest.max_iterations >= 1) {
-    const std::vector<CaseKink> kinks = optimized_kinks(design, result.x);
     const int windows = windows_that_part_peaks(design, result.x, peak_windows, most_windows);
     notify(notice, fmt::format("{}: from here on the peaks of {} windows of time count one by one",
-                               reason_to_go_on(result, kinks, design), windows));
+                               reason_to_go_on(result, design), windows));
     result = run_after(result, observer, [&](const Observer& hears) {
       return solve_peaks(design, windows, rest, result, hears);
     });
     ++result.restarts;
   }
   if (result.status == Status::stalled) {
-    const std::vector<CaseKink> kinks = optimized_kinks(design, result.x);
-    if (!kinks.empty()) result.message += "; " + describe(kinks, design, result.x);
-    const std::string advice = advise_on_meeting_frequencies(design, result.x);
-    if (!advice.empty()) result.message += "; " + advice;
+    for (const auto& advice :
+         {tying_peaks(design, result.x), advise_on_meeting_frequencies(design, result.x)}) {
+      if (!advice.empty()) result.message += "; " + advice;
+    }
   }
   return result;
 }
@@ -319,6 +267,46 @@ void return_to_best(DesignProblem& design, const Tolerances& tolerances, Result&
   }
 }
 
+Result run_with_setting(const ProblemFile& file, const Observer& observer, const ObservedRun& run) {
+  return run_with_records(
+      [&](EvaluationRecord record) { return simulated_with(file, std::move(record)); }, observer,
+      run);
+}
+
+/// @throws InputError  naming the linear limits of a file that contradict each other or the bounds of its
+///                     variables (linear_choice.hpp)
+void require_linear_limits(const ProblemFile& file) {
+  std::vector<const ConstraintSettings*> linear;
+  for (const ConstraintSettings& limit : file.constraints) {
+    if (!limit.linear.empty()) linear.push_back(&limit);
+  }
+  if (linear.empty()) return;
+  constexpr double none = std::numeric_limits<double>::infinity();
+  const Eigen::Index count = std::ssize(linear), variables = std::ssize(file.variables);
+  LinearLimits limits{Eigen::MatrixXd::Zero(count, variables), Eigen::VectorXd(count),
+                      Eigen::VectorXd(count)};
+  for (Eigen::Index i = 0; i < count; ++i) {
+    for (const auto& [variable, factor] : linear[i]->linear) limits.rows(i, variable) += factor;
+    limits.lower(i) = linear[i]->lower.value_or(-none);
+    limits.upper(i) = linear[i]->upper.value_or(none);
+  }
+  Eigen::VectorXd lower(variables), upper(variables);
+  for (Eigen::Index k = 0; k < variables; ++k) {
+    lower(k) = file.variables[k].lower;
+    upper(k) = file.variables[k].upper;
+  }
+  std::vector<std::string> names;
+  for (const std::size_t i : linear_conflict(limits, lower, upper)) {
+    names.push_back(linear[i]->name);
+  }
+  if (names.empty()) return;
+  throw InputError(
+      fmt::format("/constraints: no design within the bounds of the variables keeps the linear "
+                  "limit{} \"{}\"{}",
+                  names.size() == 1 ? "" : "s", fmt::join(names, "\", \""),
+                  names.size() == 1 ? "" : " together"));
+}
+
 }  // namespace
 
 EvaluationRecord simulated_with(const ProblemFile& file, EvaluationRecord record) {
@@ -330,16 +318,6 @@ EvaluationRecord simulated_with(const ProblemFile& file, EvaluationRecord record
   }
   return record;
 }
-
-namespace {
-
-Result run_with_setting(const ProblemFile& file, const Observer& observer, const ObservedRun& run) {
-  return run_with_records(
-      [&](EvaluationRecord record) { return simulated_with(file, std::move(record)); }, observer,
-      run);
-}
-
-}  // namespace
 
 Result search_with_setting(DesignProblem& design, const SolveOptions& options,
                            const Observer& observer) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "optimization/design/design_problem.hpp"
-#include "optimization/find_optimum.hpp"
 #include "optimization/solve.hpp"
 
 namespace pleuel {

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
-#include "core/base/int_size.hpp"
+#include "core/scene/body_source.hpp"
 #include "core/scene/continued_body.hpp"
 #include "core/scene/load_cases.hpp"
 
@@ -28,87 +30,107 @@ void narrow(DesignVariable& variable, double x, double radius) {
   variable.start = std::clamp(x, variable.lower, variable.upper);
 }
 
-}  // namespace
-
-bool has_made_bodies(const ProblemFile& file) {
-  for (const ProblemFile* problem : simulated_problems(file)) {
-    for (const Body& body : problem->scene.bodies) {
-      if (made_body(body)) return true;
-    }
-  }
-  return false;
-}
-
-MadeBodies::MadeBodies(ProblemFile file) : file_(std::move(file)) {
-  const std::vector<ProblemFile*> problems = simulated_problems(file_);
-  for (std::size_t p = 0; p < problems.size(); ++p) {
-    for (std::size_t b = 0; b < problems[p]->scene.bodies.size(); ++b) {
-      const ImportedBody* imported = made_body(problems[p]->scene.bodies[b]);
-      if (!imported) continue;
-      Made& made = bodies_.emplace_back(Made{p, b, {}, imported->maker, {}});
-      for (const ImportedVariable& of : imported->variables) {
-        made.variables.push_back(of.number.variable);
+/// The bodies that were made for some designs of an optimization, and the problem in which they are
+/// continued between these designs (core/scene/continued_body.hpp).
+class MadeBodies {
+ public:
+  /// @pre has_made_bodies(file)
+  explicit MadeBodies(ProblemFile file) : file_(std::move(file)) {
+    const std::vector<ProblemFile*> problems = simulated_problems(file_);
+    for (std::size_t p = 0; p < problems.size(); ++p) {
+      for (std::size_t b = 0; b < problems[p]->scene.bodies.size(); ++b) {
+        const ImportedBody* imported = made_body(problems[p]->scene.bodies[b]);
+        if (!imported) continue;
+        Made& made = bodies_.emplace_back(Made{p, b, {}, imported->maker, {}});
+        for (const ImportedVariable& of : imported->variables) {
+          made.variables.push_back(of.number.variable);
+        }
       }
     }
   }
-}
 
-Eigen::VectorXd MadeBodies::values_of(const Made& made, const Eigen::VectorXd& x) {
-  return x(made.variables);
-}
-
-std::shared_ptr<const BodySource> MadeBodies::continued(const Made& made) {
-  return continue_body(made.source->identity(), made.made);
-}
-
-double MadeBodies::make_at(const Eigen::VectorXd& x) {
-  double error = 0.0;
-  std::vector<std::shared_ptr<const InvariantsFile>> files;
-  for (const Made& made : bodies_) files.push_back(made.source->at(values_of(made, x)));
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    Made& made = bodies_[i];
-    if (designs_ > 0) {
-      const auto foretold = continued(made)->at(values_of(made, x));
-      error = std::max(error, stiffness_distance(foretold->constants, files[i]->constants));
+  /// Has all bodies made for a design.
+  /// @returns how far what was continued to this design was off: the largest relative stiffness, as
+  ///          a logarithm; 0 at the first design
+  /// @throws SimulationError if one cannot be made
+  double make_at(const Eigen::VectorXd& x) {
+    double error = 0.0;
+    std::vector<std::shared_ptr<const InvariantsFile>> files;
+    for (const Made& made : bodies_) files.push_back(made.source->at(values_of(made, x)));
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      Made& made = bodies_[i];
+      if (designs_ > 0) {
+        const auto foretold = continued(made)->at(values_of(made, x));
+        error = std::max(error, stiffness_distance(foretold->constants, files[i]->constants));
+      }
+      made.made.push_back(std::move(files[i]));
     }
-    made.made.push_back(std::move(files[i]));
+    ++designs_;
+    return error;
   }
-  ++designs_;
-  return error;
-}
 
-bool MadeBodies::are_made_at(const Eigen::VectorXd& x) const {
-  return std::all_of(bodies_.begin(), bodies_.end(), [&](const Made& made) {
-    return !made.made.empty() && continued(made)->distance(values_of(made, x)) == 0.0;
-  });
-}
-
-ProblemFile MadeBodies::continued(ProblemFile file) const {
-  const std::vector<ProblemFile*> problems = simulated_problems(file);
-  for (const Made& made : bodies_) {
-    Body& body = problems[made.problem]->scene.bodies[made.body];
-    std::get<ImportedBody>(body.shape).maker = continued(made);
+  /// Whether they were made for this very design.
+  bool are_made_at(const Eigen::VectorXd& x) const {
+    return std::ranges::all_of(bodies_, [&](const Made& made) {
+      return !made.made.empty() && continued(made)->distance(values_of(made, x)) == 0.0;
+    });
   }
-  return file;
-}
 
-ProblemFile MadeBodies::continued_around(const Eigen::VectorXd& x, double radius) const {
-  ProblemFile file = continued();
-  std::vector<ProblemFile*> problems = simulated_problems(file);
-  if (file.has_cases()) problems.push_back(&file);
-  std::vector<bool> is_narrow(file.variables.size(), false);
-  for (const Made& made : bodies_) {
-    for (const int variable : made.variables) is_narrow[static_cast<std::size_t>(variable)] = true;
-  }
-  for (ProblemFile* problem : problems) {
-    for (std::size_t i = 0; i < is_narrow.size(); ++i) {
-      if (is_narrow[i]) narrow(problem->variables[i], x(static_cast<Eigen::Index>(i)), radius);
+  /// Designs they were made for.
+  int designs() const { return designs_; }
+
+  const ProblemFile& original() const { return file_; }
+
+  /// The problem, or one that differs from it in its setting only, with continued bodies.
+  ProblemFile continued(ProblemFile file) const {
+    const std::vector<ProblemFile*> problems = simulated_problems(file);
+    for (const Made& made : bodies_) {
+      Body& body = problems[made.problem]->scene.bodies[made.body];
+      std::get<ImportedBody>(body.shape).maker = continued(made);
     }
+    return file;
   }
-  return file;
-}
+  ProblemFile continued() const { return continued(file_); }
 
-namespace {
+  /// The same with the bounds of variables that bodies depend on narrowed to x e^±radius, or to
+  /// x ± radius (upper − lower) of those that are not positive.
+  ProblemFile continued_around(const Eigen::VectorXd& x, double radius) const {
+    ProblemFile file = continued();
+    std::vector<ProblemFile*> problems = simulated_problems(file);
+    if (file.has_cases()) problems.push_back(&file);
+    std::vector<bool> is_narrow(file.variables.size(), false);
+    for (const Made& made : bodies_) {
+      for (const int variable : made.variables)
+        is_narrow[static_cast<std::size_t>(variable)] = true;
+    }
+    for (ProblemFile* problem : problems) {
+      for (std::size_t i = 0; i < is_narrow.size(); ++i) {
+        if (is_narrow[i]) narrow(problem->variables[i], x(static_cast<Eigen::Index>(i)), radius);
+      }
+    }
+    return file;
+  }
+
+ private:
+  /// A body of one of the problems that are simulated.
+  struct Made {
+    std::size_t problem, body;
+    std::vector<int> variables;  ///< of the problem, that it depends on
+    std::shared_ptr<const BodySource> source;
+    std::vector<std::shared_ptr<const InvariantsFile>> made;
+  };
+
+  static Eigen::VectorXd values_of(const Made& made, const Eigen::VectorXd& x) {
+    return x(made.variables);
+  }
+  static std::shared_ptr<const BodySource> continued(const Made& made) {
+    return continue_body(made.source->identity(), made.made);
+  }
+
+  ProblemFile file_;
+  std::vector<Made> bodies_;
+  int designs_ = 0;
+};
 
 /// Half the width of the region, in logarithms of the variables.
 constexpr double first_radius = 0.7, largest_radius = 1.4, least_radius = 1e-3;
@@ -131,38 +153,38 @@ double relative_step(const Eigen::VectorXd& from, const Eigen::VectorXd& to) {
 
 /// @returns the best design of the region, or x if nothing could be evaluated
 Eigen::VectorXd search_region(const MadeBodies& bodies, const Eigen::VectorXd& x, double radius,
-                              const SolveOptions& options, const Execution& execution,
-                              Result& before, const Observer& observer) {
-  DesignProblem problem(bodies.continued_around(x, radius), execution.tasks.jobs, execution.store);
-  problem.start_from(x);
-  SolveOptions strict = options;
+                              const SearchSetup& setup, Result& before) {
+  const auto problem = setup.problem_at(bodies.continued_around(x, radius), x);
+  SolveOptions strict = setup.options;
   strict.verdict.violation = tight_violation;
   Eigen::VectorXd found = x;
-  before = run_after(before, observer, [&](const Observer& hears) {
-    Result result = search_with_setting(problem, strict, hears);
+  before = run_after(before, setup.observer, [&](const Observer& hears) {
+    Result result = search_with_setting(*problem, strict, hears);
     if (has_moved(result)) found = result.x;
     return result;
   });
   return found;
 }
 
-}  // namespace
-
+/// Moves a design towards the optimum with few calls of what makes the bodies: searches with
+/// continued bodies within a region in which they are trusted, has the bodies made at the design
+/// that is found, and goes on from there, until the design stays (to 1e-3). The region grows or
+/// shrinks by how well the next bodies were foretold, and is no wider than four steps such as the last.
+/// @param x       that the bodies were made for
+/// @param before  effort and history of what was done before; goes on with that of the searches
+/// @returns       a design that the bodies were made for
 Eigen::VectorXd search_between_calls(MadeBodies& bodies, const Eigen::VectorXd& x,
-                                     const SolveOptions& options, const Execution& execution,
-                                     Result& before, const Observer& observer,
-                                     const Notice& notice) {
+                                     const SearchSetup& setup, Result& before) {
   double radius = first_radius;
   Eigen::VectorXd best = x;
   while (bodies.designs() < most_designs && radius > least_radius) {
-    const Eigen::VectorXd next =
-        search_region(bodies, best, radius, options, execution, before, observer);
+    const Eigen::VectorXd next = search_region(bodies, best, radius, setup, before);
     const double step = relative_step(best, next);
     if (step < small_step) break;
     try {
       const double error = bodies.make_at(next);
       notify(
-          notice,
+          setup.notice,
           fmt::format("bodies were made for design {}, {:.2g} % away; their stiffness was foretold "
                       "to {:.2g} %",
                       bodies.designs(), 100.0 * step, 100.0 * error));
@@ -171,11 +193,91 @@ Eigen::VectorXd search_between_calls(MadeBodies& bodies, const Eigen::VectorXd& 
       radius = std::min(radius, longest_next_step * step);
       best = next;
     } catch (const SimulationError& failure) {
-      notify(notice, fmt::format("{}: the next step is shorter", failure.what()));
+      notify(setup.notice, fmt::format("{}: the next step is shorter", failure.what()));
       radius *= 0.25;
     }
   }
   return best;
+}
+
+/// Bodies that are made anew for each design are made for few. The verdict is over a design that they were
+/// made for: where the audited search ends elsewhere, they are made there, and it begins again.
+class MadeSolve {
+ public:
+  MadeSolve(const ProblemFile& file, const SearchSetup& setup) : bodies_(file), setup_(setup) {
+    setup_.options.takes_verified_start = true;
+  }
+
+  StagedSolution run(const Eigen::VectorXd& x) {
+    if (!make_at(x)) return solve(bodies_.original(), x);
+    made_for_ = search_between_calls(bodies_, x, setup_, before_);
+    StagedSolution solution = solve(bodies_.continued(), made_for_);
+    bool can_go_on = true;
+    for (int round = 1; round < most_judgements && can_go_on && has_left(solution); ++round) {
+      can_go_on = make_at(solution.result.x);
+      notify(setup_.notice,
+             can_go_on ? "bodies were made for the design that was found, which is judged again"
+                       : "the last design that bodies were made for is judged in its place");
+      if (!can_go_on) setup_.options.max_iterations = 1;
+      ProblemFile next = solution.problem->file();
+      next.accuracy.chooses_setting = false;  // that is done
+      std::vector<Stage> stages = std::move(solution.stages);
+      solution = solve(bodies_.continued(std::move(next)), made_for_);
+      stages.insert(stages.end(), solution.stages.begin(), solution.stages.end());
+      solution.stages = std::move(stages);
+    }
+    return solution;
+  }
+
+ private:
+  static constexpr int most_judgements = 5;
+
+  /// @returns whether there are bodies
+  bool make_at(const Eigen::VectorXd& x) {
+    try {
+      bodies_.make_at(x);
+      made_for_ = x;
+      return true;
+    } catch (const SimulationError& failure) {
+      notify(setup_.notice, failure.what());
+      return false;
+    }
+  }
+
+  bool has_left(const StagedSolution& solution) const {
+    return solution.result.evaluation.has_gradients() && !bodies_.are_made_at(solution.result.x);
+  }
+
+  StagedSolution solve(const ProblemFile& file, const Eigen::VectorXd& x) {
+    StagedSolution solution;
+    before_ = run_after(before_, setup_.observer, [&](const Observer& observer) {
+      solution = solve_stages(file, x, setup_.heard_by(observer));
+      return std::move(solution.result);
+    });
+    solution.result = before_;
+    return solution;
+  }
+
+  MadeBodies bodies_;
+  SearchSetup setup_;
+  Result before_;             ///< effort and history so far
+  Eigen::VectorXd made_for_;  ///< the last design with bodies
+};
+
+}  // namespace
+
+bool has_made_bodies(const ProblemFile& file) {
+  for (const ProblemFile* problem : simulated_problems(file)) {
+    for (const Body& body : problem->scene.bodies) {
+      if (made_body(body)) return true;
+    }
+  }
+  return false;
+}
+
+StagedSolution solve_with_made_bodies(const ProblemFile& file, const Eigen::VectorXd& start,
+                                      const SearchSetup& setup) {
+  return MadeSolve(file, setup).run(start);
 }
 
 }  // namespace pleuel

@@ -8,15 +8,16 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
+#include "core/base/stop.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/jobs/parallel.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/packed_problem.hpp"
 #include "optimization/evaluation_store.hpp"
+#include "optimization/problem.hpp"
 #include "optimization/result.hpp"
 #include "optimization/scaling.hpp"
 #include "optimization/solve.hpp"
-#include "optimization/starts.hpp"
 
 namespace pleuel {
 
@@ -25,10 +26,6 @@ namespace {
 constexpr double same_objective = 1e-3;  ///< relative
 constexpr double same_variable = 2e-2;   ///< of its magnitude
 constexpr unsigned seed_of_starts = 1;
-
-bool is_optimum(const Result& result) {
-  return result.status == Status::verified || result.status == Status::unresolved;
-}
 
 bool is_same(const LocalOptimum& one, const Result& other, const Eigen::VectorXd& scales) {
   const double difference = std::abs(one.objective - other.evaluation.objective);
@@ -43,10 +40,9 @@ std::vector<LocalOptimum> distinct_optima(const std::vector<StagedSolution>& sol
   std::vector<LocalOptimum> optima;
   for (std::size_t i = 0; i < solutions.size(); ++i) {
     const Result& result = solutions[i].result;
-    if (!is_optimum(result)) continue;
-    const auto known = std::find_if(optima.begin(), optima.end(), [&](const LocalOptimum& one) {
-      return is_same(one, result, scales);
-    });
+    if (!result.is_optimum()) continue;
+    const auto known = std::ranges::find_if(
+        optima, [&](const LocalOptimum& one) { return is_same(one, result, scales); });
     if (known == optima.end()) {
       optima.push_back({result.x, result.evaluation.objective, {i}});
       continue;
@@ -57,10 +53,7 @@ std::vector<LocalOptimum> distinct_optima(const std::vector<StagedSolution>& sol
       known->objective = result.evaluation.objective;
     }
   }
-  std::stable_sort(optima.begin(), optima.end(),
-                   [](const LocalOptimum& one, const LocalOptimum& other) {
-                     return one.objective < other.objective;
-                   });
+  std::ranges::stable_sort(optima, {}, &LocalOptimum::objective);
   return optima;
 }
 
@@ -145,26 +138,20 @@ struct SearchData {
 
   std::string run(int task, const std::string& /*needed*/, TaskCaller& caller,
                   EvaluationStore* store) const {
-    const Execution here = {{.jobs = available_threads()}, store};
-    const Observer observer = [&](const EvaluationRecord& record) {
-      caller.tell(packed(MessageKind::record, record));
-    };
-    const Notice notice = [&](const std::string& text) {
-      caller.tell(packed(MessageKind::notice, text));
-    };
-    return pack_solution(solve_in_stages(file, starts[task], options, here, observer, notice));
+    const SearchSetup setup = {
+        options,
+        {{.jobs = available_threads()}, store},
+        [&](const EvaluationRecord& record) { caller.tell(packed(MessageKind::record, record)); },
+        [&](const std::string& text) { caller.tell(packed(MessageKind::notice, text)); }};
+    return pack_solution(solve_in_stages(file, starts[task], setup));
   }
 };
 
 /// Hears of the searches.
 class Searches : public StoredTasks<SearchData> {
  public:
-  Searches(SearchData data, const Execution& execution, const Observer& observer,
-           const Notice& notice)
-      : StoredTasks(std::move(data), execution.store),
-        jobs_(execution.tasks.jobs),
-        observer_(observer),
-        notice_(notice) {}
+  Searches(SearchData data, const SearchSetup& setup)
+      : StoredTasks(std::move(data), setup.execution.store), setup_(setup) {}
 
   int count() const override { return int_size(data().starts); }
 
@@ -176,17 +163,17 @@ class Searches : public StoredTasks<SearchData> {
     if (kind == MessageKind::notice) {
       std::string text;
       unpacker(text);
-      return notify(notice_, text);
+      return notify(setup_.notice, text);
     }
     EvaluationRecord record;
     unpacker(record);
     seen_.push_back(record);
-    show(observer_, following(record, before_));
+    show(setup_.observer, following(record, before_));
   }
 
   void take(int task, const std::string& answer) override {
     announce(task);
-    add(unpack_solution(answer, data().file, jobs_));
+    add(unpack_solution(answer, data().file, setup_.execution.tasks.jobs));
   }
 
   void fail(int task, const std::string& failure) override {
@@ -195,31 +182,26 @@ class Searches : public StoredTasks<SearchData> {
     none.problem = std::make_unique<DesignProblem>(data().file);
     none.result.status = Status::failed;
     none.result.message = fmt::format("the search from start {} was lost: {}", task + 1, failure);
-    none.result.x = start(task);
+    none.result.x = data().starts[task];
     none.result.history = std::move(seen_);
     none.result.evaluations = int_size(none.result.history);
-    notify(notice_, none.result.message);
+    notify(setup_.notice, none.result.message);
     add(std::move(none));
   }
 
   std::vector<StagedSolution> take_solutions() { return std::move(solutions_); }
 
  private:
-  const Eigen::VectorXd& start(int task) const { return data().starts[task]; }
-
-  /// What comes from here on is of this search.
+  /// What comes from here on is of this search. After a stop, others are heard after a search that did
+  /// not end.
   void announce(int task) {
     if (task < announced_) return;
-    count_unfinished();
+    if (!seen_.empty()) {
+      const EvaluationRecord& last = seen_.back();
+      add_effort(last.evaluation, last.iteration, last.seconds);
+    }
     announced_ = task + 1;
-    notify(notice_, fmt::format("start {} of {}", task + 1, data().starts.size()));
-  }
-
-  /// After a stop, others are heard after a search that did not end.
-  void count_unfinished() {
-    if (seen_.empty()) return;
-    const EvaluationRecord& last = seen_.back();
-    add_effort(last.evaluation, last.iteration, last.seconds);
+    notify(setup_.notice, fmt::format("start {} of {}", task + 1, data().starts.size()));
   }
 
   void add(StagedSolution solution) {
@@ -235,9 +217,7 @@ class Searches : public StoredTasks<SearchData> {
     seen_.clear();
   }
 
-  int jobs_;
-  const Observer& observer_;
-  const Notice& notice_;
+  const SearchSetup& setup_;
   std::vector<StagedSolution> solutions_;
   Result before_;  ///< the counts of all that have ended
   History seen_;   ///< of the one that has not
@@ -295,21 +275,96 @@ MultiStart combined(const std::vector<Eigen::VectorXd>& starts,
 }
 
 MultiStart solve_from_starts(const ProblemFile& file, const std::vector<Eigen::VectorXd>& starts,
-                             SolveOptions options, const Execution& execution,
-                             const Observer& observer, const Notice& notice) {
-  options.starts = int_size(starts);
+                             SearchSetup setup) {
+  setup.options.starts = int_size(starts);
   if (starts.size() == 1) {
     std::vector<StagedSolution> solutions;
-    solutions.push_back(
-        solve_in_stages(file, starts.front(), options, execution, observer, notice));
+    solutions.push_back(solve_in_stages(file, starts.front(), setup));
     return combined(starts, std::move(solutions));
   }
   const Stopwatch all_searches;
-  Searches searches({file, starts, options}, execution, observer, notice);
-  run_tasks(searches, execution.tasks);
+  Searches searches({file, starts, setup.options}, setup);
+  run_tasks(searches, setup.execution.tasks);
   MultiStart all = combined(starts, searches.take_solutions());
   all.best.result.seconds = all_searches.seconds();  // they run at the same time
   return all;
+}
+
+namespace {
+
+/// What was simulated as the last evaluation was: others have other errors.
+History with_last_setting(History seen) {
+  const double step = seen.back().time_step;
+  const int elements = seen.back().elements;
+  std::erase_if(seen, [&](const EvaluationRecord& record) {
+    return record.time_step != step || record.elements != elements;
+  });
+  return seen;
+}
+
+/// Those whose sizes are chosen, if there are any.
+History chosen_ones(const ProblemFile& problem, const History& seen) {
+  History chosen = seen;
+  std::erase_if(chosen, [&](const EvaluationRecord& record) {
+    return record.has_failed() || !keeps_choices(problem, record.x);
+  });
+  return chosen.empty() ? seen : chosen;
+}
+
+/// The best design so far, by the numbers of the last setting. Nothing is proven of it.
+Result interrupted_result(const DesignProblem& problem, const SolveOptions& options,
+                          const History& seen) {
+  const History last = chosen_ones(problem.file(), with_last_setting(seen));
+  const EvaluationRecord& best =
+      best_record(last.front().has_failed() ? seen : last, options.verdict.violation);
+  Result result;
+  result.status = Status::interrupted;
+  const std::string limits =
+      best.max_violation > 0.0
+          ? fmt::format("exceeds no limit by more than {:.1e} (relative)", best.max_violation)
+          : "keeps all limits";
+  result.message = fmt::format(
+      "{} {} made; the best design among them has {} = {} and {}", seen.size(),
+      seen.size() == 1 ? "evaluation was" : "evaluations were", problem.file().objective->response,
+      problem.objective_text(best.objective), limits);
+  if (!keeps_choices(problem.file(), best.x)) {
+    result.message += "; its sizes are not chosen from their lists yet";
+  }
+  result.backend = options.backend;
+  result.x = best.x;
+  result.evaluations = seen.back().evaluation;
+  result.iterations = seen.back().iteration;
+  result.gradient_evaluations =
+      static_cast<int>(std::ranges::count_if(seen, [](const EvaluationRecord& record) {
+        return record.request == Request::values_and_gradients;
+      }));
+  result.max_violation = best.max_violation;
+  result.seconds = seen.back().seconds;
+  result.history = seen;
+  return result;
+}
+
+}  // namespace
+
+WholeSearch search_design(const ProblemFile& file, const std::vector<Eigen::VectorXd>& starts,
+                          const SearchSetup& setup) {
+  auto first = std::make_unique<DesignProblem>(file, setup.execution.tasks.jobs);
+  History seen;
+  const SearchSetup seeing = setup.heard_by([&](const EvaluationRecord& record) {
+    seen.push_back(record);
+    show(setup.observer, record);
+  });
+  WholeSearch search;
+  try {
+    search.all = solve_from_starts(file, starts, seeing);
+    if (has_choices(file)) search.sizes = choose_sizes(search.all.best, seeing);
+  } catch (const Stopped&) {
+    if (seen.empty() || seen.front().has_failed()) throw;
+    search = {};
+    search.all.best.result = interrupted_result(*first, setup.options, seen);
+    search.all.best.problem = std::move(first);
+  }
+  return search;
 }
 
 }  // namespace pleuel

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "optimization/design/size_choice.hpp"
 #include "optimization/design/staged_solve.hpp"
 
 /// Optimization from several designs: local methods find the optimum of the basin that they begin
@@ -35,7 +36,7 @@ struct MultiStart {
 };
 
 /// The designs that a file asks for: `first`, then those that it gives, or a Latin hypercube between
-/// the bounds (starts.hpp). The same every time.
+/// the bounds (latin_hypercube()). The same every time.
 /// @param count  how many in all; of a file that gives designs these are all taken
 std::vector<Eigen::VectorXd> starts_of(const ProblemFile& file, const Eigen::VectorXd& first,
                                        int count);
@@ -52,11 +53,23 @@ MultiStart combined(const std::vector<Eigen::VectorXd>& starts,
 /// and notice hear of them in their order. Answers do not depend on the number of jobs.
 /// @throws as solve()
 MultiStart solve_from_starts(const ProblemFile& file, const std::vector<Eigen::VectorXd>& starts,
-                             SolveOptions options, const Execution& execution,
-                             const Observer& observer = {}, const Notice& notice = {});
+                             SearchSetup setup);
 
 /// The searches of solve_from_starts(), made again on another rank (PackedWork).
 inline constexpr const char* search_work_name = "searches";
 std::unique_ptr<TaskWork> make_search_work(const std::string& content);
+
+/// What a search came to.
+struct WholeSearch {
+  MultiStart all;
+  std::optional<SizeChoiceReport> sizes;  ///< where some are chosen from lists
+};
+
+/// All that an optimization of a problem file does: solve_from_starts(), then choose_sizes() where sizes are
+/// chosen from lists. A request to stop ends it with the best design so far, of which nothing is proven
+/// (`interrupted`).
+/// @throws Stopped before the first design was simulated; and as solve_from_starts()
+WholeSearch search_design(const ProblemFile& file, const std::vector<Eigen::VectorXd>& starts,
+                          const SearchSetup& setup);
 
 }  // namespace pleuel

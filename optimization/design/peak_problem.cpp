@@ -27,6 +27,89 @@ bool is_extreme(const ResponseSettings& response, Extreme extreme) {
   return (response.over_time == OverTime::min) == (extreme == Extreme::smallest);
 }
 
+const ResponseSettings& response_of(const DesignProblem& problem, const RowSource& source) {
+  if (source.over_cases) return problem.file().responses[*source.over_cases];
+  const DesignCase& of_case = problem.load_case(source.load_case);
+  return of_case.file().responses[*of_case.response_of(source)];
+}
+
+/// The sources of the rows.
+struct Sources {
+  DesignProblem& problem;
+  int windows;
+
+  /// Which values of a response count: the large ones of an upper limit and of what is minimized. None
+  /// where both do, or a single one.
+  std::optional<Extreme> pressed_side(std::optional<std::size_t> constraint) const {
+    if (!constraint) {
+      const bool is_maximized = problem.file().objective->aim == Aim::maximize;
+      return is_maximized ? Extreme::smallest : Extreme::largest;
+    }
+    const Constraint& limits = problem.constraints()[*constraint];
+    if (limits.has_upper() == limits.has_lower()) return std::nullopt;
+    return limits.has_upper() ? Extreme::largest : Extreme::smallest;
+  }
+
+  /// Of a limit or, without a constraint, of the objective of a case: one for each response that is pressed upon.
+  std::vector<RowSource> in_case(std::size_t load_case,
+                                 std::optional<std::size_t> constraint) const {
+    const DesignCase& of_case = problem.load_case(load_case);
+    RowSource whole{load_case};
+    if (constraint) {
+      whole.constraint = case_of_constraint(problem.file(), *constraint).index;
+    }
+    const auto response = of_case.response_of(whole);
+    const auto side = pressed_side(constraint);
+    if (!response || !side) return {whole};
+    std::vector<RowSource> sources;
+    for (const std::size_t part : extreme_parts(of_case.file(), *response, *side)) {
+      RowSource one = whole;
+      one.part = part;
+      sources.push_back(divided(one, *side));
+    }
+    if (sources.empty()) sources.push_back(divided(whole, *side));
+    return sources;
+  }
+
+  /// The same of a response of the joined problem.
+  std::vector<RowSource> over_cases(std::size_t response,
+                                    std::optional<std::size_t> constraint) const {
+    const ProblemFile& file = problem.file();
+    const auto side = pressed_side(constraint);
+    std::vector<std::size_t> parts;
+    if (side) parts = extreme_parts(file, response, *side);
+    if (parts.empty()) parts.push_back(response);
+    std::vector<RowSource> sources;
+    for (const std::size_t part : parts) {
+      const RowSource one = response_row(file, part, constraint ? 1.0 : problem.objective_sign());
+      sources.push_back(side ? divided(one, *side) : one);
+    }
+    return sources;
+  }
+
+  RowSource divided(RowSource source, Extreme side) const {
+    if (source.over_cases) return source;
+    const ResponseSettings& settings = response_of(problem, source);
+    const bool can_be_divided = has_peaks(settings) || is_fatigue(settings);
+    if (can_be_divided && is_extreme(settings, side)) {
+      source.division = division_of(source.load_case, settings);
+    }
+    return source;
+  }
+
+  PeakDivision division_of(std::size_t load_case, const ResponseSettings& response) const {
+    const ProblemFile& file = problem.load_case(load_case).file();
+    const int places = place_count(file, response);
+    if (is_fatigue(response)) return {1, places};
+    const int most = std::min(windows, step_count(file.simulation) + 1);
+    const int fewest = std::min(least_windows, most);
+    const auto limits = int_size(problem.file().constraints);
+    const int rows = most_rows_of_all / std::max(1, limits);
+    if (places == 1) return {std::clamp(rows, fewest, most), 1};
+    return {std::clamp(std::min(most_rows, rows) / places, fewest, most), places};
+  }
+};
+
 }  // namespace
 
 PeakProblem::PeakProblem(DesignProblem& problem, int windows)
@@ -41,96 +124,16 @@ PeakProblem::PeakProblem(DesignProblem& problem, int windows, const Eigen::Vecto
     samples = std::max(samples, step_count(problem.load_case(c).file().simulation) + 1);
   }
   windows_ = std::min(windows_, samples);
+  const Sources from{problem, windows_};
   set_start(variables_, within_bounds(problem, start));
   for (std::size_t i = 0; i < file.constraints.size(); ++i) {
     const OfCase of_case = case_of_constraint(file, i);
-    const auto sources = is_of_several(of_case) ? sources_over_cases(*problem.response_of(i), i)
-                                                : sources_in_case(of_case.load_case, i);
+    const auto sources = is_of_several(of_case) ? from.over_cases(*problem.response_of(i), i)
+                                                : from.in_case(of_case.load_case, i);
     for (const RowSource& source : sources) add_rows(source, i, problem.constraints()[i]);
   }
   if (scope == Scope::objective_and_limits) bound_objective();
   name_rows();
-}
-
-/// Which values of a response count: the large ones of an upper limit and of what is minimized. None
-/// where both do, or a single one.
-std::optional<Extreme> PeakProblem::pressed_side(std::optional<std::size_t> constraint) const {
-  if (!constraint) {
-    const bool is_maximized = problem_.file().objective->aim == Aim::maximize;
-    return is_maximized ? Extreme::smallest : Extreme::largest;
-  }
-  const Constraint& limits = problem_.constraints()[*constraint];
-  if (limits.has_upper() == limits.has_lower()) return std::nullopt;
-  return limits.has_upper() ? Extreme::largest : Extreme::smallest;
-}
-
-std::vector<RowSource> PeakProblem::sources_in_case(std::size_t load_case,
-                                                    std::optional<std::size_t> constraint) const {
-  const DesignCase& of_case = problem_.load_case(load_case);
-  RowSource whole{load_case};
-  if (constraint) {
-    whole.rows.constraint = case_of_constraint(problem_.file(), *constraint).index;
-  }
-  const auto response = of_case.response_of(whole.rows);
-  const auto side = pressed_side(constraint);
-  if (!response || !side) return {whole};
-  std::vector<RowSource> sources;
-  for (const std::size_t part : extreme_parts(of_case.file(), *response, *side)) {
-    RowSource one = whole;
-    one.rows.part = part;
-    sources.push_back(divided(one, *side));
-  }
-  if (sources.empty()) sources.push_back(divided(whole, *side));
-  return sources;
-}
-
-std::vector<RowSource> PeakProblem::sources_over_cases(
-    std::size_t response, std::optional<std::size_t> constraint) const {
-  const ProblemFile& file = problem_.file();
-  const auto side = pressed_side(constraint);
-  std::vector<std::size_t> parts;
-  if (side) parts = extreme_parts(file, response, *side);
-  if (parts.empty()) parts.push_back(response);
-  std::vector<RowSource> sources;
-  for (const std::size_t part : parts) {
-    const RowSource one = response_row(file, part, constraint ? 1.0 : problem_.objective_sign());
-    sources.push_back(side ? divided(one, *side) : one);
-  }
-  return sources;
-}
-
-/// Of the objective where it is made from several cases.
-std::vector<RowSource> PeakProblem::objective_sources() const {
-  return sources_over_cases(problem_.objective_response(), std::nullopt);
-}
-
-const ResponseSettings& PeakProblem::response_of(const RowSource& source) const {
-  if (source.over_cases) return problem_.file().responses[*source.over_cases];
-  const DesignCase& of_case = problem_.load_case(source.load_case);
-  return of_case.file().responses[*of_case.response_of(source.rows)];
-}
-
-RowSource PeakProblem::divided(RowSource source, Extreme side) const {
-  if (source.over_cases) return source;
-  const ResponseSettings& settings = response_of(source);
-  const bool can_be_divided = has_peaks(settings) || is_fatigue(settings);
-  if (can_be_divided && is_extreme(settings, side)) {
-    source.rows.division = division_of(source.load_case, settings);
-  }
-  return source;
-}
-
-PeakDivision PeakProblem::division_of(std::size_t load_case,
-                                      const ResponseSettings& response) const {
-  const ProblemFile& file = problem_.load_case(load_case).file();
-  const int places = place_count(file, response);
-  if (is_fatigue(response)) return {1, places};
-  const int windows = std::min(windows_, step_count(file.simulation) + 1);
-  const int fewest = std::min(least_windows, windows);
-  const auto limits = int_size(problem_.file().constraints);
-  const int rows = most_rows_of_all / std::max(1, limits);
-  if (places == 1) return {std::clamp(rows, fewest, windows), 1};
-  return {std::clamp(std::min(most_rows, rows) / places, fewest, windows), places};
 }
 
 void PeakProblem::add_rows(const RowSource& source, std::optional<std::size_t> constraint,
@@ -144,16 +147,18 @@ void PeakProblem::add_rows(const RowSource& source, std::optional<std::size_t> c
 /// worst of several.
 void PeakProblem::bound_objective() {
   const bool is_in_cases = problem_.has_objective_in_cases();
+  const Sources from{problem_, windows_};
   const std::vector<RowSource> first =
-      is_in_cases ? sources_in_case(0, std::nullopt) : objective_sources();
-  const bool is_divided = first.size() > 1 || first.front().rows.division;
+      is_in_cases ? from.in_case(0, std::nullopt)
+                  : from.over_cases(problem_.objective_response(), std::nullopt);
+  const bool is_divided = first.size() > 1 || first.front().division;
   if (!is_divided && !problem_.minimizes_worst()) return;
   EpigraphVariable all;
   if (!is_in_cases) all.sources = first;
   for (std::size_t c = 0; is_in_cases && c < problem_.case_count(); ++c) {
     const double weight = problem_.objective_weight(c);
     if (weight == 0.0) continue;
-    for (const RowSource& source : sources_in_case(c, std::nullopt)) all.sources.push_back(source);
+    for (const RowSource& source : from.in_case(c, std::nullopt)) all.sources.push_back(source);
     if (problem_.minimizes_worst()) continue;
     all.weight = weight;
     add_epigraph_variable(std::exchange(all, {}));
@@ -165,7 +170,7 @@ void PeakProblem::bound_objective() {
 void PeakProblem::add_epigraph_variable(EpigraphVariable bound) {
   bound.first_row = std::ssize(rows_);
   for (const RowSource& source : bound.sources) {
-    add_rows(source, std::nullopt, {response_of(source).name, -infinity, 0.0});
+    add_rows(source, std::nullopt, {response_of(problem_, source).name, -infinity, 0.0});
   }
   bound.rows = std::ssize(rows_) - bound.first_row;
   bounds_.push_back(std::move(bound));
@@ -191,14 +196,14 @@ void PeakProblem::start_epigraph_variables() {
   }
 }
 
-/// What is no goal of its case, whose goals the record knows (setting_text.hpp), is named.
+/// What is no goal of its case, whose goals the record knows (setting_text()), is named.
 void PeakProblem::name_rows() {
   named_rows_.name =
       fmt::format("peaks of {} windows{}", windows_, bounds_.empty() ? "" : " with the objective");
   for (const RowSource& source : named_rows_.sources) {
-    if (source.over_cases || !source.rows.sign) continue;
-    named_rows_.name += fmt::format(", {}{} in case {}", *source.rows.sign < 0.0 ? "-" : "",
-                                    response_of(source).name, source.load_case);
+    if (source.over_cases || !source.sign) continue;
+    named_rows_.name += fmt::format(", {}{} in case {}", *source.sign < 0.0 ? "-" : "",
+                                    response_of(problem_, source).name, source.load_case);
   }
 }
 
@@ -239,7 +244,7 @@ Evaluation PeakProblem::evaluate(const Eigen::VectorXd& x, Request request) {
 
 bool PeakProblem::divides_time() const {
   return std::ranges::any_of(named_rows_.sources, [](const RowSource& source) {
-    return source.rows.division && source.rows.division->windows > 1;
+    return source.division && source.division->windows > 1;
   });
 }
 

@@ -85,17 +85,6 @@ class PeakProblem : public Problem {
     Eigen::Index first_row = 0, rows = 0;
   };
 
-  /// Of a limit or, without a constraint, of the objective of a case: one for each response that is pressed upon.
-  std::vector<RowSource> sources_in_case(std::size_t load_case,
-                                         std::optional<std::size_t> constraint) const;
-  /// The same of a response of the joined problem.
-  std::vector<RowSource> sources_over_cases(std::size_t response,
-                                            std::optional<std::size_t> constraint) const;
-  std::vector<RowSource> objective_sources() const;
-  std::optional<Extreme> pressed_side(std::optional<std::size_t> constraint) const;
-  const ResponseSettings& response_of(const RowSource& source) const;
-  RowSource divided(RowSource source, Extreme side) const;
-  PeakDivision division_of(std::size_t load_case, const ResponseSettings& response) const;
   void add_rows(const RowSource& source, std::optional<std::size_t> constraint,
                 const Constraint& limits);
   void bound_objective();

@@ -23,8 +23,8 @@ struct ChannelRange {
 };
 
 const Body& body_of(const ProblemFile& file, const ResponseSettings& response) {
-  return *std::find_if(file.scene.bodies.begin(), file.scene.bodies.end(),
-                       [&](const Body& body) { return body.name == response.bodies.front(); });
+  return *std::ranges::find_if(
+      file.scene.bodies, [&](const Body& body) { return body.name == response.bodies.front(); });
 }
 
 /// Ends of the places of equal size.
@@ -53,8 +53,9 @@ bool is_round(const Section& section) {
 /// Whether the Euler loads of a beam in both planes are two numbers.
 bool has_two_euler_loads(const ProblemFile& file, const ResponseSettings& response) {
   const auto* beam = std::get_if<BeamBody>(&body_of(file, response).shape);
-  return beam != nullptr && !std::all_of(beam->segments.begin(), beam->segments.end(),
-                                         [](const Segment& one) { return is_round(one.section); });
+  return beam != nullptr && !std::ranges::all_of(beam->segments, [](const Segment& one) {
+           return is_round(one.section);
+         });
 }
 
 bool moves_in_a_plane(const ProblemFile& file) {
@@ -90,8 +91,8 @@ std::vector<ChannelRange> places_of_segments(const Analysis& analysis,
     first += signal->channels();
   }
   const bool is_whole =
-      first == channels && std::all_of(ranges.begin(), ranges.end(),
-                                       [](const ChannelRange& range) { return range.count > 0; });
+      first == channels &&
+      std::ranges::all_of(ranges, [](const ChannelRange& range) { return range.count > 0; });
   return is_whole ? ranges : std::vector<ChannelRange>();
 }
 

@@ -1,13 +1,22 @@
 #include "optimization/design/peak_windows.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/base/eager_matrices.hpp"
+#include "core/base/error.hpp"
+#include "core/response/body_frequency.hpp"
 #include "core/response/value_over_cases.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/response_parts.hpp"
 #include "optimization/design/peak_rows.hpp"
+#include "optimization/linear_choice.hpp"
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/kinks.hpp"
 #include "sensitivity/method_choice.hpp"
@@ -91,12 +100,88 @@ std::vector<std::size_t> optimized_responses(const DesignProblem& design, std::s
     add_over_cases(design.objective_response());
   }
   for (std::size_t i = 0; i < one.file().constraints.size(); ++i) {
-    if (const auto response = one.response_of({i})) add(*response);
+    if (const auto response = one.response_of({.constraint = i})) add(*response);
   }
   for (std::size_t i = 0; i < file.constraints.size(); ++i) {
     if (is_of_several(case_of_constraint(file, i))) add_over_cases(*design.response_of(i));
   }
   return responses;
+}
+
+namespace {
+
+/// Relative difference of frequencies that meet, as far as a search that stalls comes to the kink.
+constexpr double meeting = 1e-3;
+
+/// The natural frequency of a mode of what a response looks at [rad/s]; none if there is no such
+/// mode.
+std::optional<double> frequency_of_mode(const Analysis& analysis, const ResponseSettings& response,
+                                        int number) {
+  if (number < 0) return std::nullopt;
+  if (response.bodies.empty()) {
+    const Eigen::VectorXd& all = analysis.mechanism_frequencies;
+    return number < all.size() ? std::optional(all(number)) : std::nullopt;
+  }
+  const Model& model = model_of_modes(analysis);
+  const BodyModel& body = model.body(response.bodies.front());
+  if (number >= body.elastic_size()) return std::nullopt;
+  return std::sqrt(body_mode(body, {number}).square);
+}
+
+bool meets_another(const Analysis& analysis, const ResponseSettings& response) {
+  if (response.type != ResponseType::frequency || response.mode.axis) return false;
+  const double shown = *frequency_of_mode(analysis, response, response.mode.number);
+  return std::ranges::any_of(std::array{-1, 1}, [&](int step) {
+    const auto other = frequency_of_mode(analysis, response, response.mode.number + step);
+    return other && std::abs(*other - shown) <= meeting * std::abs(shown);
+  });
+}
+
+}  // namespace
+
+std::string tying_peaks(DesignProblem& design, const Eigen::VectorXd& x) {
+  std::vector<std::string> texts;
+  try {
+    for (std::size_t c = 0; c < design.case_count(); ++c) {
+      DesignCase& one = design.load_case(c);
+      const std::vector<std::size_t> optimized = optimized_responses(design, c);
+      const Analysis& analysis = one.analysis_at(x);
+      std::optional<std::size_t> told;
+      for (const Kink& kink : find_kinks(one.analysis_at(x), one.file().variables)) {
+        if (kink.response == told || std::ranges::count(optimized, kink.response) == 0) continue;
+        told = kink.response;
+        const std::size_t joined = joined_response(design.file(), {c, kink.response});
+        texts.push_back(fmt::format(
+            "{} ({}; gradients differ by {:.3g} %)", design.file().responses[joined].name,
+            describe_tie(kink.tie, analysis.responses[kink.response]), 100.0 * kink.difference));
+      }
+    }
+  } catch (const SimulationError&) {
+    return "";
+  }
+  return texts.empty() ? "" : fmt::format("two peaks tie in {}", fmt::join(texts, " and in "));
+}
+
+std::string advise_on_meeting_frequencies(DesignProblem& design, const Eigen::VectorXd& x) {
+  std::vector<std::string> names;
+  try {
+    for (std::size_t c = 0; c < design.case_count(); ++c) {
+      DesignCase& one = design.load_case(c);
+      for (const std::size_t response : optimized_responses(design, c)) {
+        const ResponseSettings& settings = one.file().responses[response];
+        if (!meets_another(one.analysis_at(x), settings)) continue;
+        if (std::ranges::find(names, settings.name) == names.end()) names.push_back(settings.name);
+      }
+    }
+  } catch (const SimulationError&) {
+    return {};
+  }
+  if (names.empty()) return {};
+  return fmt::format(
+      "{} coincide{} with the frequency of another mode, which makes a kink: ask for the lowest "
+      "mode "
+      "along each axis instead (\"direction\" \"y\", and \"z\") and limit each, or their min()",
+      fmt::join(names, " and "), names.size() == 1 ? "s" : "");
 }
 
 }  // namespace pleuel

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+
+#include "core/scene/problem_file.hpp"
 #include "optimization/design/design_problem.hpp"
 
 namespace pleuel {
@@ -15,5 +18,15 @@ int windows_that_part_peaks(DesignProblem& problem, const Eigen::VectorXd& x, in
 /// The objective and what constraints limit in a case, in this order; indices of its responses. Of
 /// an expression those that it is made from; of one over cases those that are of this case.
 std::vector<std::size_t> optimized_responses(const DesignProblem& design, std::size_t load_case);
+
+/// The peaks that tie at a design, of the objective and of what is limited: the closest two of each
+/// response. Empty if there are none, or if the design cannot be simulated.
+std::string tying_peaks(DesignProblem& design, const Eigen::VectorXd& x);
+
+/// What to do about natural frequencies that are optimized and coincide with that of the next or the
+/// last mode at a design: modes are counted by their frequencies, so that each has a kink where two
+/// meet, and an optimum there is none of first order. Empty where none does, or if the design cannot
+/// be simulated.
+std::string advise_on_meeting_frequencies(DesignProblem& design, const Eigen::VectorXd& x);
 
 }  // namespace pleuel

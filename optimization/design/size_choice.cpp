@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <utility>
@@ -11,10 +12,9 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/stopwatch.hpp"
-#include "optimization/broken_limits.hpp"
 #include "optimization/design/size_lists.hpp"
-#include "optimization/design/size_trials.hpp"
 #include "optimization/linear_choice.hpp"
+#include "optimization/result.hpp"
 #include "optimization/scaling.hpp"
 
 namespace pleuel {
@@ -31,19 +31,27 @@ constexpr int most_batches = 6;
 /// Sizes up and down that a linear model looks at.
 constexpr int reach = 2;
 
+/// Keeps the limits and is lighter, or breaks them less.
+bool is_better(const SizeTrial& one, const SizeTrial& other) {
+  if (one.keeps_limits() != other.keeps_limits()) return one.keeps_limits();
+  return one.keeps_limits() ? one.objective < other.objective
+                            : one.max_violation < other.max_violation;
+}
+
+/// Where slopes vanish, as at an optimum between the sizes, the nearer size is the better guess.
+double distance_cost(double gap, double change, double objective) {
+  return gap == 0.0 ? 0.0 : 1e-3 * std::abs(objective) * (change / gap) * (change / gap);
+}
+
 class SizeSearch {
  public:
-  SizeSearch(StagedSolution& solution, const SolveOptions& options, const Execution& execution,
-             const Observer& observer, const Notice& notice)
+  SizeSearch(StagedSolution& solution, const SearchSetup& setup)
       : solution_(solution),
         file_(solution.problem->file()),
-        options_(options),
-        execution_(execution),
-        observer_(observer),
-        notice_(notice),
+        setup_(setup),
         lists_(file_.variables),
         is_optimized_(needs_optimization(file_)) {
-    options_.starts = 1;
+    setup_.options.starts = 1;
     const Result& relaxed = solution.result;
     report_.relaxed_status = relaxed.status;
     report_.relaxed_objective = relaxed.evaluation.objective;
@@ -58,12 +66,12 @@ class SizeSearch {
                                 variable_scales(problem, solution_.result.x));
     const double most = is_optimized_ ? most_optimized : most_simulated_choices;
     report_.is_exhaustive = report_.combinations <= most;
-    notify(notice_, fmt::format("the optimum between the sizes has {} = {} ({})",
-                                problem.file().objective->response,
-                                objective_text(report_.relaxed_objective),
-                                to_string(report_.relaxed_status)));
+    notify(setup_.notice, fmt::format("the optimum between the sizes has {} = {} ({})",
+                                      problem.file().objective->response,
+                                      objective_text(report_.relaxed_objective),
+                                      to_string(report_.relaxed_status)));
     if (report_.is_exhaustive) {
-      notify(notice_, fmt::format("all {} choices are tried", report_.combinations));
+      notify(setup_.notice, fmt::format("all {} choices are tried", report_.combinations));
       attempt(lists_.all(), report_.relaxed_x);
     } else {
       search();
@@ -85,7 +93,8 @@ class SizeSearch {
     if (news.empty()) return;
     std::vector<Eigen::VectorXd> designs;
     for (const Sizes& choice : news) designs.push_back(lists_.design(choice, from));
-    std::vector<SizeTrial> answers = try_sizes(file_, designs, scales_, options_, execution_);
+    std::vector<SizeTrial> answers =
+        try_sizes(file_, designs, scales_, setup_.options, setup_.execution);
     for (std::size_t i = 0; i < news.size(); ++i) keep(news[i], std::move(answers[i]));
   }
 
@@ -106,7 +115,7 @@ class SizeSearch {
     Result& all = solution_.result;
     for (EvaluationRecord& record : history) {
       record = following(std::move(record), all);
-      show(observer_, record);
+      show(setup_.observer, record);
     }
     for (const EvaluationRecord& record : history) {
       ++all.evaluations;
@@ -132,13 +141,13 @@ class SizeSearch {
         propose(x, *around, from, -reach, reach);
         if (report_.tried == before) break;
       }
-      if (*best_ == from) attempt(lists_.neighbours(from), x);
+      if (*best_ == from) attempt(lists_.exchanges(from, 1), x);
       if (*best_ == from) try_whole_lists(from, x);
       if (*best_ == from) {
         is_settled_ = true;
         return;
       }
-      notify(notice_,
+      notify(setup_.notice,
              fmt::format("after {} choices: {} = {}{}", report_.tried, file_.objective->response,
                          objective_text(tried_.at(*best_).objective),
                          tried_.at(*best_).keeps_limits() ? "" : ", outside the limits"));
@@ -148,7 +157,7 @@ class SizeSearch {
   /// Lists whose sections differ in more than size, as tubes with several walls do, go up and down in
   /// stiffness on the way: the better one may be far away.
   void try_whole_lists(const Sizes& from, const Eigen::VectorXd& x) {
-    const std::vector<Sizes> exchanges = lists_.exchanges(from);
+    const std::vector<Sizes> exchanges = lists_.exchanges(from, std::numeric_limits<int>::max());
     const double most = is_optimized_ ? most_optimized : most_simulated_choices;
     if (static_cast<double>(exchanges.size()) > most) return;
     attempt(exchanges, x);
@@ -158,11 +167,11 @@ class SizeSearch {
   /// Values and gradients at the best choice; multipliers where other variables were optimized.
   std::optional<Result> linearized(const Sizes& from) {
     const Eigen::VectorXd& x = tried_.at(from).x;
-    DesignProblem problem(file_, execution_.tasks.jobs, execution_.store);
-    keep_methods(problem);
+    const auto problem = setup_.problem_at(file_, x);
+    keep_methods(*problem);
     const double violation = tried_.at(from).max_violation;
     const Stopwatch stopwatch;
-    Attempt attempt = attempt_evaluation(problem, x, Request::values_and_gradients);
+    Attempt attempt = attempt_evaluation(*problem, x, Request::values_and_gradients);
     EvaluationRecord record = record_of(x, Request::values_and_gradients, attempt);
     record.evaluation = record.iteration = 1;
     record.purpose = Purpose::audit;
@@ -184,9 +193,7 @@ class SizeSearch {
 
   /// Tries what a linear model at x thinks best: sizes from so many below to so many above those given.
   void propose(const Eigen::VectorXd& x, const Result& at, const Sizes& around, int down, int up) {
-    const LinearChoiceModel model =
-        size_model(lists_, *solution_.problem, x, at, around, scales_,
-                   {down, up, is_optimized_, report_.relaxed_objective});
+    const LinearChoiceModel model = linear_model(x, at, around, down, up);
     const std::size_t most = is_optimized_ ? optimized_proposals : proposals;
     std::vector<Sizes> choices;
     std::set<Sizes> known;
@@ -205,6 +212,56 @@ class SizeSearch {
     attempt(choices, x);
   }
 
+  /// The objective and the limits at choices of sizes around a design, from their gradients there.
+  /// Where other variables follow, limits do not count: what keeping them costs is in the slopes,
+  /// df = (∇f + Jᵀμ) · dx.
+  /// @param at      evaluation with gradients at x, and multipliers where other variables follow
+  /// @param around  the sizes that the model's own are counted from
+  LinearChoiceModel linear_model(const Eigen::VectorXd& x, const Result& at, const Sizes& around,
+                                 int down, int up) const {
+    const Evaluation& here = at.evaluation;
+    const Eigen::Index rows = is_optimized_ ? 0 : here.constraints.size();
+    LinearChoiceModel model{here.objective,        here.constraints.head(rows),
+                            Eigen::VectorXd(rows), Eigen::VectorXd(rows),
+                            scales_.head(rows),    {}};
+    for (Eigen::Index j = 0; j < rows; ++j) {
+      model.lower(j) = solution_.problem->constraints()[j].lower;
+      model.upper(j) = solution_.problem->constraints()[j].upper;
+    }
+    Eigen::VectorXd slope = here.objective_gradient;
+    if (is_optimized_ && at.constraint_multipliers.size() > 0) {
+      slope += here.constraint_jacobian.transpose() * at.constraint_multipliers;
+    }
+    for (std::size_t k = 0; k < lists_.count(); ++k) {
+      const Eigen::Index i = lists_.variable(k);
+      const double gap = is_optimized_ ? lists_.mean_gap(k) : 0.0;
+      const int first = std::max(0, around[k] + down);
+      const int last = std::min(lists_.sizes(k) - 1, around[k] + up);
+      std::vector<LinearOption>& options = model.options.emplace_back();
+      for (int size = first; size <= last; ++size) {
+        const double change = lists_.value(k, size) - x(i);
+        options.push_back(
+            {size, slope(i) * change + distance_cost(gap, change, report_.relaxed_objective),
+             changed_limits(here.constraint_jacobian.col(i).head(rows), k, x(i), size)});
+      }
+    }
+    return model;
+  }
+
+  /// What falls as a size grows, as a stress does, is taken to be linear in its reciprocal (Fleury &
+  /// Braibant 1986): c' · (y − x) · x / y.
+  /// @param slopes  of the limits by the k-th chosen variable, which is x
+  Eigen::VectorXd changed_limits(const Eigen::VectorXd& slopes, std::size_t k, double x,
+                                 int size) const {
+    const double to = lists_.value(k, size), change = to - x;
+    const double reciprocal = lists_.value(k, 0) > 0.0 && to > 0.0 ? x / to : 1.0;
+    Eigen::VectorXd changes = slopes * change;
+    for (double& one : changes) {
+      if (one * change < 0.0) one *= reciprocal;
+    }
+    return changes;
+  }
+
   /// Predicted to be better than the best so far, if that keeps its limits.
   bool is_promising(const PredictedChoice& one) const {
     if (!best_ || is_optimized_ || !tried_.at(*best_).keeps_limits()) return true;
@@ -216,13 +273,11 @@ class SizeSearch {
   void conclude() {
     const SizeTrial& best = tried_.at(*best_);
     const Result before = std::move(solution_.result);
-    solution_.problem = std::make_unique<DesignProblem>(with_sizes(file_, best.x),
-                                                        execution_.tasks.jobs, execution_.store);
-    solution_.problem->start_from(best.x);
+    solution_.problem = setup_.problem_at(with_sizes(file_, best.x), best.x);
     const bool has_free = !std::ranges::all_of(solution_.problem->variables(), &Variable::is_fixed);
-    Result result = run_after(before, observer_, [&](const Observer& observer) {
-      return has_free ? solve_design(*solution_.problem, options_, observer, notice_)
-                      : judge_design(*solution_.problem, options_, observer);
+    Result result = run_after(before, setup_.observer, [&](const Observer& observer) {
+      return has_free ? solve_design(*solution_.problem, setup_.options, observer, setup_.notice)
+                      : judge_design(*solution_.problem, setup_.options, observer);
     });
     result.restarts = before.restarts;
     result.backend = before.backend;
@@ -245,8 +300,7 @@ class SizeSearch {
   void show_all_choices() {
     ProblemFile file = solution_.problem->file();
     file.variables = file_.variables;
-    auto problem =
-        std::make_unique<DesignProblem>(std::move(file), execution_.tasks.jobs, execution_.store);
+    auto problem = setup_.problem_at(std::move(file), start_design(file_));
     keep_methods(*problem);
     solution_.problem = std::move(problem);
   }
@@ -314,10 +368,7 @@ class SizeSearch {
 
   StagedSolution& solution_;
   const ProblemFile file_;
-  SolveOptions options_;
-  const Execution& execution_;
-  const Observer& observer_;
-  const Notice& notice_;
+  SearchSetup setup_;
   const SizeLists lists_;
   bool is_optimized_;
   Eigen::VectorXd scales_;
@@ -348,10 +399,8 @@ bool keeps_choices(const ProblemFile& file, const Eigen::VectorXd& x) {
   return true;
 }
 
-SizeChoiceReport choose_sizes(StagedSolution& solution, const SolveOptions& options,
-                              const Execution& execution, const Observer& observer,
-                              const Notice& notice) {
-  return SizeSearch(solution, options, execution, observer, notice).run();
+SizeChoiceReport choose_sizes(StagedSolution& solution, const SearchSetup& setup) {
+  return SizeSearch(solution, setup).run();
 }
 
 }  // namespace pleuel

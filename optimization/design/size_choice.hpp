@@ -46,8 +46,6 @@ bool keeps_choices(const ProblemFile& file, const Eigen::VectorXd& x);
 /// @param solution  the continuous optimum; becomes the choice: `verified` if it is the best of all, or
 ///                  if no neighbour is better
 /// @throws Stopped, and as solve()
-SizeChoiceReport choose_sizes(StagedSolution& solution, const SolveOptions& options,
-                              const Execution& execution, const Observer& observer = {},
-                              const Notice& notice = {});
+SizeChoiceReport choose_sizes(StagedSolution& solution, const SearchSetup& setup);
 
 }  // namespace pleuel

@@ -1,11 +1,16 @@
 #pragma once
 
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "core/base/int_size.hpp"
 #include "core/scene/problem_file.hpp"
+#include "optimization/design/staged_solve.hpp"
 #include "optimization/linear_choice.hpp"
 #include "optimization/problem.hpp"
 #include "optimization/result.hpp"
@@ -37,10 +42,9 @@ class SizeLists {
   Sizes below(const Eigen::VectorXd& x) const;
   Sizes nearest(const Eigen::VectorXd& x) const;
 
-  /// Each size one up or down.
-  std::vector<Sizes> neighbours(const Sizes& from) const;
   /// Any other size in place of each.
-  std::vector<Sizes> exchanges(const Sizes& from) const;
+  /// @param reach  so far up or down the list
+  std::vector<Sizes> exchanges(const Sizes& from, int reach) const;
 
  private:
   struct List {
@@ -50,22 +54,38 @@ class SizeLists {
   std::vector<List> lists_;
 };
 
-/// What a linear model of sizes is made of.
-struct SizeModelSettings {
-  int down = 0, up = 0;            ///< sizes below and above those given that it may take
-  bool is_reduced = false;         ///< other variables follow: the multipliers hold their share
-  double relaxed_objective = 0.0;  ///< at the optimum between the sizes [SI]
+// Choices of sizes that are tried, each a task of its own (core/jobs/tasks.hpp).
+
+/// A choice that was tried.
+struct SizeTrial {
+  Eigen::VectorXd x;  ///< [SI]
+  double objective = 0.0, max_violation = std::numeric_limits<double>::infinity();
+  Eigen::VectorXd constraints = {};
+  History history = {};
+  double seconds = 0.0;
+
+  bool has_failed() const { return constraints.size() == 0 && !std::isfinite(max_violation); }
+  bool keeps_limits() const { return max_violation <= Tolerances().violation; }
 };
 
-/// The objective and the limits at choices of sizes around a design, from their gradients there. What
-/// falls as a size grows, as a stress does, is taken to be linear in its reciprocal (Fleury & Braibant
-/// 1986): c' · (y − x) · x / y. Where other variables follow, limits do not count: what keeping them
-/// costs is in the slopes, df = (∇f + Jᵀμ) · dx.
-/// @param at      evaluation with gradients at x, and multipliers if it is reduced
-/// @param around  the sizes that the model's own are counted from
-/// @param scales  of the constraints
-LinearChoiceModel size_model(const SizeLists& lists, const Problem& problem,
-                             const Eigen::VectorXd& x, const Result& at, const Sizes& around,
-                             const Eigen::VectorXd& scales, const SizeModelSettings& settings);
+/// Whether each choice has to be optimized: there are other variables, or margins that follow from
+/// gradients.
+bool needs_optimization(const ProblemFile& file);
+
+/// The problem with the sizes of a design fixed. Its start stays: what the model decides there stays
+/// too.
+ProblemFile with_sizes(ProblemFile file, const Eigen::VectorXd& x);
+
+/// Simulates each design, or optimizes the other variables from it (needs_optimization()).
+/// @param scales  of the constraints: what violations are relative to
+/// @return        in the order of the designs; one whose task failed has a failure in its history
+std::vector<SizeTrial> try_sizes(const ProblemFile& file,
+                                 const std::vector<Eigen::VectorXd>& designs,
+                                 const Eigen::VectorXd& scales, const SolveOptions& options,
+                                 const Execution& execution);
+
+/// The designs that are tried, made again on another rank (PackedWork).
+inline constexpr const char* trial_work_name = "trials";
+std::unique_ptr<TaskWork> make_trial_work(const std::string& content);
 
 }  // namespace pleuel

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/base/error.hpp"
 #include "core/base/int_size.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/response/effect_measurement.hpp"
@@ -64,13 +63,7 @@ std::string choice_text(double target, const TriedSetting& chosen, bool is_met,
 
 class StagedSolve {
  public:
-  StagedSolve(const ProblemFile& file, const SolveOptions& options, const Execution& execution,
-              const Observer& observer, const Notice& notice)
-      : file_(file),
-        options_(options),
-        execution_(execution),
-        observer_(observer),
-        notice_(notice) {}
+  StagedSolve(const ProblemFile& file, const SearchSetup& setup) : file_(file), setup_(setup) {}
 
   StagedSolution run(Eigen::VectorXd x) {
     if (file_.accuracy.chooses_setting) {
@@ -112,7 +105,8 @@ class StagedSolve {
     if (next.effects.tolerance <= 0.0) return false;
     decide_effects(next, solution_.result.x);
     if (left_out(next) == left_out(solution_.problem->file())) return false;
-    notify(notice_, "effects that were left out at the start matter here, and are taken back");
+    notify(setup_.notice,
+           "effects that were left out at the start matter here, and are taken back");
     begin_stage({}, std::move(next), solution_.result.x);
     return true;
   }
@@ -144,7 +138,7 @@ class StagedSolve {
     is_new = is_new || left_out(chosen) != left_out(solution_.problem->file());
     if (!is_new && solution_.result.evaluation.has_gradients()) return false;
     stage.choice_seconds = watch.seconds();
-    for (const std::string& text : notices) notify(notice_, text);
+    for (const std::string& text : notices) notify(setup_.notice, text);
     begin_stage(std::move(stage), std::move(chosen), x);
     return is_new;
   }
@@ -152,15 +146,14 @@ class StagedSolve {
   void begin_stage(Stage stage, ProblemFile file, const Eigen::VectorXd& x) {
     solution_.result.seconds += stage.choice_seconds;  // what follows comes after it
     solution_.stages.push_back(std::move(stage));
-    solution_.problem =
-        std::make_unique<DesignProblem>(std::move(file), execution_.tasks.jobs, execution_.store);
-    solution_.problem->start_from(x);
+    solution_.problem = setup_.problem_at(std::move(file), x);
   }
 
   /// @returns whether the start could be evaluated; x becomes the best design that was seen
   bool search_from(Eigen::VectorXd& x) {
-    SolveOptions coarse = options_;
-    coarse.tolerance = std::max(options_.tolerance, search_share * solution_.stages.back().target);
+    SolveOptions coarse = setup_.options;
+    coarse.tolerance =
+        std::max(setup_.options.tolerance, search_share * solution_.stages.back().target);
     bool can_go_on = false;
     add([&](const Observer& observer) {
       Result result = search_with_setting(*solution_.problem, coarse, observer);
@@ -172,18 +165,18 @@ class StagedSolve {
   }
 
   void solve_stage() {
-    SolveOptions rest = options_;
-    rest.max_iterations = std::max(1, options_.max_iterations - solution_.result.iterations);
+    SolveOptions rest = setup_.options;
+    rest.max_iterations = std::max(1, setup_.options.max_iterations - solution_.result.iterations);
     rest.earlier = {solution_.result.iterations, solution_.result.restarts};
     add([&](const Observer& observer) {
-      return solve_design(*solution_.problem, rest, observer, notice_);
+      return solve_design(*solution_.problem, rest, observer, setup_.notice);
     });
   }
 
   void add(const ObservedRun& run) {
     Stage& stage = solution_.stages.back();
     const bool is_first = solution_.result.history.empty();
-    Result result = run_after(solution_.result, observer_, [&](const Observer& observer) {
+    Result result = run_after(solution_.result, setup_.observer, [&](const Observer& observer) {
       Result own = run(observer);
       stage.evaluations = own.evaluations;
       stage.seconds = own.seconds;
@@ -194,95 +187,21 @@ class StagedSolve {
   }
 
   ProblemFile file_;  ///< with the effects that are decided so far
-  const SolveOptions& options_;
-  const Execution& execution_;
-  const Observer& observer_;
-  const Notice& notice_;
+  const SearchSetup& setup_;
   StagedSolution solution_;
-};
-
-/// Bodies that are made anew for each design are made for few. The verdict is over a design that they were
-/// made for: where the audited search ends elsewhere, they are made there, and it begins again.
-class MadeSolve {
- public:
-  MadeSolve(const ProblemFile& file, const SolveOptions& options, const Execution& execution,
-            const Observer& observer, const Notice& notice)
-      : bodies_(file),
-        options_(options),
-        execution_(execution),
-        observer_(observer),
-        notice_(notice) {
-    options_.takes_verified_start = true;
-  }
-
-  StagedSolution run(const Eigen::VectorXd& x) {
-    if (!make_at(x)) return solve(bodies_.original(), x);
-    made_for_ = search_between_calls(bodies_, x, options_, execution_, before_, observer_, notice_);
-    StagedSolution solution = solve(bodies_.continued(), made_for_);
-    bool can_go_on = true;
-    for (int round = 1; round < most_judgements && can_go_on && has_left(solution); ++round) {
-      can_go_on = make_at(solution.result.x);
-      notify(notice_, can_go_on
-                          ? "bodies were made for the design that was found, which is judged again"
-                          : "the last design that bodies were made for is judged in its place");
-      if (!can_go_on) options_.max_iterations = 1;
-      ProblemFile next = solution.problem->file();
-      next.accuracy.chooses_setting = false;  // that is done
-      std::vector<Stage> stages = std::move(solution.stages);
-      solution = solve(bodies_.continued(std::move(next)), made_for_);
-      stages.insert(stages.end(), solution.stages.begin(), solution.stages.end());
-      solution.stages = std::move(stages);
-    }
-    return solution;
-  }
-
- private:
-  static constexpr int most_judgements = 5;
-
-  /// @returns whether there are bodies
-  bool make_at(const Eigen::VectorXd& x) {
-    try {
-      bodies_.make_at(x);
-      made_for_ = x;
-      return true;
-    } catch (const SimulationError& failure) {
-      notify(notice_, failure.what());
-      return false;
-    }
-  }
-
-  bool has_left(const StagedSolution& solution) const {
-    return solution.result.evaluation.has_gradients() && !bodies_.are_made_at(solution.result.x);
-  }
-
-  StagedSolution solve(const ProblemFile& file, const Eigen::VectorXd& x) {
-    StagedSolution solution;
-    before_ = run_after(before_, observer_, [&](const Observer& observer) {
-      solution = StagedSolve(file, options_, execution_, observer, notice_).run(x);
-      return std::move(solution.result);
-    });
-    solution.result = before_;
-    return solution;
-  }
-
-  MadeBodies bodies_;
-  SolveOptions options_;
-  const Execution& execution_;
-  Result before_;             ///< effort and history so far
-  Eigen::VectorXd made_for_;  ///< the last design with bodies
-  const Observer& observer_;
-  const Notice& notice_;
 };
 
 }  // namespace
 
 StagedSolution solve_in_stages(const ProblemFile& file, const Eigen::VectorXd& start,
-                               const SolveOptions& options, const Execution& execution,
-                               const Observer& observer, const Notice& notice) {
-  if (has_made_bodies(file)) {
-    return MadeSolve(file, options, execution, observer, notice).run(start);
-  }
-  return StagedSolve(file, options, execution, observer, notice).run(start);
+                               const SearchSetup& setup) {
+  return has_made_bodies(file) ? solve_with_made_bodies(file, start, setup)
+                               : solve_stages(file, start, setup);
+}
+
+StagedSolution solve_stages(const ProblemFile& file, const Eigen::VectorXd& start,
+                            const SearchSetup& setup) {
+  return StagedSolve(file, setup).run(start);
 }
 
 }  // namespace pleuel

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "core/trust/setting_choice.hpp"
@@ -13,6 +11,24 @@
 /// Optimization of a problem file in stages: with coarse settings first where an accuracy is asked
 /// for, and again where effects that were left out matter at the optimum.
 namespace pleuel {
+
+/// How a search is made, and who hears of it.
+struct SearchSetup {
+  SolveOptions options = {};
+  Execution execution = {};  ///< its jobs are simulations at a time, of gradients by differences
+  Observer observer = {};
+  Notice notice = {};
+
+  /// A problem that begins at a design.
+  std::unique_ptr<DesignProblem> problem_at(ProblemFile file, const Eigen::VectorXd& x) const {
+    auto problem =
+        std::make_unique<DesignProblem>(std::move(file), execution.tasks.jobs, execution.store);
+    problem->start_from(x);
+    return problem;
+  }
+  /// The same with another observer.
+  SearchSetup heard_by(const Observer& hears) const { return {options, execution, hears, notice}; }
+};
 
 /// A part of an optimization that ran with one setting.
 struct Stage {
@@ -39,10 +55,12 @@ struct StagedSolution {
 /// as it is; effects that were left out by a tolerance but matter at the optimum are taken back,
 /// and the run goes on. Each load case has a setting and effects of its own.
 /// @param start      the first design [SI]
-/// @param execution  its jobs are simulations at a time, of gradients by differences
 /// @throws as solve()
 StagedSolution solve_in_stages(const ProblemFile& file, const Eigen::VectorXd& start,
-                               const SolveOptions& options, const Execution& execution,
-                               const Observer& observer = {}, const Notice& notice = {});
+                               const SearchSetup& setup);
+
+/// The same with bodies that are made anew for each design as they are.
+StagedSolution solve_stages(const ProblemFile& file, const Eigen::VectorXd& start,
+                            const SearchSetup& setup);
 
 }  // namespace pleuel

@@ -3,7 +3,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "optimization/backends.hpp"
 #include "optimization/evaluation_cache.hpp"
-#include "optimization/history.hpp"
+#include "optimization/result.hpp"
 #include "optimization/solve.hpp"
 #include "tests/optimization/known_problems.hpp"
 #include "tests/support/test.hpp"

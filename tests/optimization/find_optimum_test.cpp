@@ -1,5 +1,3 @@
-#include "optimization/find_optimum.hpp"
-
 #include <cctype>
 #include <random>
 #include <set>
@@ -7,8 +5,8 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "optimization/backends.hpp"
+#include "optimization/problem.hpp"
 #include "optimization/solve.hpp"
-#include "optimization/starts.hpp"
 #include "tests/optimization/known_problems.hpp"
 #include "tests/support/test.hpp"
 

@@ -2,9 +2,8 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "optimization/backends.hpp"
-#include "optimization/broken_limits.hpp"
 #include "optimization/kkt_audit.hpp"
-#include "optimization/prices.hpp"
+#include "optimization/result.hpp"
 #include "optimization/solve.hpp"
 #include "tests/optimization/known_problems.hpp"
 #include "tests/support/test.hpp"

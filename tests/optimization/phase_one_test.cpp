@@ -6,9 +6,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "optimization/kkt_audit.hpp"
 #include "optimization/linear_choice.hpp"
-#include "optimization/phase_one_problem.hpp"
-#include "optimization/restoration.hpp"
-#include "optimization/violation_step.hpp"
+#include "optimization/phase_one.hpp"
 #include "tests/optimization/known_problems.hpp"
 #include "tests/support/test.hpp"
 

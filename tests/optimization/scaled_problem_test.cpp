@@ -1,11 +1,8 @@
-#include "optimization/scaled_problem.hpp"
-
 #include <functional>
 #include <random>
 
 #include "core/base/eager_matrices.hpp"
 #include "optimization/backends.hpp"
-#include "optimization/find_optimum.hpp"
 #include "optimization/robust_problem.hpp"
 #include "optimization/scaling.hpp"
 #include "optimization/solve.hpp"

@@ -1,7 +1,6 @@
 #include "core/base/eager_matrices.hpp"
 #include "optimization/backends.hpp"
-#include "optimization/gradient_check.hpp"
-#include "optimization/lowest_curvature.hpp"
+#include "optimization/neighbourhood.hpp"
 #include "optimization/scaling.hpp"
 #include "optimization/solve.hpp"
 #include "optimization/verdict.hpp"

@@ -229,7 +229,7 @@ SolveOptions options_of(const ProblemFile& file) {
 }
 
 StagedSolution solve(const ProblemFile& file) {
-  return solve_in_stages(file, start_design(file), options_of(file), {});
+  return solve_in_stages(file, start_design(file), {options_of(file)});
 }
 
 TEST(StagedSolve, BeginsCoarseAndKeepsItsTargetAtTheOptimum) {

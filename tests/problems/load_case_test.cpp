@@ -217,7 +217,7 @@ TEST(LoadCases, HaveStepsOfTheirOwnWhereAnAccuracyIsAskedFor) {
   document["accuracy"] = {{"target", "1 %"}};
   document["cases"]["heavy"]["/simulation/end_time"] = "120 ms";
   const ProblemFile file = problem_of(document);
-  const StagedSolution solution = solve_in_stages(file, start_design(file), {}, {});
+  const StagedSolution solution = solve_in_stages(file, start_design(file), {});
   EXPECT_EQ(solution.result.status, Status::verified) << solution.result.message;
   ASSERT_EQ(solution.stages.back().settings.size(), 2u);
   const ProblemFile& solved = solution.problem->file();

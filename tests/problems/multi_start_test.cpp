@@ -7,7 +7,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "optimization/backends.hpp"
-#include "optimization/design/setting_text.hpp"
+#include "optimization/design/design_case.hpp"
 #include "optimization/design/size_choice.hpp"
 #include "tests/optimization/known_problems.hpp"
 #include "tests/support/problem_runs.hpp"
@@ -34,7 +34,7 @@ ProblemFile held_arm(const std::string& optimizer) {
 MultiStart solved(const ProblemFile& file, const Execution& execution = {}) {
   const auto starts =
       starts_of(file, Eigen::VectorXd::Constant(1, file.variables[0].start), file.optimizer.starts);
-  return solve_from_starts(file, starts, {}, execution);
+  return solve_from_starts(file, starts, {{}, execution});
 }
 
 TEST(MultiStart, FindsTheBestOfTwoLocalOptima) {
@@ -95,9 +95,9 @@ TEST(MultiStart, SearchesFromEachDesignAsIfThatWereTheOnlyOne) {
   file.accuracy.chooses_setting = true;
   const auto starts = starts_of(file, Eigen::VectorXd::Constant(1, 0.4), 2);
   SolveOptions options{.starts = 2};
-  const MultiStart all = solve_from_starts(file, starts, options, {{.jobs = 2}});
+  const MultiStart all = solve_from_starts(file, starts, {options, {{.jobs = 2}}});
   const std::size_t best = all.optima.at(0).starts.at(0);
-  const StagedSolution alone = solve_in_stages(file, starts.at(best), options, {});
+  const StagedSolution alone = solve_in_stages(file, starts.at(best), {options});
   EXPECT_EQ(all.best.result.x, alone.result.x);
   EXPECT_EQ(all.best.result.evaluation.objective_gradient,
             alone.result.evaluation.objective_gradient);
@@ -267,10 +267,10 @@ struct Answer {
 
 Answer solved_sizes(const ProblemFile& file, int jobs = 1) {
   const Execution execution{{.jobs = jobs}, nullptr};
-  MultiStart all = solve_from_starts(file, {start_design(file)}, {}, execution);
+  MultiStart all = solve_from_starts(file, {start_design(file)}, {{}, execution});
   Answer answer;
   answer.solution = std::move(all.best);
-  answer.report = choose_sizes(answer.solution, {}, execution);
+  answer.report = choose_sizes(answer.solution, {{}, execution});
   return answer;
 }
 

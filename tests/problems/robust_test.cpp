@@ -3,7 +3,7 @@
 #include "optimization/design/design_problem.hpp"
 #include "optimization/design/design_solve.hpp"
 #include "optimization/design/margin_problem.hpp"
-#include "optimization/design/optimum_error.hpp"
+#include "optimization/design/number_judgement.hpp"
 #include "studies/uncertainty.hpp"
 #include "tests/optimization/known_problems.hpp"
 #include "tests/problems/loaded_crank.hpp"

@@ -347,7 +347,7 @@ INSTANTIATE_TEST_SUITE_P(ForceElements, BadMechanismFile, testing::ValuesIn(bad_
 /scene/loads/strap/bodies | ["ground", "ground"] | ~ must name two bodies, got "ground" twice
 /scene/loads/strap/bodies/1 | "bal" | ~ names the unknown body "bal"; did you mean "ball"?
 /scene/loads/strap/at | [[4, 0, 0]] | ~ must be a list of 2 values, got [[4,0,0]]
-/scene/loads/strap/at | [[4, 0, 0], [4, 0, 0]] | ~ must be two different points, got [[4,0,0],[4,0,0]]
+/scene/loads/strap/at | [[4, 0, 0], [4, 0, 0]] | ~ must be two different points where "free_length" is not 0, got [[4,0,0],[4,0,0]]
 /scene/loads/strap/at/1/0 | 4.5 | ^ must be where the point mass "ball" is, (4, 0, 0) [m], got (4.5, 0, 0)
 /scene/loads/cord/at/0/1 | 1 | ^ must be on the axis of the beam "arm", the nearest point is (0.123, 0, 0) [m], got (0.123, 1, 0)
 /scene/loads/strap/stiffness | remove | ^ needs "stiffness" or "resistance"

@@ -2,8 +2,8 @@
 #include <limits>
 
 #include "core/base/error.hpp"
-#include "studies/front_ends.hpp"
 #include "studies/pareto.hpp"
+#include "studies/pareto_point.hpp"
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"
 

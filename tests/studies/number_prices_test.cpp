@@ -6,7 +6,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "optimization/design/design_solve.hpp"
-#include "studies/priced_numbers.hpp"
+#include "studies/number_prices.hpp"
 #include "tests/optimization/known_problems.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/problem_runs.hpp"

@@ -13,7 +13,7 @@
 #include "core/base/error.hpp"
 #include "core/base/find_named.hpp"
 #include "core/base/plain_file_name.hpp"
-#include "core/scene/joined_cases.hpp"
+#include "core/scene/case_goals.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/reading/case_suffix.hpp"
 #include "core/scene/reading/goal_reader.hpp"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/base/expression.hpp"
-#include "core/scene/dimension_quantity.hpp"
+#include "core/scene/named_quantities.hpp"
 #include "core/scene/reading/case_suffix.hpp"
 
 /// What goes into the reading of a formula, and what comes out.

@@ -1,24 +1,96 @@
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <mutex>
+#include <string>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <unistd.h>
 
 #include "core/base/error.hpp"
+#include "core/base/fingerprint.hpp"
 #include "core/base/int_size.hpp"
+#include "core/base/plain_file_name.hpp"
 #include "core/jobs/child_program.hpp"
 #include "core/jobs/parallel.hpp"
 #include "core/scene/aligned_body.hpp"
+#include "core/scene/body_constants.hpp"
 #include "core/scene/body_source.hpp"
-#include "core/scene/invariants_file.hpp"
-#include "core/scene/reading/call_record.hpp"
 #include "core/scene/reading/json_text.hpp"
 
 namespace pleuel {
 
 namespace {
+
+/// What calls of one program returned, by their input: a folder, one file a call. Any number of threads and
+/// processes may use it.
+class CallRecord {
+ public:
+  /// Calls of another command, or with other contents of the files that it names, are others.
+  explicit CallRecord(const BodyGenerator& generator);
+
+  /// @returns what the call returned; empty if it is not known
+  std::string find(const std::string& input) const;
+
+  /// A folder that cannot be written to costs a call later, no more.
+  void keep(const std::string& input, const std::string& output) const;
+
+  /// Of the command and its files.
+  std::string identity() const { return identity_.text(); }
+
+ private:
+  std::filesystem::path path_of(const std::string& input) const;
+
+  std::filesystem::path folder_;
+  Fingerprint identity_;
+};
+
+namespace fs = std::filesystem;
+
+std::string content_of_file(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+CallRecord::CallRecord(const BodyGenerator& generator) : folder_(generator.record) {
+  std::vector<std::string> words = generator.command;
+  words.insert(words.end(), generator.files.begin(), generator.files.end());
+  for (const std::string& word : words) {
+    identity_.add(word);
+    const fs::path file = fs::path(generator.folder) / word;
+    std::error_code error;
+    if (fs::is_regular_file(file, error)) identity_.add(content_of_file(file));
+  }
+}
+
+std::string CallRecord::find(const std::string& input) const {
+  return folder_.empty() ? "" : content_of_file(path_of(input));
+}
+
+/// Written beside it and renamed: nobody reads half of it.
+void CallRecord::keep(const std::string& input, const std::string& output) const {
+  if (folder_.empty()) return;
+  static std::atomic<int> count = 0;
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  const fs::path path = path_of(input);
+  const fs::path draft = fmt::format("{}.{}.{}", path.string(), ::getpid(), count++);
+  std::ofstream stream(draft, std::ios::binary);
+  stream << output;
+  stream.close();
+  if (stream) fs::rename(draft, path, error);
+}
+
+fs::path CallRecord::path_of(const std::string& input) const {
+  Fingerprint fingerprint = identity_;
+  fingerprint.add(input);
+  return folder_ / (plain_file_name(fingerprint.text()) + ".json");
+}
 
 using FilePointer = std::shared_ptr<const InvariantsFile>;
 

@@ -12,7 +12,7 @@
 #include "core/scene/reading/response_reader.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 #include "core/scene/reading/symbols.hpp"
-#include "core/scene/response_quantity.hpp"
+#include "core/scene/shown_unit.hpp"
 
 namespace pleuel {
 namespace {

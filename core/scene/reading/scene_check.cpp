@@ -220,6 +220,12 @@ JsonNode node_of(const JsonNode& scene, const PlacedPoint& place) {
   return node;
 }
 
+/// Whether a spring may begin, and pass through, where both its ends are at one point.
+bool has_no_length(const SpringDamper& spring) {
+  const std::optional<Number>& length = spring.free_length;
+  return length && !length->is_bound() && length->constant == 0.0;
+}
+
 std::vector<PointPair> pairs_of(const JsonNode& node, const Scene& scene) {
   std::vector<PointPair> pairs;
   for (const Joint& joint : scene.joints) {
@@ -229,9 +235,10 @@ std::vector<PointPair> pairs_of(const JsonNode& node, const Scene& scene) {
   }
   for (const Load& load : scene.loads) {
     const JsonNode place = node.at("loads").at(load.name);
-    if (const auto* spring = std::get_if<SpringDamper>(&load.element)) {
-      pairs.push_back(
-          {place.at("at"), &spring->at[0], &spring->at[1], "must be two different points"});
+    const auto* spring = std::get_if<SpringDamper>(&load.element);
+    if (spring != nullptr && !has_no_length(*spring)) {
+      pairs.push_back({place.at("at"), &spring->at[0], &spring->at[1],
+                       "must be two different points where \"free_length\" is not 0"});
     }
     const auto* force = std::get_if<PointForce>(&load.element);
     if (force == nullptr || !force->to) continue;

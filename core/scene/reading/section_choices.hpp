@@ -13,7 +13,7 @@
 ///
 /// Such a variable becomes a number, the place of the section in its list, which is brought into
 /// ascending order of area (of equal ones: as they are written): 0, 1, 2 … Each number of the section
-/// is a smooth function of it (core/base/value_path.hpp) that has the values of the catalogue at whole
+/// is a smooth function of it (core/base/expression.hpp) that has the values of the catalogue at whole
 /// numbers. So the optimizer finds all sections, and others between them, along one path.
 namespace pleuel {
 

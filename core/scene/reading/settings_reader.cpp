@@ -9,10 +9,10 @@
 
 #include "core/base/int_size.hpp"
 #include "core/base/machine_memory.hpp"
+#include "core/scene/problem_file.hpp"
 #include "core/scene/reading/key_reader.hpp"
 #include "core/scene/reading/mistakes.hpp"
 #include "core/scene/reading/sample_design.hpp"
-#include "core/scene/sample_extent.hpp"
 #include "core/scene/shown_unit.hpp"
 
 namespace pleuel {

@@ -8,7 +8,7 @@
 #include "core/base/find_named.hpp"
 #include "core/scene/reading/catalogue.hpp"
 #include "core/scene/reading/symbols.hpp"
-#include "core/scene/response_quantity.hpp"
+#include "core/scene/shown_unit.hpp"
 
 namespace pleuel {
 namespace {

@@ -1,13 +1,265 @@
 #include "core/scene/reading/table_law_reader.hpp"
 
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <optional>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include "core/scene/reading/csv_table.hpp"
+#include "core/scene/reading/json_node.hpp"
+#include "core/scene/reading/syntax_error.hpp"
+#include "core/scene/units.hpp"
 
 namespace pleuel {
+
 namespace {
+
+/// Two columns of a file, in SI units, one entry a row.
+struct TableColumns {
+  std::vector<double> arguments;  ///< ascending, at least two
+  std::vector<double> values;
+};
+
+namespace fs = std::filesystem;
+
+/// Without blanks around it, and, of a cell, quotes.
+std::string trimmed(std::string text, std::string_view covers = " \t\r\"") {
+  const auto is_cover = [&](char c) { return covers.find(c) != std::string_view::npos; };
+  while (!text.empty() && is_cover(text.back())) text.pop_back();
+  text.erase(text.begin(), std::find_if_not(text.begin(), text.end(), is_cover));
+  return text;
+}
+
+std::optional<double> number_of(const std::string& cell) {
+  const char* begin = cell.data() + (cell.starts_with('+') ? 1 : 0);
+  const char* end = cell.data() + cell.size();
+  double value = 0.0;
+  const auto [rest, status] = std::from_chars(begin, end, value);
+  if (status != std::errc() || rest != end || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+struct Row {
+  int line = 0;  ///< from 1
+  std::vector<std::string> cells;
+};
+
+/// The first of ; tab , that the line has, else blanks.
+char separator_of(const std::string& line) {
+  for (const char c : {';', '\t', ','}) {
+    if (line.find(c) != std::string::npos) return c;
+  }
+  return ' ';
+}
+
+/// Where the cell that begins here ends: separators between quotes are its own.
+std::size_t end_of_cell(const std::string& line, std::size_t begin, char separator) {
+  bool is_quoted = false;
+  for (std::size_t i = begin; i < line.size(); ++i) {
+    if (line[i] == '"') is_quoted = !is_quoted;
+    if (line[i] == separator && !is_quoted) return i;
+  }
+  return line.size();
+}
+
+/// Without empty cells at the end, which some programs write.
+std::vector<std::string> split(const std::string& line, char separator) {
+  std::vector<std::string> cells;
+  std::size_t begin = 0;
+  while (begin <= line.size()) {
+    const std::size_t end = end_of_cell(line, begin, separator);
+    const std::string cell = trimmed(line.substr(begin, end - begin));
+    if (separator != ' ' || !cell.empty()) cells.push_back(cell);
+    begin = end + 1;
+  }
+  while (!cells.empty() && cells.back().empty()) cells.pop_back();
+  return cells;
+}
+
+/// Rows that are not empty and no remark. @pre the text has no byte-order mark
+std::vector<Row> rows_of(const std::string& text) {
+  std::vector<Row> rows;
+  int line_number = 0;
+  std::size_t begin = 0;
+  while (begin < text.size()) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string line = trimmed(text.substr(begin, end - begin), " \r");
+    ++line_number;
+    begin = end + 1;
+    if (trimmed(line).empty() || trimmed(line).starts_with('#')) continue;
+    rows.push_back({line_number, split(line, separator_of(line))});
+  }
+  return rows;
+}
+
+/// "angle [deg]" or "angle (deg)".
+struct Head {
+  std::string name, unit;
+};
+
+Head head_of(const std::string& cell) {
+  for (const auto& [open, close] : {std::pair('[', ']'), std::pair('(', ')')}) {
+    const std::size_t at = cell.find(open);
+    if (at == std::string::npos || !cell.ends_with(close)) continue;
+    return {trimmed(cell.substr(0, at)), trimmed(cell.substr(at + 1, cell.size() - at - 2))};
+  }
+  return {cell, ""};
+}
+
+class TableFile {
+ public:
+  TableFile(const JsonNode& node, const UnitSystem& units)
+      : name_(node.at("file")), columns_(node.at("columns")), units_(units) {
+    if (const auto given = node.find("units")) units_node_.emplace(*given);
+    const fs::path path = fs::path(name_.file()).parent_path() / name_.text();
+    std::error_code error;
+    if (!fs::exists(path, error) || fs::is_directory(path, error)) {
+      name_.fail_with_value("must name a file, from the folder of the problem file on");
+    }
+    std::string text = read_text_file(path);
+    if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+    rows_ = rows_of(text);
+    if (rows_.empty()) name_.fail(fmt::format("names the file {}, which is empty", name_.text()));
+    const auto is_number = [](const std::string& cell) { return number_of(cell).has_value(); };
+    const std::vector<std::string>& first = rows_.front().cells;
+    if (std::none_of(first.begin(), first.end(), is_number)) {
+      for (const std::string& cell : first) heads_.push_back(head_of(cell));
+      rows_.erase(rows_.begin());
+    }
+  }
+
+  TableColumns read(const std::array<Quantity, 2>& quantities) const {
+    const std::vector<JsonNode> names = columns_.items(2);
+    std::array<std::size_t, 2> places{};
+    std::array<double, 2> scales{};
+    for (std::size_t i = 0; i < 2; ++i) {
+      places[i] = place_of(names[i]);
+      scales[i] = scale_of(i, places[i], quantities[i]);
+    }
+    TableColumns table;
+    for (const Row& row : rows_) {
+      check_length(row);
+      table.arguments.push_back(scales[0] * entry(row, places[0]));
+      table.values.push_back(scales[1] * entry(row, places[1]));
+      const std::size_t n = table.arguments.size();
+      if (n > 1 && !(table.arguments[n - 1] > table.arguments[n - 2])) {
+        fail(row, fmt::format("the first column must ascend, got {} after a value that is not less",
+                              row.cells[places[0]]));
+      }
+    }
+    if (table.arguments.size() < 2) {
+      name_.fail(fmt::format("names the file {}, which must have two rows of numbers at least",
+                             name_.text()));
+    }
+    return table;
+  }
+
+ private:
+  /// More cells than columns are decimal commas, or names that stand above the wrong columns.
+  void check_length(const Row& row) const {
+    const std::size_t columns = heads_.empty() ? rows_.front().cells.size() : heads_.size();
+    if (row.cells.size() <= columns) return;
+    fail(row, fmt::format("it has {} values, but the first line {} (decimals have a point)",
+                          row.cells.size(), columns));
+  }
+
+  [[noreturn]] void fail(const Row& row, const std::string& why) const {
+    name_.fail(fmt::format("names the file {}, line {}: {}", name_.text(), row.line, why));
+  }
+
+  std::size_t place_of(const JsonNode& column) const {
+    constexpr int most_columns = 10000;
+    if (column.value().is_number()) {
+      return static_cast<std::size_t>(column.whole_number(1, most_columns)) - 1;
+    }
+    const std::string name = column.text();
+    std::vector<std::string> known;
+    for (const Head& head : heads_) known.push_back(head.name);
+    const auto found = std::find(known.begin(), known.end(), name);
+    if (found != known.end()) {
+      if (std::find(found + 1, known.end(), name) != known.end()) {
+        column.fail_with_value(fmt::format(
+            "must be a number from 1, as the file {} has two columns of that name", name_.text()));
+      }
+      return static_cast<std::size_t>(found - known.begin());
+    }
+    if (known.empty()) {
+      column.fail_with_value(fmt::format(
+          "must be a number from 1, as the file {} has no line of names", name_.text()));
+    }
+    fail_unknown_name(column, "column", name, known);
+  }
+
+  double scale_of(std::size_t i, std::size_t place, const Quantity& quantity) const {
+    const bool is_head = !units_node_ && place < heads_.size();
+    const JsonNode at = units_node_ ? units_node_->items(2)[i] : columns_.items(2)[i];
+    const std::string unit = units_node_ ? at.text() : is_head ? heads_[place].unit : "";
+    if (unit.empty()) {
+      at.fail(
+          fmt::format("has no unit; write it in the first line of {}, as in \"{} [{}]\", or in "
+                      "\"units\"",
+                      name_.text(), is_head ? heads_[place].name : "value", quantity.unit));
+    }
+    try {
+      const double scale = units_.scale(unit, quantity);
+      check_unit_of_file(at, place, scale, quantity);
+      return scale;
+    } catch (const UnitError& error) {
+      at.fail(fmt::format("has the unit \"{}\", but must be {}: {}", unit, describe(quantity),
+                          error.what()));
+    }
+  }
+
+  /// What the problem file says must not contradict the first line of the table.
+  void check_unit_of_file(const JsonNode& at, std::size_t place, double scale,
+                          const Quantity& quantity) const {
+    if (!units_node_ || place >= heads_.size() || heads_[place].unit.empty()) return;
+    const Head& head = heads_[place];
+    try {
+      if (units_.scale(head.unit, quantity) == scale) return;
+    } catch (const UnitError&) {  // a remark in brackets
+      return;
+    }
+    at.fail_with_value(
+        fmt::format("must be the unit of the first line of {}, \"{} [{}]\", or "
+                    "leave \"units\" out",
+                    name_.text(), head.name, head.unit));
+  }
+
+  double entry(const Row& row, std::size_t place) const {
+    if (place >= row.cells.size()) {
+      fail(row, fmt::format("there is no column {}", place + 1));
+    }
+    const std::optional<double> number = number_of(row.cells[place]);
+    if (!number) {
+      fail(row, fmt::format("\"{}\" is no number (decimals have a point)", row.cells[place]));
+    }
+    return *number;
+  }
+
+  JsonNode name_, columns_;
+  std::optional<JsonNode> units_node_;
+  const UnitSystem& units_;
+  std::vector<Row> rows_;
+  std::vector<Head> heads_;  ///< none: the file begins with numbers
+};
+
+/// Reads {"file": "gas_force.csv", "columns": ["angle", "force"], "units": ["deg", "N"]}: a text file
+/// from the folder of the problem file on. Cells are separated by commas, semicolons, tabs or blanks;
+/// decimals have a point; lines that begin with # are left out. Columns have names, which are those
+/// of the first line, or numbers from 1. Units stand in the first line, "angle [deg]", or in "units".
+/// @param node  has the keys "file" and "columns"
+/// @throws InputError with the number of the line
+TableColumns read_table_file(const JsonNode& node, const std::array<Quantity, 2>& quantities,
+                             const UnitSystem& units) {
+  return TableFile(node, units).read(quantities);
+}
 
 /// What a table is a function of, and the key of its list.
 struct TableArgument {
