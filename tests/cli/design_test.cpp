@@ -31,21 +31,19 @@ class FailedDesign : public testing::Test {
 
 TEST_F(FailedDesign, OfAStartIsKeptWithTheCommandThatMeetsTheSameFailure) {
   // No crank of these lengths can turn: the search has nowhere to go.
-  const ProgramRun run = optimize("120 mm", {"--set", "/variables/crank_length/lower=115 mm"});
-  EXPECT_EQ(run.exit_code, 3) << run.err;
+  const ProgramRun run =
+      exits(3, optimize("120 mm", {"--set", "/variables/crank_length/lower=115 mm"}));
   EXPECT_GE(dossier().at("variables").at("crank_length").at("value"), 0.115);
   EXPECT_EQ(dossier().at("variables").at("crank_length").at("unit"), "m");
   const std::string command = dossier().at("command");
   EXPECT_THAT(run.out, HasSubstr("run/failed_design.json"));
   EXPECT_THAT(run.out, HasSubstr(command));
-  const ProgramRun again = folder_.run_line(without_program(command));
-  EXPECT_EQ(again.exit_code, 3);
+  const ProgramRun again = exits(3, folder_.run_line(without_program(command)));
   EXPECT_EQ(again.err, "pleuel: " + dossier().at("failure").get<std::string>() + "\n");
 }
 
 TEST_F(FailedDesign, OfAStartIsLeftForADesignThatCanBeSimulated) {
-  const ProgramRun run = optimize("120 mm");
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  exits(0, optimize("120 mm"));
   const nlohmann::json result = folder_.result("run");
   EXPECT_THAT(result.at("message").get<std::string>(), HasSubstr("the start cannot be evaluated"));
   EXPECT_LT(result.at("variables").at("crank_length").at("start"), 0.12);
@@ -53,8 +51,7 @@ TEST_F(FailedDesign, OfAStartIsLeftForADesignThatCanBeSimulated) {
 
 /// The last failure of a search that found its optimum all the same.
 TEST_F(FailedDesign, OfASearchIsTheLastOneOfItsHistory) {
-  const ProgramRun run = optimize("30 mm");
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = exits(0, optimize("30 mm"));
   const auto history = read_csv(folder_.path() / "run/history.csv");
   int failures = 0;
   std::vector<std::string> last;
@@ -82,10 +79,9 @@ TEST_F(FailedDesign, OrAnyOtherOfAResultIsSimulatedExactly) {
   ASSERT_EQ(optimize("90 mm").exit_code, 0);
   const nlohmann::json optimum = folder_.result("run");
   for (const char* command : {"simulate", "gradient", "check"}) {
-    const ProgramRun run = folder_.run({command, problem("hard/impossible_designs"), "--set",
-                                        "/variables/crank_length/start=90 mm", "--design",
-                                        "run/result.json", "--json"});
-    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const ProgramRun run = exits(0, folder_.run({command, problem("hard/impossible_designs"),
+                                                 "--set", "/variables/crank_length/start=90 mm",
+                                                 "--design", "run/result.json", "--json"}));
     for (const auto& [name, response] : optimum.at("responses").items()) {
       EXPECT_EQ(run.document().at("responses").at(name).at("value"), response.at("value"))
           << command << " " << name;
@@ -100,9 +96,7 @@ using DesignOfARun = InProgramFolder;
 TEST_F(DesignOfARun, IsSimulatedWithTheSettingOfTheRun) {
   const std::string file = problem("hard/impossible_designs");
   const auto run = [&](const std::vector<std::string>& words) {
-    const ProgramRun ended = folder_.run(joined(words, {"--json"}));
-    EXPECT_EQ(ended.exit_code, 0) << ended.err;
-    return ended;
+    return exits(0, folder_.run(joined(words, {"--json"})));
   };
   const nlohmann::json optimum =
       run({"optimize", file, "-o", "run", "--accuracy", "5%"}).document();
@@ -136,9 +130,7 @@ TEST_F(DesignOfARun, IsSimulatedWithTheSettingOfTheRun) {
 /// command line above that.
 TEST_F(DesignOfARun, IsSimulatedWithTheSettingOfEachLoadCase) {
   const auto run = [&](const std::vector<std::string>& words) {
-    const ProgramRun ended = folder_.run(joined(words, {"--json"}));
-    EXPECT_EQ(ended.exit_code, 0) << ended.err;
-    return ended;
+    return exits(0, folder_.run(joined(words, {"--json"})));
   };
   nlohmann::json problem_of_cases = read_json(problem("two_loads"));
   problem_of_cases["cases"]["heavy"]["/simulation/step"] = "2 ms";
@@ -189,9 +181,9 @@ class WrongDesign : public testing::Test {
  protected:
   void expect_complaint(const std::string& design, const std::string& part) const {
     std::ofstream(folder_.path() / "design.json") << design;
-    const ProgramRun run = folder_.run({"simulate", problem("hard/impossible_designs"), "--design",
-                                        (folder_.path() / "design.json").string()});
-    EXPECT_EQ(run.exit_code, 2);
+    const ProgramRun run =
+        exits(2, folder_.run({"simulate", problem("hard/impossible_designs"), "--design",
+                              (folder_.path() / "design.json").string()}));
     EXPECT_EQ(run.err, "pleuel: " + (folder_.path() / "design.json").string() + ": " + part + "\n");
   }
 
@@ -289,9 +281,9 @@ TEST_F(RoundedDesign, SaysWhichOfItsSizesAreAtABound) {
   EXPECT_EQ(reached("/variables/crank_length/lower=50 mm"), "none");
   EXPECT_EQ(reached("/variables/crank_length/lower=55 mm"), "lower");
   EXPECT_EQ(reached("/variables/crank_length/upper=55 mm"), "upper");
-  EXPECT_EQ(reached(R"(/variables/crank_length={"start": "55 mm", "lower": "55 mm",
-                                                "upper": "55 mm"})"),
-            "both");
+  EXPECT_EQ(
+      reached(R"(/variables/crank_length={"start": "55 mm", "lower": "55 mm", "upper": "55 mm"})"),
+      "both");
   // Far bounds are compared with themselves and with the start, 5 cm, not with the range.
   EXPECT_EQ(reached("/variables/crank_length/upper=100 km"), "none");
 }
@@ -303,24 +295,22 @@ TEST_F(RoundedDesign, ThatBreaksALimitIsNoSuccess) {
     EXPECT_EQ(run.document().at("constraints").at("length").at("kept"), code == 0);
   }
   // A start is no answer.
-  const ProgramRun start = simulate({"--set", "/variables/crank_length/start=61 mm"});
-  EXPECT_EQ(start.exit_code, 0);
+  const ProgramRun start = exits(0, simulate({"--set", "/variables/crank_length/start=61 mm"}));
   EXPECT_EQ(start.document().at("constraints").at("length").at("kept"), false);
 }
 
 TEST_F(RoundedDesign, IsDrawnInAReportThatIsMadeLater) {
   const std::string file = design(R"({"crank_length": "55 mm", "rod_height": "20 mm"})");
   simulate({"--no-report", "--design", file, "--set", "rod_height=21 mm"});
-  const ProgramRun report = folder_.run({"report", "run"});
-  EXPECT_EQ(report.exit_code, 0) << report.err;
+  const ProgramRun report = exits(0, folder_.run({"report", "run"}));
   EXPECT_THAT(report.out, Not(HasSubstr("Without the mechanism")));
 }
 
 TEST_F(WrongDesign, ThatIsNotThereIsNamed) {
-  const ProgramRun run =
-      folder_.run({"simulate", problem("hard/impossible_designs"), "--design", "nothing.json"});
-  EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err, HasSubstr("nothing.json: there is no such file"));
+  EXPECT_THAT(exits(2, folder_.run({"simulate", problem("hard/impossible_designs"), "--design",
+                                    "nothing.json"}))
+                  .err,
+              HasSubstr("nothing.json: there is no such file"));
 }
 
 }  // namespace

@@ -12,9 +12,8 @@ namespace {
 using LoadCases = InProgramFolder;
 
 TEST_F(LoadCases, GoThroughSimulateOneAfterTheOther) {
-  const ProgramRun run = folder_.run({"simulate", problem("two_loads"), "--json"});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
-  const nlohmann::json cases = run.document().at("cases");
+  const nlohmann::json cases =
+      exits(0, folder_.run({"simulate", problem("two_loads"), "--json"})).document().at("cases");
   ASSERT_EQ(cases.size(), 2u);
   const auto torque = [&](const char* name) {
     return cases.at(name).at("responses").at("torque").at("value").get<double>();
@@ -27,12 +26,11 @@ TEST_F(LoadCases, GoThroughSimulateOneAfterTheOther) {
 
 TEST_F(LoadCases, AreTakenAloneByTheirNames) {
   const ProgramRun run =
-      folder_.run({"simulate", problem("two_loads"), "--case", "heavy", "-o", "one"});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+      exits(0, folder_.run({"simulate", problem("two_loads"), "--case", "heavy", "-o", "one"}));
   EXPECT_THAT(run.out, HasSubstr("two loads [heavy]"));
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "one" / "trajectory.csv"));
-  const ProgramRun unknown = folder_.run({"simulate", problem("two_loads"), "--case", "hevy"});
-  EXPECT_EQ(unknown.exit_code, 2);
+  const ProgramRun unknown =
+      exits(2, folder_.run({"simulate", problem("two_loads"), "--case", "hevy"}));
   EXPECT_THAT(unknown.err, HasSubstr("did you mean \"heavy\"?"));
 }
 
@@ -42,10 +40,11 @@ TEST_F(LoadCases, HaveToBeNamedWhereACommandTakesOne) {
     EXPECT_EQ(run.exit_code, 2) << command;
     EXPECT_THAT(unwrapped(run.err), HasSubstr("--case")) << command;
   }
-  const ProgramRun run =
-      folder_.run({"stability", problem("two_loads"), "--case", "fast", "--json"});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
-  EXPECT_FALSE(run.document().at("formulations").empty());
+  EXPECT_FALSE(
+      exits(0, folder_.run({"stability", problem("two_loads"), "--case", "fast", "--json"}))
+          .document()
+          .at("formulations")
+          .empty());
 }
 
 /// The shipped problem with a number of both cases, and a limit on it.
@@ -62,9 +61,7 @@ std::string with_spread(const ProgramFolder& folder) {
 TEST_F(LoadCases, MakeNumbersTogether) {
   const std::string file = with_spread(folder_);
   for (const std::string command : {"simulate", "gradient"}) {
-    const ProgramRun run = folder_.run({command, file, "--json"});
-    EXPECT_EQ(run.exit_code, 0) << run.err;
-    const nlohmann::json document = run.document();
+    const nlohmann::json document = exits(0, folder_.run({command, file, "--json"})).document();
     const auto entry = [&](const char* name) {
       return document.at("cases").at(name).at("responses").at("rod_bow");
     };
@@ -88,11 +85,11 @@ TEST_F(LoadCases, MakeNumbersTogether) {
 
 /// What both cases share cancels in a difference: its deviation is that of the difference of slopes.
 TEST_F(LoadCases, ShareTheirUncertainParameters) {
-  const ProgramRun run =
-      folder_.run({"uncertainty", with_spread(folder_), "--json", "--set",
-                   R"(/uncertainty={"parameters": {"rod_diameter": {"deviation": "0.1 mm"}}})"});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
-  const nlohmann::json document = run.document();
+  const nlohmann::json document =
+      exits(0, folder_.run(
+                   {"uncertainty", with_spread(folder_), "--json", "--set",
+                    R"(/uncertainty={"parameters": {"rod_diameter": {"deviation": "0.1 mm"}}})"}))
+          .document();
   const auto deviation = [](const nlohmann::json& of) {
     return of.at("responses").at("rod_bow").at("deviation").get<double>();
   };
@@ -134,9 +131,9 @@ TEST_F(LoadCases, AreNamedWhereOneOfThemCannotBe) {
     return folder_.run({"simulate", file.string(), "--no-report"}).err;
   };
   // The frame of the rod holds its ends.
-  EXPECT_THAT(complaint_with("/scene/bodies/rod/initial_deflections",
-                             R"([{"at": ["120 mm", 0, 0], "direction": [0, 1, 0],
-                                  "displacement": "1 mm"}])"),
+  EXPECT_THAT(complaint_with(
+                  "/scene/bodies/rod/initial_deflections",
+                  R"([{"at": ["120 mm", 0, 0], "direction": [0, 1, 0], "displacement": "1 mm"}])"),
               HasSubstr("two.json: in the case \"fast\": /scene/bodies/rod/initial_deflections/0"));
   // Its drive begins from rest, which no period ends with.
   EXPECT_THAT(complaint_with("/cases/heavy/~1simulation~1initial_state",
@@ -145,8 +142,7 @@ TEST_F(LoadCases, AreNamedWhereOneOfThemCannotBe) {
 }
 
 TEST_F(LoadCases, AreLimitedTogether) {
-  const ProgramRun run = folder_.run({"optimize", with_spread(folder_), "-o", "run"});
-  EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
+  const ProgramRun run = exits(0, folder_.run({"optimize", with_spread(folder_), "-o", "run"}));
   EXPECT_THAT(run.out, HasSubstr("several"));
   const nlohmann::json result = folder_.result("run");
   const nlohmann::json limit = result.at("constraints").at("evenness");
@@ -169,19 +165,17 @@ TEST_F(LoadCases, AreLimitedTogether) {
 
 /// The masses are the same in both and nothing has a price: what the verdict speaks of is shown.
 TEST_F(LoadCases, ShowTheOneWhoseLimitCannotBeKept) {
-  const ProgramRun run =
-      folder_.run({"optimize", problem("two_loads"), "-o", "run", "--no-report", "--set",
-                   "/constraints/rod_strength/upper=1 kPa", "--set", "/simulation/step=0.4 ms",
-                   "--set", "/optimizer={\"max_iterations\": 3}"});
-  EXPECT_EQ(run.exit_code, 4) << run.err;
+  const ProgramRun run = exits(
+      4, folder_.run({"optimize", problem("two_loads"), "-o", "run", "--no-report", "--set",
+                      "/constraints/rod_strength/upper=1 kPa", "--set", "/simulation/step=0.4 ms",
+                      "--set", "/optimizer={\"max_iterations\": 3}"}));
   const nlohmann::json result = folder_.result("run");
   EXPECT_THAT(result.at("message").get<std::string>(), HasSubstr("rod_strength [heavy]"));
   EXPECT_EQ(result.at("cases").at("shown"), "heavy");
 }
 
 TEST_F(LoadCases, SayWhichOfThemDecidesALimit) {
-  const ProgramRun run = folder_.run({"optimize", problem("two_loads"), "-o", "run"});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = exits(0, folder_.run({"optimize", problem("two_loads"), "-o", "run"}));
   const nlohmann::json result = folder_.result("run");
   EXPECT_EQ(result.at("constraints").at("crank_strength [heavy]").at("decides"), true);
   EXPECT_EQ(result.at("constraints").at("crank_strength [fast]").at("decides"), false);
@@ -191,12 +185,10 @@ TEST_F(LoadCases, SayWhichOfThemDecidesALimit) {
   const ProgramRun again = folder_.run({"optimize", problem("two_loads"), "-o", "run", "--resume"});
   EXPECT_THAT(again.out, HasSubstr("evaluations were known"));
   EXPECT_EQ(folder_.result("run").at("variables"), result.at("variables"));
-  const ProgramRun motion = folder_.run({"export", "run", "--vtk"});
-  EXPECT_EQ(motion.exit_code, 0) << motion.err;
+  const ProgramRun motion = exits(0, folder_.run({"export", "run", "--vtk"}));
   EXPECT_THAT(unwrapped(motion.out), HasSubstr("instants of the case \"heavy\" written to"));
   EXPECT_TRUE(std::filesystem::exists(folder_.path() / "run" / "vtk" / "optimum-heavy.pvd"));
-  const ProgramRun drawn = folder_.run({"plot", "run", "torque"});
-  EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+  const ProgramRun drawn = exits(0, folder_.run({"plot", "run", "torque"}));
 }
 
 /// A cantilever that a force bends at once, in two cases.
@@ -205,15 +197,13 @@ class BentCantilever : public testing::Test {
   BentCantilever() {
     document_ = nlohmann::ordered_json::parse(R"json({
       "scene": {
-        "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": ["300 mm", 0, 0],
-                           "material": "steel",
+        "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": ["300 mm", 0, 0], "material": "steel",
                            "section": {"type": "rectangle", "width": {"variable": "width"},
                                        "height": "= share*(1 mm)"},
                            "elements": 2, "damping": {"stiffness": "0.1 ms"}}},
         "joints": {"wall": {"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}},
         "loads": {"weight": {"type": "force", "body": "bar", "at": ["300 mm", 0, 0],
-                             "direction": [0, -1, 0], "value": "200 N"}}
-      },
+                             "direction": [0, -1, 0], "value": "200 N"}}},
       "simulation": {"end_time": "1 ms", "step": "0.1 ms", "initial_state": "quasi-static",
                      "resolution_check": false},
       "variables": {"width": {"start": "20 mm", "lower": "4 mm", "upper": "40 mm"},
@@ -243,9 +233,11 @@ class BentCantilever : public testing::Test {
 TEST_F(BentCantilever, SaysWhatHasNoNumberOverItsCases) {
   document_["cases"]["other"]["/scene/loads/weight/value"] = "0 N";
   document_["responses"]["ratio"] = {{"type", "expression"}, {"value", "sag[down]/sag[other]"}};
-  const ProgramRun simulated = run({"simulate", "bar.json", "--json"});
-  EXPECT_EQ(simulated.exit_code, 3);
-  const nlohmann::json ratio = simulated.document().at("over_cases").at("responses").at("ratio");
+  const nlohmann::json ratio = exits(3, run({"simulate", "bar.json", "--json"}))
+                                   .document()
+                                   .at("over_cases")
+                                   .at("responses")
+                                   .at("ratio");
   EXPECT_TRUE(ratio.at("value").is_null());
   EXPECT_THAT(ratio.at("error").get<std::string>(), HasSubstr("has no finite value there"));
   EXPECT_EQ(run({"gradient", "bar.json", "--json"}).exit_code, 3);
@@ -256,8 +248,7 @@ TEST_F(BentCantilever, KeepsTheOtherCasesWhereOneCannotBeSimulated) {
   // Far above the critical load of the column, about 1 MN.
   document_["cases"]["other"] = {{"/scene/loads/weight/direction", {-1, 0, 0}},
                                  {"/scene/loads/weight/value", "50 MN"}};
-  const ProgramRun simulated = run({"simulate", "bar.json", "--json"});
-  EXPECT_EQ(simulated.exit_code, 3);
+  const ProgramRun simulated = exits(3, run({"simulate", "bar.json", "--json"}));
   const nlohmann::json cases = simulated.document().at("cases");
   EXPECT_GT(cases.at("down").at("responses").at("sag").at("value"), 0.0);
   EXPECT_FALSE(cases.at("other").at("error").get<std::string>().empty());
@@ -273,15 +264,12 @@ TEST_F(BentCantilever, IsAnotherOneWithAnotherFileOfACase) {
   ASSERT_EQ(run(words).exit_code, 0);
   EXPECT_EQ(run(words).exit_code, 0);
   write_table("150");
-  const ProgramRun changed = run(words);
-  EXPECT_EQ(changed.exit_code, 2);
-  EXPECT_THAT(changed.err, HasSubstr("another file that the problem names"));
+  EXPECT_THAT(exits(2, run(words)).err, HasSubstr("another file that the problem names"));
 }
 
 TEST_F(BentCantilever, IsADesignWithAVariableWithoutUnit) {
   ASSERT_EQ(run({"optimize", "bar.json", "-o", "run"}).exit_code, 0);
-  const ProgramRun again = run({"simulate", "bar.json", "--design", "run", "--json"});
-  EXPECT_EQ(again.exit_code, 0) << again.err;
+  const ProgramRun again = exits(0, run({"simulate", "bar.json", "--design", "run", "--json"}));
   const nlohmann::json best = folder_.result("run");
   EXPECT_EQ(again.document().at("cases").at("down").at("variables").at("share").at("value"),
             best.at("variables").at("share").at("value"));

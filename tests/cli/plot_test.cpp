@@ -1,9 +1,9 @@
 #include <fstream>
 
 #include "cli/text/log_log_chart.hpp"
+#include "tests/cli/page_text.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/cli/readback.hpp"
-#include "tests/cli/svg_text.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::plot_test {
@@ -17,10 +17,10 @@ class Plot : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = std::make_unique<TemporaryFolder>();
-    const ProgramRun run = run_program(
-        folder(),
-        joined({"simulate", problem("slider_crank_round"), "--no-report", "-o", "one"}, quick()));
-    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const ProgramRun run =
+        exits(0, run_program(folder(), joined({"simulate", problem("slider_crank_round"),
+                                               "--no-report", "-o", "one"},
+                                              quick())));
   }
   static void TearDownTestSuite() { folder_.reset(); }
 
@@ -38,8 +38,7 @@ double number_behind(const std::string& text, const std::string& words) {
 }
 
 TEST_F(Plot, DrawsThePeakOfTheTrajectoryInTheUnitsOfEngineers) {
-  const ProgramRun run = run_program(folder(), {"plot", "one", "rod_stress"});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = exits(0, run_program(folder(), {"plot", "one", "rod_stress"}));
   EXPECT_THAT(run.out, HasSubstr("Drawn in one/plot-rod_stress.svg"));
   const CsvRows rows = read_csv(folder() / "one/trajectory.csv");
   const auto column = static_cast<std::size_t>(
@@ -67,8 +66,7 @@ TEST_F(Plot, DrawsWhatChangesByRoundOffOnlyAsAConstant) {
     file << fmt::format("{}\n", fmt::join(row, ","));
   }
   file.close();
-  const ProgramRun run = run_program(folder(), {"plot", "constant", "rod_stress"});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = exits(0, run_program(folder(), {"plot", "constant", "rod_stress"}));
   const std::string svg = read_file(copy / "plot-rod_stress.svg");
   EXPECT_NEAR(number_behind(svg, "data-peak=\""), 0.3, 1e-9);
   std::size_t ticks = 0, at = 0;
@@ -87,16 +85,13 @@ TEST_F(Plot, ShowsTheCurveInTheTerminal) {
 }
 
 TEST_F(Plot, ListsWhatThereIsIfNothingIsAskedFor) {
-  const ProgramRun run = run_program(folder(), {"plot", "one"});
-  EXPECT_EQ(run.exit_code, 0);
+  const ProgramRun run = exits(0, run_program(folder(), {"plot", "one"}));
   EXPECT_THAT(unwrapped(run.out), HasSubstr("Histories in one: crank_stress, rod_stress"));
   EXPECT_THAT(run.out, Not(HasSubstr(":error")));
 }
 
 TEST_F(Plot, NamesWhatIsProbablyMeant) {
-  const ProgramRun run = run_program(folder(), {"plot", "one", "rod_stres"});
-  EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err,
+  EXPECT_THAT(exits(2, run_program(folder(), {"plot", "one", "rod_stres"})).err,
               HasSubstr("no history is called \"rod_stres\"; did you mean \"rod_stress\"?"));
 }
 
@@ -104,15 +99,13 @@ TEST_F(Plot, SaysWhereAFileIsDamaged) {
   fs::create_directory(folder() / "torn");
   const std::string whole = read_file(folder() / "one/trajectory.csv");
   std::ofstream(folder() / "torn/trajectory.csv") << whole.substr(0, whole.size() / 2 + 3);
-  const ProgramRun run = run_program(folder(), {"plot", "torn", "rod_stress"});
-  EXPECT_EQ(run.exit_code, 2);
+  const ProgramRun run = exits(2, run_program(folder(), {"plot", "torn", "rod_stress"}));
   EXPECT_THAT(run.err, HasSubstr("torn/trajectory.csv: is damaged: line "));
 }
 
 TEST_F(Plot, OfAFolderWithoutHistoriesSaysWhichCommandsWriteSome) {
   fs::create_directory(folder() / "empty");
-  const ProgramRun run = run_program(folder(), {"plot", "empty", "rod_stress"});
-  EXPECT_EQ(run.exit_code, 2);
+  const ProgramRun run = exits(2, run_program(folder(), {"plot", "empty", "rod_stress"}));
   EXPECT_THAT(run.err, HasSubstr("empty: has no histories"));
 }
 
@@ -246,11 +239,11 @@ void expect_runs(const std::string& svg, const json& document, const char* error
 
 TEST(AccuracyCharts, ShowWhatTheResultSays) {
   const ProgramFolder folder;
-  const ProgramRun run =
-      folder.run_quick({"accuracy", problem("slider_crank_round"), "--json", "-o", "a", "--set",
-                        R"(/accuracy={"steps": [4e-4, 2e-4], "elements": [2, 4]})", "--optimum"});
-  ASSERT_EQ(run.exit_code, 0) << run.err;
-  const json document = run.document();
+  const json document =
+      exits(0, folder.run_quick(
+                   {"accuracy", problem("slider_crank_round"), "--json", "-o", "a", "--set",
+                    R"(/accuracy={"steps": [4e-4, 2e-4], "elements": [2, 4]})", "--optimum"}))
+          .document();
   const auto svg = [&](const char* name) { return read_file(folder.path() / "a" / name); };
   expect_runs(svg("accuracy.svg"), document, "errors", "simulation_seconds");
   expect_runs(svg("accuracy-gradients.svg"), document, "gradient_errors", "seconds");
@@ -274,9 +267,8 @@ TEST(AccuracyCommand, OptimaAreThoseOfOptimizeWithTheirOverrides) {
   const ProgramFolder folder;
   const std::string file = problem("slider_crank_round");
   const ProgramRun run =
-      folder.run_quick({"accuracy", file, "--json", "-o", "a", "--optimum", "--set",
-                        R"(/accuracy={"steps": [4e-4, 2e-4], "elements": [2, 3]})"});
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+      exits(0, folder.run_quick({"accuracy", file, "--json", "-o", "a", "--optimum", "--set",
+                                 R"(/accuracy={"steps": [4e-4, 2e-4], "elements": [2, 3]})"}));
   const json optimum = run.document().at("optimum").front();
   std::vector<std::string> words = joined({"optimize", file, "--json", "-o", "o"}, quick());
   for (const auto& [pointer, value] : optimum.at("overrides").items()) {

@@ -1,16 +1,18 @@
 #pragma once
 
 #include <filesystem>
+#include <random>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/support/csv_text.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/files.hpp"
+#include "tests/support/test.hpp"
 
 /// The built program as a subprocess, in a folder of its own.
+
 namespace pleuel::test {
 
 /// What a run of the program left.
@@ -21,6 +23,12 @@ struct ProgramRun {
   /// Standard output as one JSON document; a test failure otherwise.
   nlohmann::json document() const;
 };
+
+/// A run; a test failure if it ended with another code.
+inline ProgramRun exits(int code, ProgramRun run) {
+  EXPECT_EQ(run.exit_code, code) << run.out << run.err;
+  return run;
+}
 
 /// Runs `pleuel words…` with this folder as the current one.
 ProgramRun run_program(const std::filesystem::path& folder, const std::vector<std::string>& words);
@@ -66,5 +74,32 @@ std::string read_file(const std::filesystem::path& path);
 
 /// The cells of a CSV file.
 CsvRows read_csv(const std::filesystem::path& path);
+
+/// The overrides of quick(), for a line of the shell.
+std::string quick_line();
+
+/// A command for the usual mechanism, with these.
+std::string quick_run(const std::string& command);
+
+/// Evaluations in the record of a run.
+int count_evaluations(const std::filesystem::path& folder);
+
+/// Runs in one folder that should have come to the same.
+class ComparedRuns : public testing::Test {
+ protected:
+  /// But for times, which differ from run to run.
+  nlohmann::json result(const std::string& name) const;
+  CsvRows table(const std::string& name, const std::string& file) const;
+
+  /// The same result, the same table, and as many evaluations.
+  void expect_same(const std::string& name, const std::string& other,
+                   const std::string& file) const;
+
+  /// Kills a command so many times after other times, and lets it end then.
+  void kill_and_end(const std::string& words, const std::string& name, int kills,
+                    std::mt19937& random, int exit_code = 0) const;
+
+  const ProgramFolder folder_;
+};
 
 }  // namespace pleuel::test

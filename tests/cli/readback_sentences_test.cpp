@@ -32,12 +32,11 @@ TEST_F(ReadBackSentences, OfSimulate) {
 /// One step that is too long: Newton's method needs it in two halves.
 TEST_F(ReadBackSentences, OfStepsThatWereSplit) {
   const auto report = [&](const std::string& step) {
-    const ProgramRun run =
-        folder_.run(joined(joined({"simulate", file, "-o", "run", "--overwrite"}, quick()),
-                           {"--set", "/simulation/resolution_check=false", "--set",
-                            "/simulation/max_newton_iterations=3", "--set",
-                            "/simulation/step=" + step, "--set", "/simulation/end_time=2 ms"}));
-    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const ProgramRun run = exits(
+        0, folder_.run(joined(joined({"simulate", file, "-o", "run", "--overwrite"}, quick()),
+                              {"--set", "/simulation/resolution_check=false", "--set",
+                               "/simulation/max_newton_iterations=3", "--set",
+                               "/simulation/step=" + step, "--set", "/simulation/end_time=2 ms"})));
     return std::pair(unwrapped(run.out), folder_.result("run"));
   };
   const auto [split, of_split] = report("2 ms");
@@ -227,9 +226,9 @@ TEST_F(ReadBackSentences, OfAFrontThatIsNotVerified) {
 }
 
 TEST_F(ReadBackSentences, OfAccuracy) {
-  const Report report = run({"accuracy", file, "--verbose", "--set",
-                             R"(/accuracy={"steps": ["0.4 ms", "0.2 ms"], "elements": [2, 4],
-                                           "target": 0.5})"});
+  const Report report =
+      run({"accuracy", file, "--verbose", "--set",
+           R"(/accuracy={"steps": ["0.4 ms", "0.2 ms"], "elements": [2, 4], "target": 0.5})"});
   const json& reference = report.document.at("reference");
   const json& best = report.document.at("recommended");
   ASSERT_FALSE(best.is_null());
@@ -288,10 +287,9 @@ TEST_F(ReadBackSentences, OfMechanismsThatForcesMove) {
 
 /// A sum of variables with its coefficients: 2 · 30 − 30 mm of the 10 mm that are allowed.
 TEST_F(ReadBackSentences, OfALimitOfVariables) {
-  const Report report =
-      run({"simulate", file, "--set",
-           R"(/constraints/sizes={"linear": {"crank_diameter": 2, "rod_diameter": -1},
-                                  "upper": "10 mm"})"});
+  const Report report = run(
+      {"simulate", file, "--set",
+       R"(/constraints/sizes={"linear": {"crank_diameter": 2, "rod_diameter": -1}, "upper": "10 mm"})"});
   const json& sizes = report.document.at("constraints").at("sizes");
   EXPECT_NEAR(sizes.at("value"), 0.03, 1e-15);
   EXPECT_NEAR(sizes.at("utilisation"), 3.0, 1e-12);

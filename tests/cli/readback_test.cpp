@@ -33,11 +33,11 @@ TEST_F(ReadBack, OfBandsAroundHistories) {
 
 /// The end of the rod is held on the x axis: what is left beside it is round-off.
 TEST_F(ReadBack, OfRoundOffIsZero) {
-  const ProgramRun run = folder_.run_quick(
-      {"simulate", problem("slider_crank_round"), "-o", "run", "--no-report", "--set",
-       R"(/responses/beside={"type": "position", "body": "rod", "at": 1, "direction": "y",
-                                    "over_time": "max-abs"})"});
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = exits(
+      0, folder_.run_quick(
+             {"simulate", problem("slider_crank_round"), "-o", "run", "--no-report", "--set",
+              R"(/responses/beside={"type": "position", "body": "rod", "at": 1, "direction": "y",
+                                    "over_time": "max-abs"})"}));
   const json document = folder_.result("run");
   EXPECT_GT(document.at("responses").at("beside").at("value"), 0.0);
   const TextTable table(run.out, "response");
@@ -349,8 +349,7 @@ TEST_F(ReadBack, OfNamesThatCsvCannotHoldAsTheyAre) {
   for (const char* block : {"objective", "constraints", "pareto", "accuracy"})
     document.erase(block);
   std::ofstream(folder_.path() / "named.json") << document;
-  const ProgramRun run = folder_.run_quick({"simulate", "named.json", "-o", "run"});
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = exits(0, folder_.run_quick({"simulate", "named.json", "-o", "run"}));
   const std::string text = read_file(folder_.path() / "run/trajectory.csv");
   EXPECT_THAT(text, HasSubstr("\"a \"\"quoted\"\", name\""));
   EXPECT_THAT(parse_csv(text).front(),
@@ -510,8 +509,8 @@ class ReadBackFrequency : public testing::Test {
 
   std::pair<std::string, json> run(const std::string& command,
                                    const std::vector<std::string>& more = {}) const {
-    const ProgramRun run = folder_.run(joined({command, "cantilever.json", "-o", command}, more));
-    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const ProgramRun run =
+        exits(0, folder_.run(joined({command, "cantilever.json", "-o", command}, more)));
     return {run.out, read_json(folder_.path() / command / "result.json")};
   }
   static double hertz_of(double diameter) {
@@ -560,10 +559,9 @@ TEST_F(ReadBackFrequency, LimitsAnOptimumInHertz) {
 /// sign: at most 40 Hz, from which the mass is kept by a limit of its own.
 TEST_F(ReadBackFrequency, KeepsMarginsWithTheSignOfTheirSide) {
   const auto optimum = [&](const std::vector<std::string>& more) {
-    const ProgramRun run =
-        folder_.run(joined({"optimize", "cantilever.json", "-o", "margin", "--overwrite"}, more));
-    EXPECT_EQ(run.exit_code, 0) << run.err;
-    return run.out;
+    return exits(0, folder_.run(joined(
+                        {"optimize", "cantilever.json", "-o", "margin", "--overwrite"}, more)))
+        .out;
   };
   const double in_tune = 40.0 * 40 / hertz_of(0.040);  // [mm]
   const TextTable lower(optimum({"--set", "/constraints/tuned/deviations=2"}), "variable");
@@ -599,14 +597,16 @@ TEST_F(ReadBackFrequency, SaysWhichLimitsAreBroken) {
 /// Of two limits the nearer one is shown: 45.2 Hz between 40 and 47, and between 44 and 60.
 TEST_F(ReadBackFrequency, IsShownAgainstTheNearerOfTwoLimits) {
   const auto expect_limit = [&](double lower, double upper, bool is_upper) {
-    const ProgramRun run = folder_.run(
-        {"simulate", "cantilever.json", "-o", "two", "--overwrite", "--set",
-         fmt::format(
-             R"(/constraints/tuned={{"response": "pitch", "lower": "{} Hz", "upper": "{} Hz"}})",
-             lower, upper),
-         "--set", R"(/constraints/heavy={"response": "mass", "lower": 1})", "--set",
-         "/pareto/constraint=heavy", "--set", "/pareto/from=1 kg", "--set", "/pareto/to=2 kg"});
-    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const ProgramRun run = exits(
+        0,
+        folder_.run(
+            {"simulate", "cantilever.json", "-o", "two", "--overwrite", "--set",
+             fmt::format(
+                 R"(/constraints/tuned={{"response": "pitch", "lower": "{} Hz", "upper": "{} Hz"}})",
+                 lower, upper),
+             "--set", R"(/constraints/heavy={"response": "mass", "lower": 1})", "--set",
+             "/pareto/constraint=heavy", "--set", "/pareto/from=1 kg", "--set",
+             "/pareto/to=2 kg"}));
     const json tuned = folder_.result("two").at("constraints").at("tuned");
     const double expected = 2 * M_PI * (is_upper ? upper : lower);
     EXPECT_EQ(tuned.at("side"), is_upper ? "upper" : "lower");
@@ -629,13 +629,14 @@ TEST_F(ReadBackFrequency, MarksVariablesAtTheirBounds) {
   EXPECT_THAT(report({}), ContainsRegex("\n  d .* mm *\n"));
   EXPECT_THAT(report({"--set", "/variables/d/lower=38 mm"}),
               ContainsRegex("\n  d .* mm +at its lower bound\n"));
-  EXPECT_THAT(report({"--set", R"(/scene/loads={"f": {"type": "force", "body": "arm",
+  EXPECT_THAT(
+      report(
+          {"--set", R"(/scene/loads={"f": {"type": "force", "body": "arm",
                                  "at": [0.8, 0, 0], "direction": [0, 1, 0], "value": 1}})",
-                      "--set", "/simulation/initial_state=quasi-static", "--set",
-                      R"(/responses/tip={"type": "deflection", "body": "arm", "at": 1,
-                         "over_time": "max-abs"})",
-                      "--set", "/objective/minimize=tip"}),
-              ContainsRegex("\n  d .* mm +at its upper bound\n"));
+           "--set", "/simulation/initial_state=quasi-static", "--set",
+           R"(/responses/tip={"type": "deflection", "body": "arm", "at": 1, "over_time": "max-abs"})",
+           "--set", "/objective/minimize=tip"}),
+      ContainsRegex("\n  d .* mm +at its upper bound\n"));
   EXPECT_THAT(report({"--set", R"(/scene/materials/iron={"young": 2.1e11, "poisson": 0.3,
                                    "density": {"variable": "rho"}})",
                       "--set", "/scene/bodies/arm/material=iron", "--set",
@@ -646,16 +647,17 @@ TEST_F(ReadBackFrequency, MarksVariablesAtTheirBounds) {
 /// The history of a magnitude is one of magnitudes, of whatever sign the largest is: a press of
 /// 1 kN has F/A = −0.796 MPa everywhere.
 TEST_F(ReadBackFrequency, ComesWithHistoriesOfMagnitudes) {
-  const ProgramRun run = folder_.run(
-      {"simulate", "cantilever.json", "-o", "press", "--set",
-       R"(/scene/loads={"f": {"type": "force", "body": "arm", "at": [0.8, 0, 0],
+  const ProgramRun run = exits(
+      0,
+      folder_.run(
+          {"simulate", "cantilever.json", "-o", "press", "--set",
+           R"(/scene/loads={"f": {"type": "force", "body": "arm", "at": [0.8, 0, 0],
                               "direction": [-1, 0, 0], "value": 1000}})",
-       "--set", "/simulation/initial_state=quasi-static", "--set", "/scene/gravity=[0, 0, 0]",
-       "--set", R"(/responses/largest={"type": "stress", "part": "axial", "body": "arm",
-                                       "over_time": "max-abs"})",
-       "--set", R"(/responses/highest={"type": "stress", "part": "axial", "body": "arm",
-                                       "over_time": "max"})"});
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+           "--set", "/simulation/initial_state=quasi-static", "--set", "/scene/gravity=[0, 0, 0]",
+           "--set",
+           R"(/responses/largest={"type": "stress", "part": "axial", "body": "arm", "over_time": "max-abs"})",
+           "--set",
+           R"(/responses/highest={"type": "stress", "part": "axial", "body": "arm", "over_time": "max"})"}));
   const CsvRows rows = read_csv(folder_.path() / "press/trajectory.csv");
   const double stress = 1000 / (M_PI / 4 * 0.04 * 0.04);
   for (std::size_t column = 0; column < rows[0].size(); ++column) {

@@ -5,7 +5,6 @@
 #include <sys/stat.h>
 
 #include "record/run_database.hpp"
-#include "tests/cli/compared_runs.hpp"
 #include "tests/cli/program.hpp"
 #include "tests/support/test.hpp"
 
@@ -103,8 +102,7 @@ TEST_F(Resumed, AccuracyStudyThatHadEndedMeasuresNothing) {
                             " --set '/accuracy/steps=[4e-4]' --set '/accuracy/elements=[2]' -o run";
   ASSERT_EQ(folder_.run_line(words).exit_code, 0);
   const std::string before = read_file(folder_.path() / "run/result.json");
-  const ProgramRun again = folder_.run_line(words + " --resume");
-  EXPECT_EQ(again.exit_code, 0) << again.err;
+  const ProgramRun again = exits(0, folder_.run_line(words + " --resume"));
   EXPECT_EQ(read_file(folder_.path() / "run/result.json"), before);
   EXPECT_THAT(again.out, HasSubstr("parts of the study were known from run/run.sqlite"));
 }
@@ -113,8 +111,7 @@ TEST_F(Resumed, RunThatHadEndedEvaluatesNothing) {
   const std::string words = quick_run("optimize") + " -o run";
   ASSERT_EQ(folder_.run_line(words).exit_code, 0);
   const int evaluations = count_evaluations(folder_.path() / "run");
-  const ProgramRun again = folder_.run_line(words + " --resume");
-  EXPECT_EQ(again.exit_code, 0);
+  const ProgramRun again = exits(0, folder_.run_line(words + " --resume"));
   EXPECT_EQ(count_evaluations(folder_.path() / "run"), evaluations);
   EXPECT_THAT(again.out, HasSubstr("evaluations were known from run/run.sqlite"));
 }
@@ -139,14 +136,12 @@ TEST_F(Resumed, RunOfAnotherProblemIsRefused) {
   const std::string words = quick_run("optimize") + " -o run";
   ASSERT_EQ(folder_.run_line(words).exit_code, 0);
   const std::string before = read_file(folder_.path() / "run/result.json");
-  const ProgramRun other =
-      folder_.run_line(words + " --resume --set /simulation/spectral_radius=0.7");
-  EXPECT_EQ(other.exit_code, 2);
-  EXPECT_THAT(other.err, AllOf(HasSubstr("--resume: run holds a run with another problem: "
-                                         "/simulation/spectral_radius is "),
-                               HasSubstr(" there and 0.7 here")));
-  const ProgramRun start = folder_.run_line(words + " --resume --set rod_diameter=15mm");
-  EXPECT_EQ(start.exit_code, 2);
+  EXPECT_THAT(
+      exits(2, folder_.run_line(words + " --resume --set /simulation/spectral_radius=0.7")).err,
+      AllOf(HasSubstr("--resume: run holds a run with another problem: "
+                      "/simulation/spectral_radius is "),
+            HasSubstr(" there and 0.7 here")));
+  const ProgramRun start = exits(2, folder_.run_line(words + " --resume --set rod_diameter=15mm"));
   const ProgramRun starts = folder_.run_line(words + " --resume --starts 2");
   EXPECT_THAT(starts.err, HasSubstr("/starts is 1 there and 2 here"));
   EXPECT_EQ(read_file(folder_.path() / "run/result.json"), before);
@@ -162,12 +157,10 @@ TEST_F(Resumed, RunWithAnotherCatalogueIsRefused) {
                      "}}}' >sections.json");
   };
   make("0.01");
-  const ProgramRun first = folder_.run_line(words);
-  ASSERT_EQ(first.exit_code, 0) << first.err;
+  const ProgramRun first = exits(0, folder_.run_line(words));
   EXPECT_EQ(folder_.run_line(words + " --resume").exit_code, 0);
   make("0.02");
-  const ProgramRun other = folder_.run_line(words + " --resume");
-  EXPECT_EQ(other.exit_code, 2);
+  const ProgramRun other = exits(2, folder_.run_line(words + " --resume"));
   EXPECT_THAT(other.err, HasSubstr("another file that the problem names"));
 }
 
@@ -175,8 +168,7 @@ TEST_F(Resumed, RecordThatIsNoneIsRefused) {
   const std::string words = quick_run("optimize") + " -o run";
   ASSERT_EQ(folder_.run_line(words).exit_code, 0);
   folder_.run_line("--version; head -c 9000 /dev/zero | tr '\\0' x >run/run.sqlite");
-  const ProgramRun run = folder_.run_line(words + " --resume");
-  EXPECT_EQ(run.exit_code, 2);
+  const ProgramRun run = exits(2, folder_.run_line(words + " --resume"));
   EXPECT_THAT(run.err, HasSubstr("--resume: run/run.sqlite: "));
 }
 
@@ -184,8 +176,7 @@ TEST_F(Resumed, ResultsWithoutRecordAreKept) {
   const std::string words = quick_run("optimize") + " -o run";
   ASSERT_EQ(folder_.run_line(words + "; rm run/run.sqlite*").exit_code, 0);
   const std::string before = read_file(folder_.path() / "run/result.json");
-  const ProgramRun run = folder_.run_line(words + " --resume");
-  EXPECT_EQ(run.exit_code, 2);
+  const ProgramRun run = exits(2, folder_.run_line(words + " --resume"));
   EXPECT_THAT(run.err, HasSubstr("there is nothing to resume"));
   EXPECT_EQ(read_file(folder_.path() / "run/result.json"), before);
 }
@@ -207,15 +198,13 @@ TEST_F(Resumed, RunWithKeysInAnotherOrderIsRefusedWithThatReason) {
   write(false);
   ASSERT_EQ(folder_.run_line(words).exit_code, 0);
   write(true);
-  const ProgramRun run = folder_.run_line(words + " --resume");
-  EXPECT_EQ(run.exit_code, 2);
+  const ProgramRun run = exits(2, folder_.run_line(words + " --resume"));
   EXPECT_THAT(run.err, HasSubstr("the keys of /variables stand in another order"));
 }
 
 TEST_F(Resumed, NothingBeginsAnew) {
   const std::string words = quick_run("optimize");
-  const ProgramRun begun = folder_.run_line(words + " -o run --resume");
-  EXPECT_EQ(begun.exit_code, 0);
+  const ProgramRun begun = exits(0, folder_.run_line(words + " -o run --resume"));
   EXPECT_THAT(begun.err, HasSubstr("run has no run.sqlite: there is nothing to resume"));
   EXPECT_EQ(folder_.run_line(words + " -o run --resume --overwrite").exit_code, 2);
 }
@@ -226,8 +215,7 @@ TEST_F(Resumed, RecordThatCannotBeWrittenIsNamed) {
   ASSERT_EQ(folder_.run_line(words).exit_code, 0);
   fs::remove(folder_.path() / "run/run.sqlite");
   fs::create_directories(folder_.path() / "run/run.sqlite/not_a_file");
-  const ProgramRun run = folder_.run_line(words + " --overwrite");
-  EXPECT_EQ(run.exit_code, 1);
+  const ProgramRun run = exits(1, folder_.run_line(words + " --overwrite"));
   EXPECT_THAT(run.out, HasSubstr("VERIFIED"));
   EXPECT_THAT(run.err, HasSubstr("run.sqlite"));
 }
@@ -249,10 +237,10 @@ TEST_F(Jobs, DoNotChangeTheAnswerOfSeveralStarts) {
 TEST_F(Jobs, DoNotChangeTheFront) {
   for (const auto& [front, exit_code] : fronts) {
     for (const int jobs : {1, 2, 3}) {
-      const ProgramRun run = folder_.run_line(
-          fmt::format("pareto {}{}{} --jobs {} -o with{} --overwrite",
-                      problem("slider_crank_round"), quick_line(), front, jobs, jobs));
-      ASSERT_EQ(run.exit_code, exit_code) << run.out << run.err;
+      const ProgramRun run =
+          exits(exit_code, folder_.run_line(fmt::format(
+                               "pareto {}{}{} --jobs {} -o with{} --overwrite",
+                               problem("slider_crank_round"), quick_line(), front, jobs, jobs)));
       EXPECT_THAT(run.out, HasSubstr(" points verified"));
     }
     expect_same("with2", "with1", "pareto.csv");
@@ -275,11 +263,9 @@ TEST_F(Jobs, MayLoseAProcess) {
 
 TEST_F(Jobs, AreTakenFromTheEnvironment) {
   const std::string words = "uncertainty " + problem("slider_crank_round");
-  const ProgramRun run =
-      folder_.run_line("--version; PLEUEL_JOBS=none " PLEUEL_PROGRAM " " + words);
-  EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err,
-              HasSubstr("PLEUEL_JOBS must be a whole number from 1 to 1024, got \"none\""));
+  EXPECT_THAT(
+      exits(2, folder_.run_line("--version; PLEUEL_JOBS=none " PLEUEL_PROGRAM " " + words)).err,
+      HasSubstr("PLEUEL_JOBS must be a whole number from 1 to 1024, got \"none\""));
 }
 
 // What goes wrong around a run must not cost its result, nor that of another one.
@@ -315,8 +301,7 @@ class LostResult : public testing::Test {
 
 /// 8 kB a file hold the result but not the trajectories, as a disk that fills up.
 TEST_F(LostResult, OfAFullDiskIsNotTheVerdict) {
-  const ProgramRun run = run_limited("16", optimization("run"));
-  EXPECT_EQ(run.exit_code, 1);
+  const ProgramRun run = exits(1, run_limited("16", optimization("run")));
   EXPECT_THAT(run.out, HasSubstr("VERIFIED: "));
   EXPECT_THAT(run.err, AllOf(HasSubstr("run/trajectory-start.csv cannot be written: "),
                              HasSubstr("run/trajectory-optimum.csv")));
@@ -326,24 +311,20 @@ TEST_F(LostResult, OfAFullDiskIsNotTheVerdict) {
 }
 
 TEST_F(LostResult, OfADiskWithoutAnyRoomIsTheFilesOnly) {
-  const ProgramRun run = run_limited("0", optimization("run"));
-  EXPECT_EQ(run.exit_code, 1);
+  const ProgramRun run = exits(1, run_limited("0", optimization("run")));
   EXPECT_THAT(run.out, HasSubstr("VERIFIED: "));
   EXPECT_THAT(run.err, HasSubstr("run/result.json cannot be written: "));
 }
 
 /// 250 kB hold the record of the first evaluations, but not of all.
 TEST_F(LostResult, OfADiskThatFillsUpEndsTheRunAndTheRecordGoesOn) {
-  const ProgramRun whole = folder_.run_line(optimization("whole") + "--no-report");
-  ASSERT_EQ(whole.exit_code, 0) << whole.err;
+  const ProgramRun whole = exits(0, folder_.run_line(optimization("whole") + "--no-report"));
   const std::string line = optimization("run") + "--no-report";
-  const ProgramRun run = run_limited("500", line);
-  EXPECT_EQ(run.exit_code, 1);
+  const ProgramRun run = exits(1, run_limited("500", line));
   EXPECT_THAT(run.out, AllOf(HasSubstr("INTERRUPTED: "), HasSubstr("the best design among them")));
   EXPECT_THAT(run.err, AllOf(HasSubstr("run/run.sqlite cannot be written: "),
                              HasSubstr("the run stops"), HasSubstr("--resume")));
-  const ProgramRun resumed = folder_.run_line(line + " --resume");
-  EXPECT_EQ(resumed.exit_code, 0) << resumed.err;
+  const ProgramRun resumed = exits(0, folder_.run_line(line + " --resume"));
   EXPECT_THAT(resumed.out, ContainsRegex("[1-9][0-9]* of [0-9]+ evaluations were known"));
   const auto result = [&](const char* name) {
     return read_json_if_whole(folder_.path() / name / "result.json");
@@ -424,8 +405,8 @@ TEST_F(LostResult, OfABodyThatIsCalledResultIsNot) {
       text.replace(at, 5, nlohmann::json(name).dump());
     }
     std::ofstream(folder_.path() / "renamed.json") << text;
-    const ProgramRun run = folder_.run({"invariants", "renamed.json", "-o", "run", "--overwrite"});
-    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const ProgramRun run =
+        exits(0, folder_.run({"invariants", "renamed.json", "-o", "run", "--overwrite"}));
     const nlohmann::json result = read_json_if_whole(folder_.path() / "run/result.json");
     ASSERT_TRUE(result.contains("bodies")) << name;
     EXPECT_EQ(result.at("bodies").size(), 2u);
@@ -455,8 +436,7 @@ TEST_F(LostResult, OfAFileOfInvariantsIsReplacedOnlyIfAskedFor) {
   const std::vector<std::string> words = {
       "invariants", problem("slider_crank"), "--body", "rod", "-o", "rod.json"};
   ASSERT_EQ(folder_.run(words).exit_code, 0);
-  const ProgramRun refused = folder_.run(words);
-  EXPECT_EQ(refused.exit_code, 2);
+  const ProgramRun refused = exits(2, folder_.run(words));
   EXPECT_THAT(refused.err, AllOf(HasSubstr("-o rod.json: "), HasSubstr("--overwrite")));
   EXPECT_EQ(folder_.run(joined(words, {"--overwrite"})).exit_code, 0);
 }
@@ -488,8 +468,7 @@ TEST_F(DamagedRecord, OfOtherNumbersIsNotVerified) {
       record.keep(one.key, one.stored);
     }
   }
-  const ProgramRun run = resumed();
-  EXPECT_EQ(run.exit_code, 2) << run.out;
+  const ProgramRun run = exits(2, resumed());
   EXPECT_THAT(run.err, AllOf(HasSubstr("run/run.sqlite: row "),
                              HasSubstr("of the table evaluations is not what this program "
                                        "computes"),
@@ -498,23 +477,20 @@ TEST_F(DamagedRecord, OfOtherNumbersIsNotVerified) {
 
 TEST_F(DamagedRecord, OfAnotherBuildIsRefused) {
   RunDatabase(file()).describe("program", R"("fnv1a64:0")");
-  const ProgramRun run = resumed();
-  EXPECT_EQ(run.exit_code, 2) << run.out;
+  const ProgramRun run = exits(2, resumed());
   EXPECT_THAT(run.err, AllOf(HasSubstr("run holds a run with another build of Pleuel"),
                              HasSubstr("--overwrite begins anew")));
 }
 
 TEST_F(DamagedRecord, WithoutWhatIsSaidOfTheRunIsRefused) {
   Database(file()).execute("DELETE FROM run");
-  const ProgramRun run = resumed();
-  EXPECT_EQ(run.exit_code, 2) << run.out;
+  const ProgramRun run = exits(2, resumed());
   EXPECT_THAT(run.err, HasSubstr("run/run.sqlite: the table run has no row command"));
 }
 
 TEST_F(DamagedRecord, WithChangedNumbersIsNotExported) {
   Database(file()).execute("UPDATE evaluations SET constraints = zeroblob(7) WHERE id = 2");
-  const ProgramRun run = folder_.run_line("export run");
-  EXPECT_EQ(run.exit_code, 2) << run.out;
+  const ProgramRun run = exits(2, folder_.run_line("export run"));
   EXPECT_THAT(run.err, HasSubstr("run/run.sqlite: row 2 of the table evaluations"));
 }
 

@@ -3,7 +3,7 @@
 #include <sstream>
 
 #include "tests/cli/program.hpp"
-#include "tests/cli/text_table.hpp"
+#include "tests/cli/readback.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::run_folder_test {
@@ -51,8 +51,7 @@ TEST_F(RunFolder, CardTellsInputAndVersions) {
 TEST_F(RunFolder, MayHoldADraftOfItsCard) {
   fs::create_directory(folder_.path() / "one");
   std::ofstream(folder_.path() / "one/run_card.json.123.draft") << "{";
-  const ProgramRun run = simulate_into(folder_, "one");
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = exits(0, simulate_into(folder_, "one"));
   std::ofstream(folder_.path() / "other.draft") << "{";
   EXPECT_EQ(simulate_into(folder_, ".").exit_code, 2);
 }
@@ -98,8 +97,7 @@ TEST_F(RunFolder, TrajectoryHasALineAnInstantAndAColumnAResponse) {
 TEST_F(RunFolder, OfAnOlderRunIsReplacedOnlyIfAskedFor) {
   ASSERT_EQ(simulate_into(folder_, "one").exit_code, 0);
   std::ofstream(folder_.path() / "one/history.csv") << "old\n";
-  const ProgramRun refused = simulate_into(folder_, "one");
-  EXPECT_EQ(refused.exit_code, 2);
+  const ProgramRun refused = exits(2, simulate_into(folder_, "one"));
   EXPECT_THAT(refused.err, AllOf(HasSubstr("-o one: "), HasSubstr("--overwrite")));
   EXPECT_TRUE(fs::exists(folder_.path() / "one/history.csv"));
   ASSERT_EQ(
@@ -122,9 +120,9 @@ TEST_F(RunFolder, WithoutANameIsAnotherOneEachTime) {
 }
 
 TEST_F(RunFolder, OfASimulationThatFailsIsNotLeftBehind) {
-  const ProgramRun run = folder_.run_quick(
-      {"simulate", problem("slider_crank_round"), "--set", "/simulation/max_newton_iterations=1"});
-  EXPECT_EQ(run.exit_code, 3);
+  const ProgramRun run =
+      exits(3, folder_.run_quick({"simulate", problem("slider_crank_round"), "--set",
+                                  "/simulation/max_newton_iterations=1"}));
   EXPECT_TRUE(fs::is_empty(folder_.path()));
 }
 
@@ -149,8 +147,7 @@ TEST_F(RunFolder, OfAnOlderRunOutlivesBadInput) {
 TEST_F(RunFolder, OfAnotherCommandIsNotTouched) {
   ASSERT_EQ(simulate_into(folder_, "one").exit_code, 0);
   const ProgramRun run =
-      folder_.run_quick({"optimize", problem("slider_crank_round"), "-o", "one"});
-  EXPECT_EQ(run.exit_code, 2);
+      exits(2, folder_.run_quick({"optimize", problem("slider_crank_round"), "-o", "one"}));
   EXPECT_THAT(run.err, HasSubstr("-o one: holds a run of `pleuel simulate`"));
   EXPECT_TRUE(fs::exists(folder_.path() / "one/trajectory.csv"));
 }
@@ -213,9 +210,7 @@ TEST(Output, ThatCannotBeWrittenIsAnError) {
 TEST_F(RunFolder, WithOtherPeoplesFilesIsNotTouched) {
   fs::create_directory(folder_.path() / "thesis");
   std::ofstream(folder_.path() / "thesis/result.json") << "precious\n";
-  const ProgramRun run = simulate_into(folder_, "thesis");
-  EXPECT_EQ(run.exit_code, 2);
-  EXPECT_THAT(run.err, HasSubstr("thesis"));
+  EXPECT_THAT(exits(2, simulate_into(folder_, "thesis")).err, HasSubstr("thesis"));
   EXPECT_EQ(read_file(folder_.path() / "thesis/result.json"), "precious\n");
 }
 
@@ -234,9 +229,7 @@ TEST_F(OlderRuns, AreListedWithTheirStatusAndObjective) {
   ASSERT_EQ(optimize("one").exit_code, 0);
   folder_.run_quick({"simulate", problem("slider_crank_round"), "-o", "runs/two"});
   fs::create_directories(folder_.path() / "runs/foreign");
-  const ProgramRun text = folder_.run({"runs"});
-  EXPECT_EQ(text.exit_code, 0) << text.err;
-  EXPECT_THAT(unwrapped(text.out), HasSubstr("one optimize"));
+  EXPECT_THAT(unwrapped(exits(0, folder_.run({"runs"})).out), HasSubstr("one optimize"));
   const nlohmann::json runs = folder_.run({"runs", "runs", "--json"}).document();
   ASSERT_EQ(runs.at("runs").size(), 2u);
   const nlohmann::json result = read_json(folder_.path() / "runs/one/result.json");
@@ -249,9 +242,7 @@ TEST_F(OlderRuns, AreListedWithTheirStatusAndObjective) {
 
 /// The newest is the last, or they are in the order of their names.
 TEST_F(OlderRuns, AreListedByTimeOrByName) {
-  const ProgramRun none = folder_.run({"runs"});
-  EXPECT_EQ(none.exit_code, 0) << none.err;
-  EXPECT_THAT(none.out, HasSubstr("No runs yet"));
+  EXPECT_THAT(exits(0, folder_.run({"runs"})).out, HasSubstr("No runs yet"));
   for (const char* name : {"b", "a"}) {
     folder_.run_quick({"simulate", problem("slider_crank_round"), "--no-report", "-o",
                        std::string("runs/") + name});
@@ -281,13 +272,14 @@ TEST_F(OlderRuns, ThatWereKilledAreToldFromThoseAtWork) {
 /// The mass goes with the density: its deviation, too.
 TEST_F(OlderRuns, AreComparedInTheirDeviations) {
   for (const char* deviation : {"50", "100"}) {
-    const ProgramRun run = folder_.run_quick(
-        {"uncertainty", problem("slider_crank_round"), "-o", std::string("runs/") + deviation,
-         "--set", R"(/scene/materials/steel/density={"variable": "density"})", "--set",
-         R"(/variables/density={"start": 7850, "lower": 7850, "upper": 7850})", "--set",
-         fmt::format(R"(/uncertainty={{"parameters": {{"density": {{"deviation": {}}}}}}})",
-                     deviation)});
-    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const ProgramRun run = exits(
+        0,
+        folder_.run_quick(
+            {"uncertainty", problem("slider_crank_round"), "-o", std::string("runs/") + deviation,
+             "--set", R"(/scene/materials/steel/density={"variable": "density"})", "--set",
+             R"(/variables/density={"start": 7850, "lower": 7850, "upper": 7850})", "--set",
+             fmt::format(R"(/uncertainty={{"parameters": {{"density": {{"deviation": {}}}}}}})",
+                         deviation)}));
   }
   const nlohmann::json document =
       folder_.run({"compare", "runs/50", "runs/100", "--json"}).document();
@@ -342,8 +334,7 @@ TEST_F(OlderRuns, AreComparedInInputAndOutcome) {
 /// Numbers in the tables read back as those of the record, which are those of the history.
 TEST_F(OlderRuns, AreExportedAsTables) {
   ASSERT_EQ(optimize("one").exit_code, 0);
-  const ProgramRun run = folder_.run({"export", "runs/one", "--json"});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = exits(0, folder_.run({"export", "runs/one", "--json"}));
   const CsvRows evaluations = read_csv(folder_.path() / "runs/one/evaluations.csv");
   const CsvRows history = read_csv(folder_.path() / "runs/one/history.csv");
   ASSERT_EQ(evaluations.size(), history.size());
@@ -359,15 +350,14 @@ TEST_F(OlderRuns, AreExportedAsTables) {
   const CsvRows gradients = read_csv(folder_.path() / "runs/one/evaluation_gradients.csv");
   EXPECT_EQ(gradients[0], (std::vector<std::string>{"evaluation", "of", "variable", "derivative"}));
   EXPECT_EQ(gradients[1][1], "objective");
-  const ProgramRun none = folder_.run({"export", "runs"});
-  EXPECT_EQ(none.exit_code, 2);
+  const ProgramRun none = exits(2, folder_.run({"export", "runs"}));
 }
 
 /// The files are read by ParaView; here their counts have to fit together.
 TEST_F(OlderRuns, AreExportedAsMotion) {
   ASSERT_EQ(optimize("one").exit_code, 0);
-  const ProgramRun run = folder_.run({"export", "runs/one", "--vtk", "-o", "out", "--json"});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run =
+      exits(0, folder_.run({"export", "runs/one", "--vtk", "-o", "out", "--json"}));
   EXPECT_EQ(run.document().at("files").size(), 4u);
   const std::string series = read_file(folder_.path() / "out/vtk/optimum.pvd");
   EXPECT_THAT(series, HasSubstr("file=\"optimum-0000.vtu\""));

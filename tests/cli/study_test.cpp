@@ -13,8 +13,7 @@ TEST_F(ParetoCommand, PutsPointsIntoTheGaps) {
   const std::vector<std::string> words =
       joined({"pareto", problem("slider_crank_round"), "-o", "front", "--set", "/pareto/points=3"},
              quick());
-  const ProgramRun run = folder_.run(joined(words, {"--gap", "20%"}));
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = exits(0, folder_.run(joined(words, {"--gap", "20%"})));
   EXPECT_THAT(run.out, HasSubstr("Gaps: neighbours are at most "));
   const nlohmann::json document = folder_.result("front");
   EXPECT_EQ(document.at("gaps").at("asked"), 0.2);
@@ -52,10 +51,10 @@ TEST_F(ParetoCommand, ShowsAllChoicesOfSizesThatNoOtherDominates) {
 
 TEST(AccuracyCommand, MeasuresEveryCombination) {
   const ProgramFolder folder;
-  const ProgramRun run = folder.run_quick(
-      {"accuracy", problem("slider_crank_round"), "--json", "-o", "study", "--set",
-       "/accuracy/steps=[4e-4, 2e-4, 1e-4]", "--set", "/accuracy/elements=[2, 4]"});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run =
+      exits(0, folder.run_quick({"accuracy", problem("slider_crank_round"), "--json", "-o", "study",
+                                 "--set", "/accuracy/steps=[4e-4, 2e-4, 1e-4]", "--set",
+                                 "/accuracy/elements=[2, 4]"}));
   const nlohmann::json document = run.document();
   ASSERT_EQ(document.at("runs").size(), 6u);
   for (const auto& study_run : document.at("runs")) {
@@ -96,11 +95,10 @@ TEST_F(UncertaintyCommand, IsOfTheDesignThatIsGiven) {
       R"(/uncertainty={"parameters": {"rod_diameter": {"deviation": "0.1 mm"}}, "samples": 2})";
   const auto deviation = [&](const std::vector<std::string>& more) {
     const ProgramRun run =
-        folder_.run(joined(joined({"uncertainty", problem("slider_crank_round"), "--json", "-o",
-                                   "study", "--overwrite", "--set", block},
-                                  quick()),
-                           more));
-    EXPECT_EQ(run.exit_code, 0) << run.err;
+        exits(0, folder_.run(joined(joined({"uncertainty", problem("slider_crank_round"), "--json",
+                                            "-o", "study", "--overwrite", "--set", block},
+                                           quick()),
+                                    more)));
     return run.document().at("responses").at("crank_and_rod").at("deviation").get<double>();
   };
   const double at_start = deviation({});  // 30 mm
@@ -109,18 +107,17 @@ TEST_F(UncertaintyCommand, IsOfTheDesignThatIsGiven) {
 }
 
 TEST_F(UncertaintyCommand, AsksForItsSettings) {
-  const ProgramRun run = folder_.run({"uncertainty", problem("slider_crank_round")});
-  EXPECT_EQ(run.exit_code, 2);
+  const ProgramRun run = exits(2, folder_.run({"uncertainty", problem("slider_crank_round")}));
   EXPECT_THAT(run.err, HasSubstr("/uncertainty is missing"));
 }
 
 using StabilityCommand = InProgramFolder;
 
 TEST_F(StabilityCommand, TabulatesFilesTimesFormulations) {
-  const ProgramRun run = folder_.run({"stability", problem("hard/dead_centres"),
-                                      problem("hard/change_point"), "--json", "-o", "study"});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
-  const nlohmann::json document = run.document();
+  const nlohmann::json document =
+      exits(0, folder_.run({"stability", problem("hard/dead_centres"), problem("hard/change_point"),
+                            "--json", "-o", "study"}))
+          .document();
   const std::size_t runs = 2 * document.at("formulations").size();
   ASSERT_EQ(document.at("runs").size(), runs);
   for (const auto& study_run : document.at("runs")) {
@@ -136,9 +133,8 @@ TEST_F(StabilityCommand, TabulatesFilesTimesFormulations) {
 
 /// A mechanism that one formulation cannot simulate is a result of the study, not its failure.
 TEST_F(StabilityCommand, ReportsWhatFails) {
-  const ProgramRun run = folder_.run({"stability", problem("hard/dead_centres"), "--json", "--set",
-                                      "/simulation/max_newton_iterations=1"});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = exits(0, folder_.run({"stability", problem("hard/dead_centres"), "--json",
+                                               "--set", "/simulation/max_newton_iterations=1"}));
   for (const auto& study_run : run.document().at("runs")) {
     EXPECT_THAT(study_run.at("failure").get<std::string>(), HasSubstr("t = "));
   }
@@ -149,8 +145,8 @@ TEST_F(StabilityCommand, ReportsWhatFails) {
 using PricesCommand = InProgramFolder;
 
 TEST_F(PricesCommand, WritesWhatItSays) {
-  const ProgramRun run = folder_.run_quick({"prices", problem("slider_crank_round"), "-o", "p"});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run =
+      exits(0, folder_.run_quick({"prices", problem("slider_crank_round"), "-o", "p"}));
   const nlohmann::json result = folder_.result("p");
   const nlohmann::json& prices = result.at("prices");
   const double mass = result.at("objective").at("value");
@@ -184,10 +180,10 @@ TEST_F(PricesCommand, WritesWhatItSays) {
 TEST_F(PricesCommand, AreThoseOfTheDesignThatIsGivenIfItIsAnOptimum) {
   const std::string file = problem("slider_crank_round");
   ASSERT_EQ(folder_.run_quick({"optimize", file, "-o", "o"}).exit_code, 0);
-  const ProgramRun of_optimum =
-      folder_.run_quick({"prices", file, "--design", "o/result.json", "--json", "-o", "p"});
-  EXPECT_EQ(of_optimum.exit_code, 0) << of_optimum.err;
-  const nlohmann::json priced = of_optimum.document();
+  const nlohmann::json priced =
+      exits(0,
+            folder_.run_quick({"prices", file, "--design", "o/result.json", "--json", "-o", "p"}))
+          .document();
   EXPECT_EQ(priced.at("status"), "done");
   // Those of limits are the multipliers of the optimization.
   const nlohmann::json optimum = folder_.result("o");
@@ -204,20 +200,19 @@ TEST_F(PricesCommand, AreThoseOfTheDesignThatIsGivenIfItIsAnOptimum) {
   nlohmann::json start = optimum;
   start["variables"]["rod_diameter"]["value"] = 0.03;
   std::ofstream(folder_.path() / "elsewhere.json") << start;
-  const ProgramRun elsewhere =
-      folder_.run_quick({"prices", file, "--design", "elsewhere.json", "-o", "e"});
-  EXPECT_EQ(elsewhere.exit_code, 4);
-  EXPECT_THAT(unwrapped(elsewhere.out), HasSubstr("the design is no optimum"));
+  EXPECT_THAT(unwrapped(exits(4, folder_.run_quick(
+                                     {"prices", file, "--design", "elsewhere.json", "-o", "e"}))
+                            .out),
+              HasSubstr("the design is no optimum"));
 }
 
 using Gradient = InProgramFolder;
 
 TEST_F(Gradient, MethodsStandSideBySideAndAgree) {
-  const ProgramRun run =
-      folder_.run_quick({"gradient", problem("slider_crank_round"), "--method", "direct",
-                         "--method", "central-difference", "--step", "1e-5", "--json"});
-  EXPECT_EQ(run.exit_code, 0) << run.err;
-  const nlohmann::json document = run.document();
+  const nlohmann::json document =
+      exits(0, folder_.run_quick({"gradient", problem("slider_crank_round"), "--method", "direct",
+                                  "--method", "central-difference", "--step", "1e-5", "--json"}))
+          .document();
   const auto& mass = document.at("responses").at("crank_and_rod");
   EXPECT_EQ(mass.at("unit"), "kg");
   const auto& gradients = mass.at("gradients");
@@ -240,9 +235,8 @@ TEST_F(Gradient, OfTheMassIsThatOfTwoCylinders) {
 }
 
 TEST_F(Gradient, WritesTheDerivativesOfHistories) {
-  const ProgramRun run =
-      folder_.run_quick({"gradient", problem("slider_crank_round"), "--histories", "-o", "run"});
-  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const ProgramRun run = exits(0, folder_.run_quick({"gradient", problem("slider_crank_round"),
+                                                     "--histories", "-o", "run"}));
   const auto rows = read_csv(folder_.path() / "run" / "gradients.csv");
   const auto column = [&](const std::string& title) {
     const auto found = std::find(rows[0].begin(), rows[0].end(), title);

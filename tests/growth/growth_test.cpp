@@ -48,8 +48,7 @@ ProblemFile read(const std::string& scene, const std::string& rest) {
 std::string drive(const std::string& body, double x) {
   return fmt::format(
       R"("drive_{}": {{"type": "revolute", "bodies": ["ground", "{}"], "at": [{}, 0, 0],
-          "axis": [0, 0, 1], "drive": {{"type": "ramp-to-speed", "speed": "20 rad/s",
-          "ramp": "2 ms"}}}})",
+          "axis": [0, 0, 1], "drive": {{"type": "ramp-to-speed", "speed": "20 rad/s", "ramp": "2 ms"}}}})",
       body, body, x);
 }
 

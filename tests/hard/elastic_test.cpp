@@ -6,8 +6,7 @@
 #include "core/mobility/lock.hpp"
 #include "core/trust/check_list.hpp"
 #include "tests/hard/hard_problems.hpp"
-#include "tests/hard/rigid_references.hpp"
-#include "tests/support/convergence.hpp"
+#include "tests/support/differences.hpp"
 
 namespace pleuel::test::elastic_test {
 namespace {

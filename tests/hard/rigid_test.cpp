@@ -6,11 +6,10 @@
 #include "core/base/error.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "tests/hard/hard_problems.hpp"
-#include "tests/hard/rigid_references.hpp"
-#include "tests/support/convergence.hpp"
-#include "tests/support/energy.hpp"
-#include "tests/support/problem_runs.hpp"
-#include "tests/support/source_folder.hpp"
+#include "tests/support/at_start.hpp"
+#include "tests/support/differences.hpp"
+#include "tests/support/files.hpp"
+#include "tests/support/model_state.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::rigid_test {
@@ -283,8 +282,7 @@ TEST_P(RigidHardCase, PrecessesAtTheRateOfItsMomentum) {
 /// reserve for errors that are only foreseen (foreseen_safety) it was 2e-2.
 TEST(FreeRotation, IsThatOfATightTolerance) {
   const auto tip = [](const std::vector<std::string>& overrides) -> Eigen::Vector3d {
-    const ProblemFile problem = sample_problem("hard/many_revolutions", overrides);
-    const auto analysis = analyze(problem, start_design(problem));
+    const auto [problem, x, analysis] = AtStart(sample_problem("hard/many_revolutions", overrides));
     return {value_of(*analysis, "tip_end_x"), value_of(*analysis, "tip_end_y"),
             value_of(*analysis, "tip_end_z")};
   };

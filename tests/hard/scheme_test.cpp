@@ -7,9 +7,9 @@
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/hard/hard_problems.hpp"
-#include "tests/hard/rigid_references.hpp"
-#include "tests/support/convergence.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/dense_algebra.hpp"
+#include "tests/support/differences.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::scheme_test {
@@ -403,8 +403,7 @@ TEST_F(StepControl, HasTheGradientOfTheStepsThatRan) {
                 R"(/responses/force_peak={"type": "reaction-force",)"
                 R"( "joint": "guide", "direction": "y", "over_time": "max-abs"})"}));
   problem.simulation.newton_tolerance = 1e-13;
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [x, analysis] = started(problem);
   ASSERT_GT(analysis->trajectory.rejected_steps, 0);
   const Eigen::MatrixXd direct = direct_gradients(*analysis);
   const ProblemFile repeated = with_steps_of(analysis->trajectory, problem);
@@ -525,9 +524,8 @@ std::vector<double> rates_after_jump(double radius, double share, int count) {
 /// at the tip, as the jump does.
 TEST(Index3, SwingsInItsVelocitiesAfterAJumpAsItsSchemeSays) {
   const StruckRod rod;
-  const ProblemFile problem =
-      sample_problem("hard/velocity_jump", {"/simulation/formulation=index-3"});
-  const auto analysis = analyze(problem, start_design(problem));
+  const auto [problem, x, analysis] =
+      AtStart(sample_problem("hard/velocity_jump", {"/simulation/formulation=index-3"}));
   const std::vector<double> rates = rates_after_jump(0.8, 0.7, 40);
   for (int n : {1, 2, 3}) {
     const double swing = rates[n - 1] - 1.0;
@@ -544,8 +542,7 @@ TEST(VelocityConstraints, FollowAJumpAtOnce) {
   for (const std::vector<std::string>& overrides :
        {std::vector<std::string>{"/simulation/formulation=stabilized-index-2"},
         {"/simulation/formulation=index-1", "/simulation/projection=true"}}) {
-    const ProblemFile problem = sample_problem("hard/velocity_jump", overrides);
-    const auto analysis = analyze(problem, start_design(problem));
+    const auto [problem, x, analysis] = AtStart(sample_problem("hard/velocity_jump", overrides));
     for (int i : {1, 2, 3}) EXPECT_LE(std::abs(error_of_speed(*analysis, i)), 2e-3) << i;
   }
 }
@@ -564,10 +561,9 @@ TEST(Index1, DoesNotSeeAVelocityJumpAndStopsWhereTheDriveIsLeftBehind) {
 /// step).
 TEST(Index1, SeesAVelocityJumpByItsProjection) {
   for (const double h : steps) {
-    const ProblemFile problem = sample_problem(
-        "hard/velocity_jump",
-        {"/simulation/formulation=index-1", "/simulation/projection=true", step_of(h)});
-    const auto analysis = analyze(problem, start_design(problem));
+    const auto [problem, x, analysis] =
+        AtStart(sample_problem("hard/velocity_jump", {"/simulation/formulation=index-1",
+                                                      "/simulation/projection=true", step_of(h)}));
     expect_struck(*analysis, h, 0.5);
   }
 }
@@ -586,8 +582,7 @@ TEST(Index1, HasTheGradientOfAProjectionThatLeadsFar) {
   std::erase_if(problem.responses, [](const ResponseSettings& response) {
     return response.type != ResponseType::position && response.type != ResponseType::velocity;
   });
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [x, analysis] = started(problem);
   const auto values = response_values(*analysis);
   const Eigen::MatrixXd direct = sampled_gradients(*analysis, values, ExactMethod::direct),
                         adjoint = sampled_gradients(*analysis, values, ExactMethod::adjoint);

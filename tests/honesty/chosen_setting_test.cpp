@@ -7,7 +7,7 @@
 #include "core/jobs/parallel.hpp"
 #include "core/trust/setting_choice.hpp"
 #include "core/trust/trusted_run.hpp"
-#include "tests/random/simulated_scene.hpp"
+#include "tests/random/random_scene.hpp"
 #include "tests/support/test.hpp"
 
 /// Whether the setting that an accuracy chooses is right and cheap: beside a grid of 39 settings whose

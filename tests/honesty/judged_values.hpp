@@ -5,9 +5,18 @@
 
 #include "core/base/error_bar.hpp"
 #include "core/scene/problem_file.hpp"
-#include "tests/honesty/coarseness.hpp"
+
+namespace pleuel::test {
+
+/// How coarse a simulation is: times the step and the elements of a file.
+struct Coarseness {
+  double step = 1.0, elements = 1.0;
+};
+
+}  // namespace pleuel::test
 
 /// Error bars beside errors that finer simulations show.
+
 namespace pleuel::test {
 
 /// One response of one simulation, with its bar and what is true.

@@ -2,7 +2,7 @@
 
 #include "core/trust/refined_runs.hpp"
 #include "optimization/design/design_solve.hpp"
-#include "tests/honesty/coarseness.hpp"
+#include "tests/honesty/judged_values.hpp"
 #include "tests/honesty/shipped_problems.hpp"
 #include "tests/support/test.hpp"
 

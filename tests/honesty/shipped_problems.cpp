@@ -2,7 +2,7 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/scene/problem_reader.hpp"
-#include "tests/support/source_folder.hpp"
+#include "tests/support/files.hpp"
 
 namespace pleuel::test {
 

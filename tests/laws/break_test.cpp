@@ -5,11 +5,9 @@
 #include "core/trust/fast_laws.hpp"
 #include "sensitivity/gradients.hpp"
 #include "sensitivity/sampled_gradients.hpp"
-#include "tests/laws/law_gradients.hpp"
 #include "tests/laws/law_problems.hpp"
-#include "tests/support/convergence.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/differences.hpp"
-#include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::break_test {
@@ -126,8 +124,8 @@ const std::string sudden = R"({"type": "table", "times": [-1, 0],
                                "values": [0, {"variable": "force"}], "interpolation": "step"})";
 
 TEST(QuasiStaticStart, IsInEquilibriumWithWhatActsBeforeIt) {
-  const ProblemFile problem = loaded_cantilever(sudden, {"/simulation/end_time=0.6"});
-  const auto analysis = analyze(problem, start_design(problem));
+  const auto [problem, x, analysis] =
+      AtStart(loaded_cantilever(sudden, {"/simulation/end_time=0.6"}));
   const Eigen::MatrixXd& deflection = analysis->histories[0];
   EXPECT_NEAR(deflection(0, 0), sag, 1e-5 * std::abs(sag));
   // The first vibration has 25 periods a second and loses 40 % in each.
@@ -141,9 +139,8 @@ TEST(QuasiStaticStart, IsInEquilibriumWithWhatActsBeforeIt) {
 }
 
 TEST(QuasiStaticStart, StaysWhereItIsUnderALoadThatActsAlready) {
-  const ProblemFile problem = loaded_cantilever(
-      R"({"type": "table", "times": [0, 1], "values": [{"variable": "force"}, {"variable": "force"}]})");
-  const auto analysis = analyze(problem, start_design(problem));
+  const auto [problem, x, analysis] = AtStart(loaded_cantilever(
+      R"({"type": "table", "times": [0, 1], "values": [{"variable": "force"}, {"variable": "force"}]})"));
   const double loaded = sag - 50.0 / (3 * stiffness);
   for (const char* name : {"sag", "end"}) {
     EXPECT_NEAR(values_of(*analysis)(response_index(problem, name)), loaded,
@@ -179,15 +176,13 @@ TEST(DriveTable, RefusesToJump) {
 TEST(DriveTable, StaysBetweenItsValuesUnlessItIsASpline) {
   const auto farthest = [](const std::string& interpolation) {
     const ProblemFile problem = problem_from(R"({"scene": {
-            "bodies": {"block": {"type": "rigid", "at": [0, 0, 0], "mass": 1,
-                                 "inertia": [1, 1, 1, 0, 0, 0]}},
+            "bodies": {"block": {"type": "rigid", "at": [0, 0, 0], "mass": 1, "inertia": [1, 1, 1, 0, 0, 0]}},
             "joints": {"guide": {"type": "prismatic", "bodies": ["ground", "block"],
               "at": [0, 0, 0], "axis": [1, 0, 0], "drive": {"type": "table",
                 "times": [0, 1, 2, 3], "values": [0, 0.1, 0.1, 0])" +
                                              interpolation + R"(}}}},
           "simulation": {"end_time": 3, "step": 0.02},
-          "responses": {"x": {"type": "position", "body": "block", "direction": "x",
-                              "over_time": "max"}}})");
+          "responses": {"x": {"type": "position", "body": "block", "direction": "x", "over_time": "max"}}})");
     return analyze(problem, start_design(problem))->reductions[0].value;
   };
   EXPECT_NEAR(farthest(""), 0.1, 1e-9);
@@ -198,12 +193,10 @@ TEST(DriveTable, StaysBetweenItsValuesUnlessItIsASpline) {
 /// It began with 14 degrees a second.
 TEST(DriveTable, OfTheRobotArmStartsAtRest) {
   for (const char* interpolation : {"spline", "monotone"}) {
-    const ProblemFile problem = sample_problem(
+    const auto [problem, x, analysis] = AtStart(sample_problem(
         "robot_arm", {std::string("/scene/joints/turntable/drive/interpolation=") + interpolation,
-                      "/simulation/end_time=10 ms"});
-    const auto analysis = analyze(problem, start_design(problem));
-    State start;
-    analysis->trajectory.states->load(0, start);
+                      "/simulation/end_time=10 ms"}));
+    State start = state_of(analysis->trajectory, 0);
     EXPECT_LE(start.v.lpNorm<Eigen::Infinity>(), 1e-12) << interpolation;
   }
 }
@@ -217,29 +210,23 @@ ProblemFile cubic_motion(const std::vector<std::string>& changes = {}) {
     "wheel": {"type": "rigid", "at": [0, 0, 0], "mass": 1, "inertia": [1, 1, 1, 0, 0, 0]}},
   "joints": {
     "rail": {"type": "prismatic", "bodies": ["ground", "carriage"], "at": [0, 0, 0],
-              "axis": [1, 0, 0], "drive": {"type": "polynomial",
-              "coefficients": [0, 0, 0, {"variable": "c"}]}},
+              "axis": [1, 0, 0], "drive": {"type": "polynomial", "coefficients": [0, 0, 0, {"variable": "c"}]}},
     "hub": {"type": "revolute", "bodies": ["carriage", "wheel"], "at": [0, 0, 0],
-             "axis": [0, 0, 1], "drive": {"type": "polynomial",
-             "coefficients": [0, 0, 0, {"variable": "turn"}]}}}},
-  "variables": {"c": {"start": 2, "lower": 1, "upper": 3},
-                 "turn": {"start": 2, "lower": 1, "upper": 3}},
+             "axis": [0, 0, 1], "drive": {"type": "polynomial", "coefficients": [0, 0, 0, {"variable": "turn"}]}}}},
+  "variables": {"c": {"start": 2, "lower": 1, "upper": 3}, "turn": {"start": 2, "lower": 1, "upper": 3}},
   "simulation": {"end_time": 0.5, "step": 0.01},
   "responses": {
     "jerk": {"type": "jerk", "body": "carriage", "direction": "x", "over_time": "max-abs"},
     "least": {"type": "jerk", "body": "carriage", "direction": [1, 0, 0], "over_time": "min"},
-    "first": {"type": "jerk", "body": "carriage", "direction": "x", "to": 0.02,
-               "over_time": "mean"},
-    "turning": {"type": "angular-jerk", "body": "wheel", "direction": "z",
-                 "over_time": "final"}},
+    "first": {"type": "jerk", "body": "carriage", "direction": "x", "to": 0.02, "over_time": "mean"},
+    "turning": {"type": "angular-jerk", "body": "wheel", "direction": "z", "over_time": "final"}},
   "objective": {"minimize": "jerk"}})",
                       changes);
 }
 
 /// 6 c at all instants, the first and the last as well.
 TEST(Jerk, OfACubicMotionIsConstant) {
-  const ProblemFile problem = cubic_motion();
-  const auto analysis = analyze(problem, start_design(problem));
+  const auto [problem, x, analysis] = AtStart(cubic_motion());
   for (const Reduction& reduction : analysis->reductions) EXPECT_NEAR(reduction.value, 12.0, 1e-7);
   for (const ExactMethod method : {ExactMethod::direct, ExactMethod::adjoint}) {
     const Eigen::MatrixXd gradients =
@@ -253,11 +240,8 @@ TEST(Jerk, OfACubicMotionIsConstant) {
 /// corner; the cubic that begins with the simulation has no corner.
 TEST(Jerk, AtACornerOfADriveIsToldWhereItRings) {
   const std::string corner =
-      R"(/scene/joints/rail/drive={"type": "expression",
-         "value": "= c * 10 m/s^3 * max(0 s, t - 100 ms)^3"})";
-  const ProblemFile ringing = cubic_motion({corner});
-  const Eigen::VectorXd x = start_design(ringing);
-  const auto analysis = analyze(ringing, x);
+      R"(/scene/joints/rail/drive={"type": "expression", "value": "= c * 10 m/s^3 * max(0 s, t - 100 ms)^3"})";
+  const auto [ringing, x, analysis] = AtStart(cubic_motion({corner}));
   EXPECT_GT(analysis->reductions[0].value, 1.2 * 120.0);
   const Monitors monitors = monitor(analysis->model, analysis->trajectory);
   const std::vector<Finding> found = check_jerks_at_corners({ringing, x, *analysis, monitors});
@@ -294,8 +278,7 @@ TEST(Jerk, HasNoMagnitudeOfItsOwn) {
 TEST(Jerk, HasTheGradientOfItsSimulation) {
   const ProblemFile problem = loaded_cantilever(
       R"({"type": "ramp", "to": {"variable": "force"}, "begin": 0.02, "end": 0.06, "rounding": 0.01})",
-      {R"(/responses/end={"type": "jerk", "body": "beam", "at": 1, "direction": "y",
-          "over_time": "rms"})",
+      {R"(/responses/end={"type": "jerk", "body": "beam", "at": 1, "direction": "y", "over_time": "rms"})",
        R"(/responses/sag={"type": "jerk", "body": "beam", "at": 1, "direction": "y",
           "over_time": "max", "to": 0.05})",
        "/simulation/newton_tolerance=1e-13"});

@@ -4,20 +4,17 @@
 #include "core/trust/checks.hpp"
 #include "core/trust/fast_laws.hpp"
 #include "sensitivity/gradients.hpp"
-#include "tests/laws/law_gradients.hpp"
 #include "tests/laws/law_problems.hpp"
-#include "tests/support/convergence.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/parameter_name.hpp"
-#include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::fast_law_test {
 namespace {
 
 std::vector<Finding> findings_about(const ProblemFile& problem) {
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [x, analysis] = started(problem);
   const Monitors monitors = monitor(analysis->model, analysis->trajectory);
   return check_fast_laws(TrustedRun{problem, x, *analysis, monitors});
 }
@@ -129,8 +126,7 @@ TEST(DriveOfStraightLines, IsDoubtedWhereItsSpeedJumps) {
 /// all at once. Its height is the variable.
 ProblemFile released_rod(const std::vector<std::string>& overrides = {}) {
   return problem_from(R"({
-  "scene": {
-    "gravity": [0, -9.81, 0],
+  "scene": {"gravity": [0, -9.81, 0],
     "bodies": {"rod": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
       "section": {"type": "rectangle", "width": 0.02, "height": {"variable": "height"}}, "elements": 8, "frame": "chord", "damping": {"stiffness": 1e-3}}},
     "joints": {"hinge": {"type": "revolute", "bodies": ["ground", "rod"], "at": [0, 0, 0]}}
@@ -140,8 +136,7 @@ ProblemFile released_rod(const std::vector<std::string>& overrides = {}) {
   "responses": {
     "stress": {"type": "stress", "body": "rod", "over_time": "max"},
     "reaction": {"type": "reaction-force", "joint": "hinge", "direction": "magnitude", "over_time": "max"},
-    "speed": {"type": "velocity", "body": "rod", "at": 1, "direction": "y", "over_time": "rms"}
-  },
+    "speed": {"type": "velocity", "body": "rod", "at": 1, "direction": "y", "over_time": "rms"}},
   "objective": {"minimize": "stress"}
 })",
                       overrides);
@@ -169,18 +164,16 @@ TEST(DampedStart, DoesNotRingWhateverTheMeshAndTheDampingOfTheScheme) {
 
 /// Without damping that is stiff in a step, the start is that of the equations.
 TEST(DampedStart, TakesTheAccelerationsOfTheEquationsWhereTheStepResolvesTheDamping) {
-  const ProblemFile problem =
+  const auto [problem, x, analysis] = AtStart(
       released_rod({"/scene/bodies/rod/elements=1", "/scene/bodies/rod/damping/stiffness=1e-4",
-                    "/effects/axial_elasticity=off"});
-  const auto analysis = analyze(problem, start_design(problem));
-  State start;
-  analysis->trajectory.states->load(0, start);
+                    "/effects/axial_elasticity=off"}));
+  State start = state_of(analysis->trajectory, 0);
   const DampedStart gentle(analysis->model.mechanism, start, generalized_alpha(8e-6, 0.5), 0.0);
   EXPECT_EQ(gentle.a(), start.a);
-  const ProblemFile stiff = released_rod({"/scene/bodies/rod/elements=32"});
-  const auto other = analyze(stiff, start_design(stiff));
-  other->trajectory.states->load(0, start);
-  const DampedStart damped(other->model.mechanism, start, generalized_alpha(2e-3, 0.5), 0.0);
+  const AtStart stiff(released_rod({"/scene/bodies/rod/elements=32"}));
+  start = state_of(stiff.analysis->trajectory, 0);
+  const DampedStart damped(stiff.analysis->model.mechanism, start, generalized_alpha(2e-3, 0.5),
+                           0.0);
   EXPECT_LT(damped.a().lpNorm<Eigen::Infinity>(), 0.1 * start.a.lpNorm<Eigen::Infinity>());
 }
 

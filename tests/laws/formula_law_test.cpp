@@ -4,10 +4,9 @@
 #include "core/scene/time_breaks.hpp"
 #include "core/trust/fast_laws.hpp"
 #include "sensitivity/gradients.hpp"
-#include "tests/laws/law_gradients.hpp"
 #include "tests/laws/law_problems.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/differences.hpp"
-#include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::formula_law_test {
@@ -84,8 +83,7 @@ TEST(FormulaOfTime, HasItsExactDerivatives) {
 
 /// J φ̈ of a motion in closed form: J = 1 kg m², φ = p sin(w t).
 TEST(FormulaOfTime, MovesADrive) {
-  const ProblemFile problem = disc_driven_by("= 1 rad*p*sin(w*t)");
-  const auto analysis = analyze(problem, start_design(problem));
+  const auto [problem, x, analysis] = AtStart(disc_driven_by("= 1 rad*p*sin(w*t)"));
   EXPECT_NEAR(values_of(*analysis)(response_index(problem, "turn")), 1.3 * std::sin(0.85), 1e-9);
   // rms of p w² sin(w t) over 0.5 s
   const double square = 0.25 - std::sin(2 * 0.85) / (4 * 1.7);

@@ -4,10 +4,9 @@
 #include "core/trust/joint_findings.hpp"
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/gradients.hpp"
-#include "tests/laws/law_gradients.hpp"
 #include "tests/laws/law_problems.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/differences.hpp"
-#include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::state_law_test {
@@ -41,9 +40,8 @@ TEST(CubicSpring, HasTheAmplitudeAndThePeriodOfItsEnergy) {
   const double m = 2.0, v = 3.0, k = 5e4;
   const double amplitude = std::pow(2.0 * m * v * v / k, 0.25);
   const double period = 7.4162987092054876 / (amplitude * std::sqrt(k / m));
-  const ProblemFile problem =
-      sliding_block(R"("resistance": "= 50 kN/m^3*displacement^3")", period);
-  const auto analysis = analyze(problem, start_design(problem));
+  const auto [problem, x, analysis] =
+      AtStart(sliding_block(R"("resistance": "= 50 kN/m^3*displacement^3")", period));
   const Eigen::VectorXd values = values_of(*analysis);
   EXPECT_NEAR(values(0), amplitude, 1e-5 * amplitude);
   EXPECT_NEAR(values(1), 0.0, 2e-4 * amplitude);
@@ -65,15 +63,13 @@ TEST(Friction, SlowsTheBlockDownAsItsEquationSays) {
 /// simulations that are as exact as they can be; 1e-2: friction bends within 0.3 mm/s.
 TEST(Friction, HasTheGradientOfItsStepsWhereItTurnsBackWithinOne) {
   for (const double end : {0.5, 1.3}) {
-    const ProblemFile problem = sliding_block(
+    const auto [problem, x, analysis] = AtStart(sliding_block(
         R"("resistance": {"type": "friction", "value": "0.5 N", "speed": "0.3 mm/s"},
            "stiffness": {"variable": "k"})",
         end,
         {"/scene/bodies/block/mass=1", "/scene/bodies/block/velocity=[1, 0, 0]",
          "/simulation/step=2.094395 ms",
-         R"(/variables={"k": {"start": 100, "lower": 50, "upper": 150}})"});
-    const Eigen::VectorXd x = start_design(problem);
-    const auto analysis = analyze(problem, x);
+         R"(/variables={"k": {"start": 100, "lower": 50, "upper": 150}})"}));
     const Eigen::MatrixXd direct = direct_gradients(*analysis);
     ProblemFile exact = problem;
     exact.simulation.newton_tolerance = 1e-14;
@@ -302,8 +298,7 @@ double largest_force(double step, const std::string& over_time) {
                 "loads": {{"rub": {{"type": "joint", "joint": "rail",
                   "resistance": {{"type": "friction", "value": 20, "speed": "1 mm/s"}}}}}}}},
               "simulation": {{"end_time": 1.5, "step": {}}},
-              "responses": {{"force": {{"type": "drive-force", "joint": "rail",
-                                        "over_time": "{}"}}}}}})j",
+              "responses": {{"force": {{"type": "drive-force", "joint": "rail", "over_time": "{}"}}}}}})j",
       step, over_time));
   return analyze(problem, start_design(problem))->reductions[0].value;
 }

@@ -5,7 +5,7 @@
 
 #include "include/pleuel.h"
 #include "include/pleuel.hpp"
-#include "tests/support/source_folder.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::backend_test {

@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "include/pleuel.h"
-#include "tests/support/source_folder.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::border_fuzz_test {

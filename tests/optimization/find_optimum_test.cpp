@@ -3,13 +3,11 @@
 #include <set>
 #include <tuple>
 
-#include "backend_names.hpp"
-#include "complex_step.hpp"
 #include "core/base/eager_matrices.hpp"
-#include "known_problems.hpp"
 #include "optimization/backends.hpp"
 #include "optimization/problem.hpp"
 #include "optimization/solve.hpp"
+#include "tests/optimization/known_problems.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::find_optimum_test {
@@ -58,8 +56,7 @@ TEST_P(FindOptimum, ComesIntoLimitsThatAreExceededAMillionTimes) {
                             result << x[0] + 20.0 * x[1], 1.0 / (a * a), 1.0 / (a * a * b * b);
                             return result;
                           }));
-  const Result result = find_optimum(problem, options_);
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+  const Result result = verified(find_optimum(problem, options_));
   // a b ≥ 10 and a ≥ 10: a + 20 b has its minimum on a b = 10 at a = √200, b = 10/√200.
   EXPECT_NEAR(result.evaluation.objective, 2.0 * std::sqrt(200.0), 2e-3);
   EXPECT_EQ(result.backend, GetParam());
@@ -84,16 +81,12 @@ TEST_P(FindOptimum, LeavesAStartThatCannotBeEvaluated) {
   const KnownProblem known = cantilever();
   // Σ aᵢ / 4³ = 1.95; the optimum has 1.
   FunctionProblem problem = started_at(known, Eigen::VectorXd::Constant(5, 4.0));
-  FunctionProblem fragile(problem.variables(), problem.constraints(),
-                          [&](const Eigen::VectorXd& x, Request request) {
-                            Evaluation evaluation = problem.evaluate(x, request);
-                            if (evaluation.constraints[0] > 1.5) {
-                              throw EvaluationFailure("no equilibrium");
-                            }
-                            return evaluation;
-                          });
-  const Result result = find_optimum(fragile, options_);
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+  FunctionProblem fragile = changed(problem, [&](const Eigen::VectorXd&, Evaluation& evaluation) {
+    if (evaluation.constraints[0] > 1.5) {
+      throw EvaluationFailure("no equilibrium");
+    }
+  });
+  const Result result = verified(find_optimum(fragile, options_));
   EXPECT_NEAR(result.evaluation.objective, known.optimum, 1e-3 * known.optimum);
   EXPECT_TRUE(result.history.front().has_failed());
   EXPECT_THAT(result.message, HasSubstr("the start cannot be evaluated"));
@@ -148,8 +141,7 @@ FunctionProblem failing_for_a_while(int failures) {
 TEST(FindOptimumByOthers, GoesOnWhereABackendIsLost) {
   FunctionProblem problem = failing_for_a_while(35);
   const Result result =
-      find_optimum(problem, {.backend = "nlopt-slsqp", .other_backends = {"nlopt-mma"}});
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+      verified(find_optimum(problem, {.backend = "nlopt-slsqp", .other_backends = {"nlopt-mma"}}));
   EXPECT_EQ(result.backend, "nlopt-mma");
   ASSERT_EQ(result.parts.size(), 2u);
   EXPECT_EQ(result.parts[0].method, "nlopt-slsqp");
@@ -260,8 +252,7 @@ class KnownOptimum : public testing::TestWithParam<Case> {
 // 0.1 % of the objective, limits kept to 1e-4; measured are 8e-5 (MMA on the spring, whose optimum
 // is flat) and 2e-7.
 TEST_P(KnownOptimum, IsReachedAndVerified) {
-  const Result result = solve(known_.problem, options_);
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+  const Result result = verified(solve(known_.problem, options_));
   EXPECT_NEAR(result.evaluation.objective, known_.optimum, 1e-3 * std::abs(known_.optimum));
   EXPECT_LE(result.max_violation, 1e-4);
 }
@@ -354,17 +345,14 @@ class Noise : public testing::TestWithParam<std::string> {};
 // step conservative and make 20 of their 40 steps below the tolerance, down to rounding.
 TEST_P(Noise, IsNotChased) {
   KnownProblem known = ten_bar_truss();
-  FunctionProblem problem(known.problem.variables(), known.problem.constraints(),
-                          [&](const Eigen::VectorXd& x, Request request) {
-                            Evaluation evaluation = known.problem.evaluate(x, request);
-                            const double noise = 1e-8 * std::sin(1e9 * x.sum());
-                            evaluation.objective *= 1.0 + noise;
-                            evaluation.constraints *= 1.0 - noise;
-                            return evaluation;
-                          });
+  FunctionProblem problem =
+      changed(known.problem, [&](const Eigen::VectorXd& x, Evaluation& evaluation) {
+        const double noise = 1e-8 * std::sin(1e9 * x.sum());
+        evaluation.objective *= 1.0 + noise;
+        evaluation.constraints *= 1.0 - noise;
+      });
   SolveOptions options{.backend = GetParam()};
-  const Result result = solve(problem, options);
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+  const Result result = verified(solve(problem, options));
   EXPECT_NEAR(result.evaluation.objective, known.optimum, 1e-5 * known.optimum);
   int tiny_steps = 0;
   for (const EvaluationRecord& record : result.history) {

@@ -1,11 +1,10 @@
-#include "known_problems.hpp"
+#include "tests/optimization/known_problems.hpp"
 
 #include <array>
 #include <cmath>
 
 #include <Eigen/LU>
 
-#include "complex_step.hpp"
 #include "core/base/eager_matrices.hpp"
 #include "optimization/scaling.hpp"
 

@@ -1,13 +1,11 @@
 #include <random>
 
-#include "backend_names.hpp"
-#include "complex_step.hpp"
 #include "core/base/eager_matrices.hpp"
-#include "known_problems.hpp"
 #include "optimization/backends.hpp"
 #include "optimization/kkt_audit.hpp"
 #include "optimization/result.hpp"
 #include "optimization/solve.hpp"
+#include "tests/optimization/known_problems.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::multiplier_test {
@@ -41,8 +39,7 @@ TEST_P(Multipliers, OfHS043AreOneZeroTwo) {
 TEST_P(Multipliers, OfTheCantileverIsTheSlopeOfTheOptimumOverTheLimit) {
   for (const double limit : {0.7, 1.0, 1.8}) {
     const KnownProblem known = cantilever(limit);
-    const Result result = solve_tightly(known.problem);
-    EXPECT_EQ(result.status, Status::verified) << result.message;
+    const Result result = verified(solve_tightly(known.problem));
     EXPECT_NEAR(result.evaluation.objective, known.optimum, 1e-5 * known.optimum);
     const double price = known.optimum / (3.0 * limit);
     EXPECT_NEAR(result.constraint_multipliers[0], price, tolerance * price);
@@ -58,8 +55,7 @@ TEST_P(Multipliers, OfBoundsBalanceTheSlopeOfTheObjective) {
                             return Vector<Scalar>::Constant(
                                 1, (x[0] - 3.0) * (x[0] - 3.0) + (x[1] + 2.0) * (x[1] + 2.0));
                           }));
-  const Result result = solve_tightly(problem);
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+  const Result result = verified(solve_tightly(problem));
   EXPECT_NEAR(result.bound_multipliers[0], 4.0, tolerance);
   EXPECT_NEAR(result.bound_multipliers[1], -4.0, tolerance);
 }
@@ -80,8 +76,7 @@ TEST_P(Multipliers, AFixedVariableStaysAndHasAPrice) {
     const double sum = std::pow(37.0, 0.25) + std::pow(19.0, 0.25) + std::pow(7.0, 0.25) + 1.0;
     return 0.0624 * (x + std::pow(sum, 4.0 / 3.0) / std::cbrt(1.0 - 61.0 / (x * x * x)));
   };
-  const Result result = solve_tightly(problem);
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+  const Result result = verified(solve_tightly(problem));
   EXPECT_EQ(result.x[0], width);
   EXPECT_NEAR(result.evaluation.objective, optimum(width), 1e-5);
   const double slope = (optimum(width + 1e-4) - optimum(width - 1e-4)) / 2e-4;
@@ -107,8 +102,7 @@ TEST_P(Multipliers, AreGivenInTheUnitsOfTheProblem) {
                             evaluation.constraint_jacobian *= micrometre / millimetre;
                             return evaluation;
                           });
-  const Result result = solve_tightly(problem);
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+  const Result result = verified(solve_tightly(problem));
   EXPECT_NEAR(result.constraint_multipliers[0] * micrometre / gram, known.optimum / 3.0,
               tolerance * known.optimum);
 }

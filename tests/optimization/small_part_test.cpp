@@ -1,12 +1,10 @@
 /// A verdict for every variable: small parts of the objective, bad scales, variables without
 /// influence. All optima are closed forms.
 
-#include "backend_names.hpp"
-#include "complex_step.hpp"
 #include "core/base/eager_matrices.hpp"
-#include "known_problems.hpp"
 #include "optimization/backends.hpp"
 #include "optimization/solve.hpp"
+#include "tests/optimization/known_problems.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::small_part_test {
@@ -39,8 +37,7 @@ class SmallPart : public testing::TestWithParam<std::string> {};
 TEST_P(SmallPart, IsAsGoodAsTheLargeOne) {
   for (const double part : {0.02, 1e-3, 1e-4}) {
     KnownProblem known = two_beams(part);
-    const Result result = solve(known.problem, {.backend = GetParam()});
-    EXPECT_EQ(result.status, Status::verified) << result.message;
+    const Result result = verified(solve(known.problem, {.backend = GetParam()}));
     EXPECT_NEAR(result.x[0] * result.x[1], std::sqrt(0.5), 1e-4) << part;
     // The variable residual leaves 1e-4 of a part: kkt_audit.hpp.
     EXPECT_NEAR(result.x[2] * result.x[3], std::sqrt(0.5), 1e-3) << part;
@@ -65,8 +62,7 @@ TEST_P(SmallPart, MayHaveItsMinimumInside) {
                             }
                             return values;
                           }));
-  const Result result = solve(problem, {.backend = GetParam()});
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+  const Result result = verified(solve(problem, {.backend = GetParam()}));
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(result.x[i] / units[i], 1.0, 0.02) << i;
 }
 
@@ -82,8 +78,7 @@ TEST_P(SmallPart, MayBeHeldByDependentLimits) {
         values << x[0] + 1.1 * x[1], x[0] + 2.0 * x[1], 2.0 * x[0] + x[1], x[0] + x[1], x[0] + x[1];
         return values;
       }));
-  const Result result = solve(problem, {.backend = GetParam()});
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+  const Result result = verified(solve(problem, {.backend = GetParam()}));
   EXPECT_NEAR(result.evaluation.objective, 2.1, 1e-4 * 2.1);
 }
 
@@ -97,8 +92,7 @@ TEST_P(SmallPart, MayBeNothingAtAll) {
         values << x[0], 1.0 / x[0], x[2];
         return values;
       }));
-  const Result result = solve(problem, {.backend = GetParam()});
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+  const Result result = verified(solve(problem, {.backend = GetParam()}));
   EXPECT_NEAR(result.evaluation.objective, 1.0, 1e-4);
 }
 
@@ -191,11 +185,9 @@ TEST(Verdict, WithSlackAtTheLimitThatHoldsItIsNotVerified) {
 TEST(Verdict, WithoutDesignsBesideItIsNotVerified) {
   FunctionProblem bowl = shallow_bowl();
   const Eigen::VectorXd optimum = Eigen::VectorXd::Ones(1), start = checked_start(bowl);
-  FunctionProblem lonely(bowl.variables(), bowl.constraints(),
-                         [&](const Eigen::VectorXd& x, Request request) {
-                           if (x != optimum && x != start) throw EvaluationFailure("locks");
-                           return bowl.evaluate(x, request);
-                         });
+  FunctionProblem lonely = changed(bowl, [&](const Eigen::VectorXd& x, Evaluation&) {
+    if (x != optimum && x != start) throw EvaluationFailure("locks");
+  });
   EXPECT_EQ(judge_anew(bowl, start, optimum).status, Status::verified);
   const Verdict verdict = judge_anew(lonely, start, optimum);
   EXPECT_EQ(verdict.status, Status::stalled) << verdict.message;
@@ -225,8 +217,7 @@ TEST(Verdict, BesideAKinkIsNotVerified) {
 TEST(Polish, FinishesAnAnswerThatIsNearlyAnOptimum) {
   KnownProblem known = cantilever();
   SolveOptions options{.backend = "nlopt-mma", .tolerance = 1e-3, .max_restarts = 0};
-  const Result polished = solve(known.problem, options);
-  EXPECT_EQ(polished.status, Status::verified) << polished.message;
+  const Result polished = verified(solve(known.problem, options));
   EXPECT_EQ(polished.backend, "nlopt-mma");
   EXPECT_EQ(polished.polished_with, "nlopt-slsqp");
   EXPECT_THAT(polished.message, HasSubstr("polished with nlopt-slsqp"));

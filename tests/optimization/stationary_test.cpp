@@ -1,12 +1,10 @@
-#include "backend_names.hpp"
-#include "complex_step.hpp"
 #include "core/base/eager_matrices.hpp"
-#include "known_problems.hpp"
 #include "optimization/backends.hpp"
 #include "optimization/neighbourhood.hpp"
 #include "optimization/scaling.hpp"
 #include "optimization/solve.hpp"
 #include "optimization/verdict.hpp"
+#include "tests/optimization/known_problems.hpp"
 #include "tests/support/dense_algebra.hpp"
 #include "tests/support/test.hpp"
 
@@ -107,8 +105,7 @@ TEST_P(StationaryStart, IsLeftForTheMinimum) {
 TEST(StationaryDesign, ThatIsAPlateauSaysSo) {
   const auto message_at_zero = [](auto objective) {
     KnownProblem known{"flat", {{{"x", 0.0, -1.0, 1.0}}, {}, by_complex_step(objective)}, 2.0};
-    const Result result = solve(known.problem, {});
-    EXPECT_EQ(result.status, Status::verified) << result.message;
+    const Result result = verified(solve(known.problem, {}));
     return result.message;
   };
   const auto constant = [](const auto& x) { return column(x, 2.0 + 0.0 * x[0]); };

@@ -24,8 +24,7 @@ inline ProblemFile turning_arm(const std::string& more,
       "materials": {"steel": {"young": 2.1e11, "poisson": 0.3, "density": 7850}},
       "bodies": {
         "arm": {"type": "beam", "from": [0, 0, 0], "to": [0.4, 0, 0], "material": "steel",
-                "section": {"type": "rectangle", "width": 0.01, "height": 0.02},
-                "elements": 4, )" +
+                "section": {"type": "rectangle", "width": 0.01, "height": 0.02}, "elements": 4, )" +
                            more + R"(},
         "ball": {"type": "point-mass", "at": [0.4, 0, 0], "mass": 0.3}
       },

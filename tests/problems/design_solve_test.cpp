@@ -8,10 +8,10 @@
 #include "optimization/backends.hpp"
 #include "optimization/design/peak_problem.hpp"
 #include "optimization/design/staged_solve.hpp"
-#include "tests/optimization/backend_names.hpp"
-#include "tests/problems/verified_optimum.hpp"
+#include "tests/optimization/known_problems.hpp"
+#include "tests/problems/loaded_crank.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/problem_runs.hpp"
-#include "tests/support/source_folder.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::design_solve_test {
@@ -29,23 +29,20 @@ const char* const arm = R"({
       "drive": {"type": "constant", "value": {"variable": "phi"}}}}},
   "simulation": {"end_time": "2 ms", "step": "1 ms"},
   "variables": {"phi": {"start": 0, "lower": -1, "upper": 1}},
-  "responses": {"x": {"type": "position", "body": "arm", "at": 1, "direction": "x",
-    "over_time": "final"}},
+  "responses": {"x": {"type": "position", "body": "arm", "at": 1, "direction": "x", "over_time": "final"}},
   "objective": {"minimize": "x"}})";
 
 /// A block that swings by 100 mm about 20 mm + a: its greatest distance from the origin is
 /// |20 mm + a| + 100 mm, where two peaks tie at a = −20 mm.
 const char* const block = R"({
   "scene": {
-    "bodies": {"block": {"type": "rigid", "at": ["20 mm", 0, 0], "mass": 1,
-      "inertia": [1, 1, 1, 0, 0, 0]}},
+    "bodies": {"block": {"type": "rigid", "at": ["20 mm", 0, 0], "mass": 1, "inertia": [1, 1, 1, 0, 0, 0]}},
     "joints": {"guide": {"type": "prismatic", "bodies": ["ground", "block"], "at": ["20 mm", 0, 0],
       "axis": [1, 0, 0], "drive": {"type": "harmonic", "amplitude": "100 mm",
         "frequency": "628.3185307179586 rad/s", "offset": {"variable": "a"}}}}},
   "simulation": {"end_time": "10 ms", "step": "0.05 ms"},
   "variables": {"a": {"start": 0, "lower": "-50 mm", "upper": "50 mm"}},
-  "responses": {"reach": {"type": "position", "body": "block", "direction": "x",
-    "over_time": "max-abs"}},
+  "responses": {"reach": {"type": "position", "body": "block", "direction": "x", "over_time": "max-abs"}},
   "objective": {"minimize": "reach"}})";
 
 /// The lightest bar of 400 mm whose tip gives way by F L³/(3EI) under a force, of a rectangle of

@@ -6,8 +6,8 @@
 #include "core/scene/problem_reader.hpp"
 #include "optimization/design/design_problem.hpp"
 #include "optimization/design/design_solve.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/parameter_name.hpp"
-#include "tests/support/source_folder.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::impossible_section_test {

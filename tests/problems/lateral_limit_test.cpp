@@ -2,6 +2,8 @@
 #include "optimization/backends.hpp"
 #include "optimization/design/design_solve.hpp"
 #include "optimization/design/peak_problem.hpp"
+#include "tests/optimization/known_problems.hpp"
+#include "tests/problems/loaded_crank.hpp"
 #include "tests/support/parameter_name.hpp"
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"
@@ -17,17 +19,13 @@ constexpr double length = 1.2, height = 0.04, force = 10.0, young = 2.1e11, shea
 /// A flat bar on edge, clamped at one end, with a force across at the other.
 ProblemFile flat_bar() {
   return problem_from(R"j({"scene": {
-    "materials": {"steel": {"young": "210 GPa", "poisson": 0.3125, "density": 7850,
-                            "strength": "235 MPa"}},
+    "materials": {"steel": {"young": "210 GPa", "poisson": 0.3125, "density": 7850, "strength": "235 MPa"}},
     "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": [1.2, 0, 0], "material": "steel",
-      "section": {"type": "rectangle", "width": {"variable": "b"}, "height": "40 mm"},
-      "elements": 16}},
+      "section": {"type": "rectangle", "width": {"variable": "b"}, "height": "40 mm"}, "elements": 16}},
     "joints": {"wall": {"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}},
-    "loads": {"f": {"type": "force", "body": "bar", "at": [1.2, 0, 0], "direction": [0, -1, 0],
-                    "value": "10 N"}}},
+    "loads": {"f": {"type": "force", "body": "bar", "at": [1.2, 0, 0], "direction": [0, -1, 0], "value": "10 N"}}},
   "effects": {"geometric_stiffening": "off"},
-  "simulation": {"end_time": "2 ms", "step": "1 ms", "initial_state": "quasi-static",
-                 "resolution_check": false},
+  "simulation": {"end_time": "2 ms", "step": "1 ms", "initial_state": "quasi-static", "resolution_check": false},
   "variables": {"b": {"start": "5 mm", "lower": "0.5 mm", "upper": "20 mm"}},
   "responses": {"mass": {"type": "mass"},
     "stress": {"type": "stress", "body": "bar", "part": "utilization", "over_time": "max"},
@@ -49,9 +47,7 @@ double closed_form(double b) {
 /// The share falls as b⁻³: an error of 1e-3 of sixteen elements is a third of that in b. Stress alone
 /// would be content with 0.4 mm.
 TEST(LateralLimit, SizesAFlatBar) {
-  DesignProblem design(flat_bar());
-  const Result result = solve_design(design, SolveOptions());
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+  const Result result = verified_optimum(flat_bar(), SolveOptions());
   double low = 1e-4, high = 0.02;
   for (int i = 0; i < 100; ++i) {
     const double middle = 0.5 * (low + high);
@@ -71,18 +67,15 @@ ProblemFile strut(const std::string& response, const std::string& over_time = "m
   return problem_from(R"j({"scene": {
     "materials": {"steel": {"young": "210 GPa", "poisson": 0.3125, "density": 7850}},
     "bodies": {"strut": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
-      "section": {"type": "rectangle", "width": {"variable": "b"}, "height": {"variable": "h"}},
-      "elements": 8}},
+      "section": {"type": "rectangle", "width": {"variable": "b"}, "height": {"variable": "h"}}, "elements": 8}},
     "joints": {
       "foot": {"type": "universal", "bodies": ["ground", "strut"], "at": [0, 0, 0],
                "axis": [0, 0, 1], "second_axis": [0, 1, 0]},
-      "head": {"type": "point-on-line", "bodies": ["ground", "strut"], "at": [1, 0, 0],
-               "axis": [1, 0, 0]}},
+      "head": {"type": "point-on-line", "bodies": ["ground", "strut"], "at": [1, 0, 0], "axis": [1, 0, 0]}},
     "loads": {"press": {"type": "force", "body": "strut", "at": [1, 0, 0],
                         "direction": [-1, 0, 0], "value": "10 kN"}}},
   "effects": {"spatial_motion": "on", "geometric_stiffening": "off"},
-  "simulation": {"end_time": "4 ms", "step": "1 ms", "initial_state": "quasi-static",
-                 "resolution_check": false},
+  "simulation": {"end_time": "4 ms", "step": "1 ms", "initial_state": "quasi-static", "resolution_check": false},
   "variables": {"b": {"start": "20 mm", "lower": "5 mm", "upper": "60 mm"},
                 "h": {"start": "40 mm", "lower": "5 mm", "upper": "60 mm"}},
   "responses": {"mass": {"type": "mass"},
@@ -200,8 +193,7 @@ ProblemFile mast(const std::string& responses_and_limits) {
 
 Result optimized(const ProblemFile& file, const std::string& backend = "nlopt-slsqp") {
   DesignProblem design(file);
-  SolveOptions options;
-  options.backend = backend;
+  SolveOptions options{.backend = backend};
   return solve_design(design, options);
 }
 
@@ -247,27 +239,21 @@ ProblemFile stepped_bar() {
       "ultimate_strength": "400 MPa", "endurance_limit": "100 MPa"}},
     "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": [0.5, 0, 0], "material": "light",
       "segments": [
-        {"section": {"type": "rectangle", "width": {"variable": "a"}, "height": "10 mm"},
-         "elements": 1},
-        {"section": {"type": "rectangle", "width": {"variable": "b"}, "height": "10 mm"},
-         "elements": 1}]}},
+        {"section": {"type": "rectangle", "width": {"variable": "a"}, "height": "10 mm"}, "elements": 1},
+        {"section": {"type": "rectangle", "width": {"variable": "b"}, "height": "10 mm"}, "elements": 1}]}},
     "joints": {"wall": {"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}},
     "loads": {
-      "pull": {"type": "force", "body": "bar", "at": [0.5, 0, 0], "direction": [1, 0, 0],
-               "value": "3 kN"},
+      "pull": {"type": "force", "body": "bar", "at": [0.5, 0, 0], "direction": [1, 0, 0], "value": "3 kN"},
       "shake": {"type": "force", "body": "bar", "at": [0.5, 0, 0], "direction": [1, 0, 0],
                 "value": {"type": "harmonic", "amplitude": "2 kN", "frequency": "10 Hz"}},
-      "pull_2": {"type": "force", "body": "bar", "at": [0.25, 0, 0], "direction": [1, 0, 0],
-               "value": "3 kN"},
+      "pull_2": {"type": "force", "body": "bar", "at": [0.25, 0, 0], "direction": [1, 0, 0], "value": "3 kN"},
       "shake_2": {"type": "force", "body": "bar", "at": [0.25, 0, 0], "direction": [1, 0, 0],
                 "value": {"type": "harmonic", "amplitude": "2 kN", "frequency": "10 Hz"}}}},
   "effects": {"geometric_stiffening": "off"},
-  "simulation": {"end_time": "0.1 s", "step": "1 ms", "initial_state": "quasi-static",
-                 "resolution_check": false},
+  "simulation": {"end_time": "0.1 s", "step": "1 ms", "initial_state": "quasi-static", "resolution_check": false},
   "variables": {"a": {"start": "20 mm", "lower": "1 mm", "upper": "50 mm"},
                 "b": {"start": "20 mm", "lower": "1 mm", "upper": "50 mm"}},
-  "responses": {"mass": {"type": "mass"},
-                "life": {"type": "fatigue", "body": "bar", "criterion": "goodman"}},
+  "responses": {"mass": {"type": "mass"}, "life": {"type": "fatigue", "body": "bar", "criterion": "goodman"}},
   "objective": {"minimize": "mass"},
   "constraints": {"life": {"response": "life", "upper": 0.5}}})j");
 }
@@ -289,9 +275,7 @@ TEST(FatigueLimit, IsDividedBySegmentsOnly) {
 
 /// Both segments at their limit: A = (F_a/S_e + F_m/S_u)/0.5, 110 mm² and 55 mm².
 TEST(FatigueLimit, SizesBothSegments) {
-  DesignProblem design(stepped_bar());
-  const Result result = solve_design(design, SolveOptions());
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+  const Result result = verified_optimum(stepped_bar(), SolveOptions());
   EXPECT_NEAR(result.x(0) * 0.01, (4e3 / 100e6 + 6e3 / 400e6) / 0.5, 1e-8);
   EXPECT_NEAR(result.x(1) * 0.01, (2e3 / 100e6 + 3e3 / 400e6) / 0.5, 1e-8);
 }

@@ -9,7 +9,6 @@
 #include "optimization/design/peak_problem.hpp"
 #include "optimization/design/staged_solve.hpp"
 #include "tests/problems/loaded_crank.hpp"
-#include "tests/problems/verified_optimum.hpp"
 #include "tests/support/evaluation_memory.hpp"
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"
@@ -30,10 +29,8 @@ ProblemFile problem_of(const Json& document) {
 Json distances() {
   return Json::parse(R"json({
     "constants": {"target": 1},
-    "scene": {"bodies": {"stone": {"type": "rigid", "at": [0, 0, 0], "mass": 1,
-                                   "inertia": [1, 1, 1, 0, 0, 0]}},
-              "joints": {"floor": {"type": "fixed", "bodies": ["ground", "stone"],
-                                   "at": [0, 0, 0]}}},
+    "scene": {"bodies": {"stone": {"type": "rigid", "at": [0, 0, 0], "mass": 1, "inertia": [1, 1, 1, 0, 0, 0]}},
+              "joints": {"floor": {"type": "fixed", "bodies": ["ground", "stone"], "at": [0, 0, 0]}}},
     "simulation": {"end_time": "2 s", "step": "1 s"},
     "variables": {"x": {"start": 2.7, "lower": -10, "upper": 10}},
     "responses": {"distance": {"type": "expression", "value": "(x - target)^2"}},
@@ -122,10 +119,8 @@ Json twins() {
 }
 
 TEST(LoadCases, HaveTheOptimumOfTheMechanismCopiedForEach) {
-  DesignProblem cases(problem_of(test::loaded_crank())), copies(problem_of(twins()));
-  const Result one = solve_design(cases, {}), other = solve_design(copies, {});
-  EXPECT_EQ(one.status, Status::verified) << one.message;
-  EXPECT_EQ(other.status, Status::verified) << other.message;
+  const Result one = verified_optimum(problem_of(test::loaded_crank()));
+  const Result other = verified_optimum(problem_of(twins()));
   // Optima are found to 1e-6 of the objective.
   EXPECT_NEAR(one.evaluation.objective, other.evaluation.objective,
               1e-5 * other.evaluation.objective);
@@ -135,8 +130,7 @@ TEST(LoadCases, HaveTheOptimumOfTheMechanismCopiedForEach) {
 
 TEST(LoadCases, OfTheShippedProblemDecideALimitEach) {
   DesignProblem design(sample_problem("two_loads"));
-  const Result result = solve_design(design, {});
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+  const Result result = verified(solve_design(design, {}));
   // Found from two starts with nlopt-slsqp, nlopt-mma and ipopt.
   EXPECT_NEAR(result.evaluation.objective, 0.61849, 1e-4);
   std::map<std::string, double> prices;
@@ -196,9 +190,8 @@ TEST(LoadCases, HaveTheSameDigitsWhateverTheNumberOfJobs) {
   const ProblemFile file = problem_of(eight_speeds());
   ASSERT_EQ(file.cases.size(), 8u);
   DesignProblem one(file, 1), two(file, 2);
-  const Result with_one = solve_design(one, {}), with_two = solve_design(two, {});
-  EXPECT_EQ(with_one.status, Status::verified) << with_one.message;
-  EXPECT_EQ(with_two.status, Status::verified) << with_two.message;
+  const Result with_one = verified(solve_design(one, {}));
+  const Result with_two = verified(solve_design(two, {}));
   EXPECT_EQ(with_one.x, with_two.x);
   EXPECT_EQ(with_one.evaluation.constraints, with_two.evaluation.constraints);
   EXPECT_EQ(with_one.evaluations, with_two.evaluations);
@@ -238,10 +231,8 @@ TEST(LoadCases, HaveStepsOfTheirOwnWhereAnAccuracyIsAskedFor) {
 /// A stone on the floor: what is simulated does not matter.
 Json stone() {
   return Json::parse(R"json({
-    "scene": {"bodies": {"stone": {"type": "rigid", "at": [0, 0, 0], "mass": 1,
-                                   "inertia": [1, 1, 1, 0, 0, 0]}},
-              "joints": {"floor": {"type": "fixed", "bodies": ["ground", "stone"],
-                                   "at": [0, 0, 0]}}},
+    "scene": {"bodies": {"stone": {"type": "rigid", "at": [0, 0, 0], "mass": 1, "inertia": [1, 1, 1, 0, 0, 0]}},
+              "joints": {"floor": {"type": "fixed", "bodies": ["ground", "stone"], "at": [0, 0, 0]}}},
     "simulation": {"end_time": "2 s", "step": "1 s", "resolution_check": false}
   })json");
 }
@@ -346,15 +337,12 @@ TEST(AcrossCases, SolveAHockSchittkowskiProblemThatIsSpreadOverCases) {
 Json cantilever() {
   return Json::parse(R"json({
     "scene": {
-      "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": ["1 m", 0, 0],
-                         "material": "steel",
-                         "section": {"type": "rectangle", "width": "20 mm",
-                                     "height": {"variable": "height"}},
+      "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": ["1 m", 0, 0], "material": "steel",
+                         "section": {"type": "rectangle", "width": "20 mm", "height": {"variable": "height"}},
                          "elements": 2}},
       "joints": {"wall": {"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}},
       "loads": {"pull": {"type": "force", "body": "bar", "at": ["1 m", 0, 0],
-                         "direction": [0, 1, 0], "value": "20 N"}}
-    },
+                         "direction": [0, 1, 0], "value": "20 N"}}},
     "effects": {"geometric_stiffening": "off"},
     "simulation": {"end_time": "2 ms", "step": "1 ms", "initial_state": "quasi-static"},
     "variables": {"height": {"start": "40 mm", "lower": "10 mm", "upper": "80 mm"}},
@@ -374,8 +362,7 @@ double height_of_cantilever() {
 
 TEST(AcrossCases, LimitTheDifferenceOfTwoDeflectionsOfACantilever) {
   DesignProblem design(problem_of(cantilever()));
-  const Result result = solve_design(design, {});
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+  const Result result = verified(solve_design(design, {}));
   EXPECT_NEAR(result.x(0), height_of_cantilever(), 1e-6 * height_of_cantilever());
   ASSERT_FALSE(result.response_errors.empty());
   const ProblemFile& file = design.file();
@@ -394,16 +381,13 @@ TEST(AcrossCases, LimitTheDifferenceOfTwoDeflectionsOfACantilever) {
 /// beside what it is the difference of.
 TEST(AcrossCases, MayBeHeldAtZero) {
   const ProblemFile problem = problem_of(Json::parse(R"json({
-    "scene": {
-      "gravity": [0, 0, 0],
+    "scene": {"gravity": [0, 0, 0],
       "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": [0.4, 0, 0], "material": "steel",
-                         "section": {"type": "rectangle", "width": {"variable": "b"},
-                                     "height": {"variable": "h"}},
+                         "section": {"type": "rectangle", "width": {"variable": "b"}, "height": {"variable": "h"}},
                          "elements": 4}},
       "joints": {"wall": {"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}},
       "loads": {"push": {"type": "force", "body": "bar", "at": [0.4, 0, 0],
-                         "direction": [0, -1, 0], "value": "1 kN"}}
-    },
+                         "direction": [0, -1, 0], "value": "1 kN"}}},
     "simulation": {"end_time": "10 ms", "step": "1 ms", "initial_state": "quasi-static"},
     "variables": {"b": {"start": "20 mm", "lower": "5 mm", "upper": "60 mm"},
                   "h": {"start": "20 mm", "lower": "5 mm", "upper": "60 mm"}},
@@ -411,12 +395,9 @@ TEST(AcrossCases, MayBeHeldAtZero) {
                   "sag": {"type": "deflection", "body": "bar", "at": 1, "direction": "resultant",
                           "over_time": "max"}},
     "objective": {"minimize": "mass"},
-    "constraints": {
-      "stiffness": {"response": "sag", "upper": "1 mm", "cases": ["side"]},
+    "constraints": {"stiffness": {"response": "sag", "upper": "1 mm", "cases": ["side"]},
       "proportion": {"response": "= sag[down] - 2*sag[side]", "lower": 0, "upper": 0}},
-    "cases": {"down": {},
-              "side": {"/scene/loads/push/direction": [0, 0, 1],
-                       "/scene/loads/push/value": "0.5 kN"}}
+    "cases": {"down": {}, "side": {"/scene/loads/push/direction": [0, 0, 1], "/scene/loads/push/value": "0.5 kN"}}
   })json"));
   const Result result = verified_optimum(problem);
   const double size = std::pow(12.0 * 500.0 * std::pow(0.4, 3) / (3.0 * 210e9 * 1e-3), 0.25);
@@ -515,9 +496,8 @@ TEST(AcrossCases, LimitTheLargestOfTwoAsBothDo) {
   DesignProblem largest(problem_of(document));
   document["constraints"]["strength"]["response"] = "stress";
   DesignProblem both(problem_of(document));
-  const Result one = solve_design(largest, {}), other = solve_design(both, {});
-  EXPECT_EQ(one.status, Status::verified) << one.message;
-  EXPECT_EQ(other.status, Status::verified) << other.message;
+  const Result one = verified(solve_design(largest, {}));
+  const Result other = verified(solve_design(both, {}));
   // Optima are found to 1e-6 of the objective.
   EXPECT_NEAR(one.evaluation.objective, other.evaluation.objective,
               1e-5 * other.evaluation.objective);
@@ -526,8 +506,7 @@ TEST(AcrossCases, LimitTheLargestOfTwoAsBothDo) {
 TEST(AcrossCases, HaveTheSameDigitsWhateverTheNumberOfJobs) {
   const ProblemFile file = problem_of(stiff_crank());
   DesignProblem one(file, 1), two(file, 2);
-  const Result with_one = solve_design(one, {}), with_two = solve_design(two, {});
-  EXPECT_EQ(with_one.status, Status::verified) << with_one.message;
+  const Result with_one = verified(solve_design(one, {})), with_two = solve_design(two, {});
   EXPECT_EQ(with_one.x, with_two.x);
   EXPECT_EQ(with_one.evaluation.constraints, with_two.evaluation.constraints);
   EXPECT_EQ(with_one.constraint_multipliers, with_two.constraint_multipliers);

@@ -6,8 +6,9 @@
 #include "optimization/backends.hpp"
 #include "optimization/design/design_solve.hpp"
 #include "optimization/design/peak_problem.hpp"
+#include "tests/optimization/known_problems.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/problem_runs.hpp"
-#include "tests/support/source_folder.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::min_max_test {
@@ -19,16 +20,14 @@ namespace {
 ProblemFile bar(const std::string& goals) {
   return problem_from(
       R"({"scene": {"bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0],
-    "rigid": true, "material": "steel", "elements": 1,
-    "section": {"type": "circle", "diameter": "10 mm"}}},
+    "rigid": true, "material": "steel", "elements": 1, "section": {"type": "circle", "diameter": "10 mm"}}},
     "joints": {"wall": {"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}}},
   "simulation": {"end_time": "2 ms", "step": "1 ms", "resolution_check": false},
   "variables": {"p": {"start": "0.8 m", "lower": "-1 m", "upper": "1 m"},
                 "q": {"start": "0.5 m", "lower": "-1 m", "upper": "1 m"}},
   "responses": {"f": {"type": "expression", "value": "(p - 0.3 m)^2 + q^2"},
                 "g": {"type": "expression", "value": "(p + 0.2 m)^2 + q^2 + 0.1 m^2"},
-                "x": {"type": "position", "body": "bar", "at": 1, "direction": "x",
-                      "over_time": "max"}},)" +
+                "x": {"type": "position", "body": "bar", "at": 1, "direction": "x", "over_time": "max"}},)" +
       goals + "}");
 }
 
@@ -38,16 +37,13 @@ constexpr double best_p = -0.05, best_value = 0.1225;
 
 Result optimized(const ProblemFile& file, const std::string& backend = "nlopt-slsqp") {
   DesignProblem design(file);
-  SolveOptions options;
-  options.backend = backend;
+  SolveOptions options{.backend = backend};
   return solve_design(design, options);
 }
 
 TEST(MinMax, MeetsTheKinkOfTheLargestResponse) {
   for (const std::string& backend : optimizer_names()) {
-    const Result result = optimized(bar(R"j("objective": {"minimize": "= max(f, g)"
-  })j"),
-                                    backend);
+    const Result result = optimized(bar(R"j("objective": {"minimize": "= max(f, g)"})j"), backend);
     EXPECT_EQ(result.status, Status::verified) << backend << ": " << result.message;
     EXPECT_NEAR(result.evaluation.objective, best_value, 1e-4 * best_value) << backend;
     EXPECT_NEAR(result.x(0), best_p, 1e-3) << backend;
@@ -57,8 +53,7 @@ TEST(MinMax, MeetsTheKinkOfTheLargestResponse) {
 
 TEST(MinMax, MaximizesTheSmallestAlike) {
   const Result result =
-      optimized(bar(R"j("objective": {"maximize": "= min(1 m^2 - f, 1 m^2 - g)"})j"));
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+      verified(optimized(bar(R"j("objective": {"maximize": "= min(1 m^2 - f, 1 m^2 - g)"})j")));
   EXPECT_NEAR(-result.evaluation.objective, 1.0 - best_value, 1e-4);
 }
 
@@ -75,24 +70,18 @@ TEST(MinMax, OfFormulasMakesResponsesOfThem) {
 TEST(MinMax, OfMoreThanAnExtremeIsNotSplit) {
   EXPECT_EQ(bar(R"j("objective": {"minimize": "= max(f, g) + f"})j").responses.size(), 4u);
   // A number among them has no gradient.
-  EXPECT_EQ(bar(R"j("objective": {"minimize": "= max(f, 0.2 m^2)"
-})j")
-                .responses.size(),
-            4u);
+  EXPECT_EQ(bar(R"j("objective": {"minimize": "= max(f, 0.2 m^2)"})j").responses.size(), 4u);
 }
 
 TEST(MinMax, LimitsEachOfItsParts) {
   // The smallest p with f and g at most 0.2 m²: g = 0.2 is p = −0.2 − √0.1, where f is too large;
   // f = 0.2 is p = 0.3 − √0.2, where g is 0.1 + (0.5 − √0.2)² < 0.2.
   const ProblemFile file = bar(R"j("objective": {"minimize": "= p"},
-    "constraints": {"both": {"response": "= max(f, g)", "upper": "0.2 m^2"
-}
-})j");
+    "constraints": {"both": {"response": "= max(f, g)", "upper": "0.2 m^2"}})j");
   DesignProblem design(file);
   PeakProblem peaks(design, 4);
   EXPECT_EQ(peaks.constraints().size(), 2u);
-  const Result result = optimized(file);
-  EXPECT_EQ(result.status, Status::verified) << result.message;
+  const Result result = verified(optimized(file));
   EXPECT_NEAR(result.x(0), 0.3 - std::sqrt(0.2), 1e-4);
 }
 

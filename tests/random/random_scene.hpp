@@ -1,13 +1,16 @@
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
+#include "core/response/analysis.hpp"
 #include "core/scene/problem_file.hpp"
 
 /// Random mechanisms as problem files, the same for the same seed on every machine.
+
 namespace pleuel::test {
 
 using Json = nlohmann::ordered_json;
@@ -63,5 +66,33 @@ Eigen::Matrix3d general_rotation(unsigned seed);
 
 /// In any thread.
 ProblemFile read(const Json& scene);
+
+/// A random scene that runs.
+struct SimulatedScene {
+  RandomMechanism mechanism;
+  ProblemFile problem;
+  std::unique_ptr<Analysis> analysis;  ///< null: it does not run, however slow
+  std::string failure;                 ///< why not
+};
+
+/// The same slower, where members bend beyond what linear elasticity is good for or the simulation
+/// fails: what is called unstable elsewhere may be chaotic there, and has no values to compare.
+/// With smaller steps where some were split, which neighbouring designs may not need: values jump
+/// there.
+SimulatedScene simulated(RandomMechanism mechanism);
+
+/// Of random_scene().
+SimulatedScene simulated_scene(unsigned seed);
+
+/// max |history| of each response; of constants their magnitude.
+Eigen::VectorXd magnitudes_of(const Analysis& analysis);
+
+/// Values at the start design.
+Eigen::VectorXd start_values(const Json& scene);
+
+/// The seeds of the random scenes of this executable: [first_seed, end_seed).
+extern const unsigned first_seed, end_seed;
+/// So many of the seeds have to run, with margin for other compilers.
+extern const int least_scenes;
 
 }  // namespace pleuel::test

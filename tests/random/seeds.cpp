@@ -1,4 +1,4 @@
-#include "tests/random/seeds.hpp"
+#include "tests/random/random_scene.hpp"
 
 namespace pleuel::test {
 

@@ -7,7 +7,7 @@
 #include "core/scene/body_constants.hpp"
 #include "core/scene/body_source.hpp"
 #include "core/scene/continued_body.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::made_body_test {

@@ -3,8 +3,8 @@
 #include "reduction/reduce.hpp"
 #include "tests/reduction/solid_block.hpp"
 #include "tests/support/dense_algebra.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/sample_beams.hpp"
-#include "tests/support/temporary_folder.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::reduction_test {
@@ -54,8 +54,7 @@ TEST(Reduction, OfAPrismHasTheComplianceOfABeam) {
 /// A finer mesh is softer, by what coarse elements lack (Rayleigh–Ritz): 0.7 % here, most of it at the
 /// ends, which cannot contract.
 TEST(Reduction, OfAFinerMeshIsSofterByLittle) {
-  Block block;
-  block.poisson = 0.3;
+  Block block{.poisson = 0.3};
   const double coarse = compliance(block, "rigid")(1, 1);
   block.along = 16, block.up = 3;
   const double fine = compliance(block, "rigid")(1, 1);
@@ -89,8 +88,7 @@ TEST(Reduction, OfAPrismHasTheFrequenciesOfATimoshenkoBeam) {
 /// Faces that only move on average as the interface does are softer than rigid ones: forces are spread
 /// over their nodes evenly, which the elements at the end feel. Measured: 3.0 to 3.5 %.
 TEST(Reduction, OfAveragedInterfacesIsSofter) {
-  Block block;
-  block.poisson = 0.3;
+  Block block{.poisson = 0.3};
   const Eigen::MatrixXd averaged = compliance(block, "averaged"),
                         rigid = compliance(block, "rigid");
   for (const int i : {0, 1, 2, 4, 5}) {
@@ -169,8 +167,7 @@ TEST(Reduction, ResponsesToInertiaAreAsGoodAsModes) {
 /// on: a step of 1e-4 changes numbers by the third power of 1e-4, not more.
 TEST(Reduction, ResponsesToInertiaGoContinuouslyWithTheBody) {
   const auto stiffness_at = [](double height) {
-    Block block;
-    block.height = height;
+    Block block{.height = height};
     return stiffness_of(reduced(block, "rigid", ", \"modes\": {\"inertia_responses\": 2}"));
   };
   for (double height = 0.03; height < 0.041; height += 0.002) {
@@ -184,8 +181,7 @@ TEST(Reduction, ResponsesToInertiaGoContinuouslyWithTheBody) {
 
 /// In mm, t and s the same body has other numbers, and reads as the same in SI.
 TEST(Reduction, OfMillimetresAndTonnesIsTheSame) {
-  Block block;
-  block.poisson = 0.3;
+  Block block{.poisson = 0.3};
   const std::string more =
       ", \"modes\": 2, \"damping\": \"1e-5 s\", \"stress\": {\"nodes\": \"surface\", \"most\": 5}, "
       "\"stiffening\": {\"from\": \"left\", \"to\": \"right\", \"elements\": 4}";

@@ -238,8 +238,7 @@ std::filesystem::path write_block_model(const std::filesystem::path& folder, con
   write(folder / "M.mtx", market(model.mass, 1.0 / units.mass));
   write(folder / "model.json", fmt::format(R"({{"body": "block", "mesh": "block.inp", "units": "{}",
  "matrices": {{"stiffness": "K.mtx", "mass": "M.mtx"}},
- "interfaces": {{"left": {{"nodes": "left", "kind": "{}"}},
-                "right": {{"nodes": "RIGHT", "kind": "{}"}}}}{}}})",
+ "interfaces": {{"left": {{"nodes": "left", "kind": "{}"}}, "right": {{"nodes": "RIGHT", "kind": "{}"}}}}{}}})",
                                            units.name, kind, kind, more));
   return folder / "model.json";
 }

@@ -4,8 +4,8 @@
 #include "core/base/error.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "tests/scene/good_problem.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/parameter_name.hpp"
-#include "tests/support/temporary_folder.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::bad_section_test {
@@ -161,15 +161,10 @@ class BadCatalogue : public testing::Test {
     Json document = with_section(section);
     document["scene"]["catalogue"] = "sizes.json";
     std::ofstream(folder_ / "bad.json") << document.dump();
-    try {
-      read_problem(folder_ / "bad.json").complete();
-    } catch (const InputError& error) {
-      std::string text = error.what();
-      const std::string prefix = folder_.string() + "/";
-      if (text.starts_with(prefix)) text.erase(0, prefix.size());
-      return text;
-    }
-    return "";
+    std::string text = thrown<InputError>([&] { read_problem(folder_ / "bad.json").complete(); });
+    const std::string prefix = folder_.string() + "/";
+    if (text.starts_with(prefix)) text.erase(0, prefix.size());
+    return text;
   }
   std::string complaint_about(const std::string& catalogue) {
     return complaint_with(catalogue, R"({"type": "circle", "diameter": 0.01})");

@@ -4,8 +4,8 @@
 #include "core/base/expression.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "tests/scene/good_problem.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/parameter_name.hpp"
-#include "tests/support/source_folder.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::catalogue_test {
@@ -180,8 +180,8 @@ const std::string file = source_folder() + "/problems/any.json";
 /// A beam with a section, and a variable.
 Json beam_document(const std::string& section, const std::string& variable) {
   return Json::parse(R"({"scene": {"catalogue": "catalogue.json", "bodies": {"beam": {
-    "type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel", "elements": 1,
-    "section": )" + section +
+    "type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel", "elements": 1, "section": )" +
+                     section +
                      R"(}}, "joints": {"wall": {"type": "fixed", "bodies": ["ground", "beam"],
     "at": [0, 0, 0]}}}, "simulation": {"end_time": 1, "step": 1},
     "variables": {"size": )" +

@@ -8,7 +8,7 @@
 #include "core/scene/problem_numbers.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "tests/scene/good_problem.hpp"
-#include "tests/support/source_folder.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::load_case_test {
@@ -22,8 +22,7 @@ Json rail() {
       "bodies": {
         "bar": {"type": "beam", "from": [0, 0, 0], "to": ["200 mm", 0, 0], "material": "steel",
                 "section": {"type": "circle", "diameter": {"variable": "thick"}}, "elements": 2},
-        "load": {"type": "point-mass", "at": ["200 mm", 0, 0], "mass": "2 kg"}
-      },
+        "load": {"type": "point-mass", "at": ["200 mm", 0, 0], "mass": "2 kg"}},
       "joints": {
         "hub": {"type": "revolute", "bodies": ["ground", "bar"], "at": [0, 0, 0],
                 "drive": {"type": "constant-speed", "speed": "100 rpm"}},
@@ -40,8 +39,7 @@ Json rail() {
       "double_tip": {"type": "expression", "value": "2*tip"}
     },
     "objective": {"minimize": "weight"},
-    "constraints": {
-      "strength": {"response": "stress", "upper": "100 MPa"},
+    "constraints": {"strength": {"response": "stress", "upper": "100 MPa"},
       "stiffness": {"response": "tip", "upper": "1 mm", "cases": ["fast"]},
       "size": {"linear": {"thick": 1}, "lower": "6 mm"}
     },
@@ -123,12 +121,12 @@ TEST(LoadCase, IsAProblemOfItsOwnByItsName) {
 }
 
 TEST(LoadCase, IsTheSameProblemWhereverItIsTakenFromTheFile) {
-  const ProblemText text{with(rail(), "/pareto", R"({"constraint": "stiffness", "from": "1 mm",
-                                                     "to": "2 mm"})")
-                             .dump(),
-                         "bad.json",
-                         {},
-                         "loaded"};
+  const ProblemText text{
+      with(rail(), "/pareto", R"({"constraint": "stiffness", "from": "1 mm", "to": "2 mm"})")
+          .dump(),
+      "bad.json",
+      {},
+      "loaded"};
   const ProblemFile bound = bind_numbers(
       text, {{"length",
               {"/scene/bodies/bar/to/0", "/scene/bodies/load/at/0", "/scene/joints/clamp/at/0"}}});
@@ -367,12 +365,10 @@ Json bar() {
       "bodies": {
         "bar": {"type": "beam", "from": [0, 0, 0], "to": ["200 mm", 0, 0], "material": "steel",
                 "section": {"type": "rectangle", "width": {"variable": "width"},
-                            "height": {"variable": "height"}}, "elements": 2}
-      },
+                            "height": {"variable": "height"}}, "elements": 2}},
       "joints": {"wall": {"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}},
       "loads": {"weight": {"type": "force", "body": "bar", "at": ["200 mm", 0, 0],
-                           "direction": [0, -1, 0], "value": "100 N"}}
-    },
+                           "direction": [0, -1, 0], "value": "100 N"}}},
     "simulation": {"end_time": "0.1 s", "step": "1 ms"},
     "variables": {"width": {"start": "10 mm", "lower": "5 mm", "upper": "30 mm"},
                   "height": {"start": "10 mm", "lower": "5 mm", "upper": "30 mm"}},

@@ -16,8 +16,8 @@
 #include "core/scene/reading/key_schema.hpp"
 #include "core/scene/visit_numbers.hpp"
 #include "tests/scene/good_problem.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/problem_runs.hpp"
-#include "tests/support/source_folder.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::schema_test {
@@ -152,14 +152,14 @@ TEST_F(ProblemSchema, AcceptsEverySectionOfTheCatalogue) {
 }
 
 TEST_F(ProblemSchema, AcceptsEverySection) {
-  for (const char* section :
-       {R"({"type": "ellipse", "width": {"variable": "width"}, "height": "2 cm"})",
-        R"({"type": "box", "width": {"variable": "width"}, "height": 0.02, "thickness": "1 mm"})",
-        R"({"type": "i", "width": 0.02, "height": 0.04, "flange_thickness": 1e-3,
-            "web_thickness": "1 mm"})",
-        R"({"type": "general", "area": "2 cm^2", "inertia_y": 1e-8, "inertia_z": 1e-8,
+  for (
+      const char* section :
+      {R"({"type": "ellipse", "width": {"variable": "width"}, "height": "2 cm"})",
+       R"({"type": "box", "width": {"variable": "width"}, "height": 0.02, "thickness": "1 mm"})",
+       R"({"type": "i", "width": 0.02, "height": 0.04, "flange_thickness": 1e-3, "web_thickness": "1 mm"})",
+       R"({"type": "general", "area": "2 cm^2", "inertia_y": 1e-8, "inertia_z": 1e-8,
             "torsion": 1e-8, "points": [{"y": 0.01, "z": 0, "shear": "1 1/cm^3"}]})",
-        R"({"type": "general", "area": "2 cm^2", "inertia_y": 1e-8, "inertia_z": 1e-8,
+       R"({"type": "general", "area": "2 cm^2", "inertia_y": 1e-8, "inertia_z": 1e-8,
             "torsion": 1e-8, "shear_area_y": "= 5 mm * width", "shear_area_z": "1 cm^2",
             "points": [{"y": 0.01, "z": 0, "shear": "1 1/cm^3"}]})"}) {
     EXPECT_EQ(complaints_about_edit("/scene/bodies/crank/section", section), "") << section;
@@ -225,15 +225,14 @@ TEST_F(ProblemSchema, NamesTheKeyThatIsWrongInItsKind) {
   const std::pair<const char*, const char*> slips[] = {
       {"/scene/bodies/crank/elemnts", "3"},
       {"/scene/bodies/crank/section", R"({"type": "circle", "diameter": 0.01, "elemnts": 1})"},
-      {"/scene/joints/again", R"({"type": "fixed", "bodies": ["crank", "rod"], "at": [0, 0, 0],
-                                  "elemnts": 1})"},
+      {"/scene/joints/again",
+       R"({"type": "fixed", "bodies": ["crank", "rod"], "at": [0, 0, 0], "elemnts": 1})"},
       {"/scene/loads/push", R"({"type": "force", "body": "rod", "at": [0.3, 0, 0], "value": 1,
                                 "direction": [1, 0, 0], "elemnts": 1})"},
       {"/scene/loads/push", R"({"type": "force", "body": "rod", "at": [0.3, 0, 0],
-                                "direction": [1, 0, 0],
-                                "value": {"type": "constant", "value": 1, "elemnts": 1}})"},
-      {"/responses/bow", R"({"type": "deflection", "body": "rod", "at": 0.5, "over_time": "max",
-                             "elemnts": 1})"},
+                                "direction": [1, 0, 0], "value": {"type": "constant", "value": 1, "elemnts": 1}})"},
+      {"/responses/bow",
+       R"({"type": "deflection", "body": "rod", "at": 0.5, "over_time": "max", "elemnts": 1})"},
       {"/responses/v", R"({"type": "velocity", "body": "rod", "direction": "x", "over_time": "max",
                            "elemnts": 1})"}};
   for (const auto& [pointer, value] : slips) {
@@ -334,8 +333,7 @@ TEST_F(ProblemSchema, RefusesWhatTheReaderRefuses) {
       {"/scene/bodies/crank/section",
        R"({"type": "i", "width": 0.02, "height": 0.04, "flange_thickness": 1e-3})"},
       {"/scene/bodies/crank/section",
-       R"({"type": "general", "area": 1e-4, "inertia_y": 1e-8, "inertia_z": 1e-8,
-           "torsion": 1e-8, "points": []})"},
+       R"({"type": "general", "area": 1e-4, "inertia_y": 1e-8, "inertia_z": 1e-8, "torsion": 1e-8, "points": []})"},
       {"/scene/bodies/crank/section",
        R"({"type": "general", "area": 1e-4, "inertia_y": 1e-8, "inertia_z": 1e-8,
            "torsion": 1e-8, "points": [{"y": 0, "z": 0}]})"},

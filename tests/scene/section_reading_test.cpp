@@ -2,7 +2,7 @@
 #include "core/scene/material_library.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "tests/scene/good_problem.hpp"
-#include "tests/support/source_folder.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::section_reading_test {

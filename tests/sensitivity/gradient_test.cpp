@@ -2,7 +2,7 @@
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/gradients.hpp"
 #include "sensitivity/method_choice.hpp"
-#include "tests/support/problem_runs.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::gradient_test {
@@ -94,8 +94,7 @@ TEST(Differences, OfAVariableAtZeroTakeTheirStepFromItsRange) {
         "drive": {"type": "constant", "value": {"variable": "p", "factor": 1000}}}}},
     "simulation": {"end_time": "2 ms", "step": "1 ms"},
     "variables": {"p": {"start": 0, "lower": -0.001, "upper": 0.001}},
-    "responses": {"y": {"type": "position", "body": "arm", "at": 1, "direction": "y",
-      "over_time": "final"}}})");
+    "responses": {"y": {"type": "position", "body": "arm", "at": 1, "direction": "y", "over_time": "final"}}})");
   const Eigen::VectorXd x = start_design(problem);
   EXPECT_NEAR(central_differences(problem, x, 1e-5)(0, 0), 100.0, 1e-5);
   EXPECT_NEAR(forward_differences(problem, x, *analyze(problem, x), 1e-5)(0, 0), 100.0, 1e-5);
@@ -114,9 +113,7 @@ class MethodsOfAProblem : public testing::TestWithParam<const char*> {};
 /// Every response of every problem file, as the file stands: the two methods share the step's
 /// tangents and nothing else.
 TEST_P(MethodsOfAProblem, AgreeToRoundOff) {
-  const ProblemFile problem = sample_problem(GetParam());
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [problem, x, analysis] = AtStart(sample_problem(GetParam()));
   const auto values = response_values(*analysis);
   const Eigen::MatrixXd direct =
       sampled_gradients(*analysis, values, ExactMethod::direct) * x.asDiagonal();
@@ -137,8 +134,7 @@ INSTANTIATE_TEST_SUITE_P(Problems, MethodsOfAProblem,
 
 /// Nothing is measured where the numbers settle it.
 TEST(ChoiceOfAMethod, IsDirectForFewVariablesAndManyValues) {
-  const ProblemFile problem = sample_problem("slider_crank_round");
-  const auto analysis = analyze(problem, start_design(problem));
+  const auto [problem, x, analysis] = AtStart(sample_problem("slider_crank_round"));
   const auto values = response_values(*analysis);
   ASSERT_GT(values.size(), problem.variables.size());
   const MethodChoice choice = choose_method(*analysis, values);
@@ -159,8 +155,7 @@ TEST(ChoiceOfAMethod, LeavesTheGradientAsItIs) {
   ProblemFile problem = sample_problem("slider_crank_tapered");
   problem.responses.resize(2);  // the mass, and a stress
   problem.constraints.clear();
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [x, analysis] = started(problem);
   const Eigen::MatrixXd automatic = gradients(problem, x, *analysis, GradientMethod::automatic);
   EXPECT_NE(choose_method(*analysis, response_values(*analysis)).reason.find("times"),
             std::string::npos);
@@ -269,9 +264,7 @@ class MovingPlaces : public testing::TestWithParam<Arm> {};
 
 /// Direct differentiation, the adjoint, and central differences of fourth order.
 TEST_P(MovingPlaces, HaveTheDerivativesOfDifferences) {
-  const ProblemFile problem = loaded_arm(GetParam());
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [problem, x, analysis] = AtStart(loaded_arm(GetParam()));
   const auto values = response_values(*analysis);
   const Eigen::MatrixXd direct = sampled_gradients(*analysis, values, ExactMethod::direct);
   const Eigen::MatrixXd adjoint = sampled_gradients(*analysis, values, ExactMethod::adjoint);

@@ -6,8 +6,7 @@
 #include "core/response/analysis.hpp"
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/gradients.hpp"
-#include "tests/support/problem_runs.hpp"
-#include "tests/support/sample_name.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/sample_scenes.hpp"
 #include "tests/support/test.hpp"
 
@@ -19,12 +18,10 @@ namespace {
 /// are 0.1 m, the gradients (1, ± factor) differ by 2 factor/√(1 + factor²).
 ProblemFile block_with(double factor) {
   return problem_from(fmt::format(R"({{"scene": {{
-          "bodies": {{"block": {{"type": "rigid", "at": [0, 0, 0], "mass": 1,
-                                "inertia": [1, 1, 1, 0, 0, 0]}}}},
+          "bodies": {{"block": {{"type": "rigid", "at": [0, 0, 0], "mass": 1, "inertia": [1, 1, 1, 0, 0, 0]}}}},
           "joints": {{"guide": {{"type": "prismatic", "bodies": ["ground", "block"],
             "at": [0, 0, 0], "axis": [1, 0, 0],
-            "drive": {{"type": "harmonic", "amplitude": {{"variable": "A"}},
-                       "frequency": "628.3185307179586 rad/s",
+            "drive": {{"type": "harmonic", "amplitude": {{"variable": "A"}}, "frequency": "628.3185307179586 rad/s",
                        "offset": {{"variable": "b", "factor": {}}}}}}}}}}},
         "simulation": {{"end_time": "10 ms", "step": "0.05 ms"}},
         "variables": {{"A": {{"start": "100 mm", "lower": 0, "upper": 1}},
@@ -67,8 +64,7 @@ TEST(GradientDifference, IsWholeWhereOneOfThemVanishes) {
 
 TEST(Kinks, AreTheSameByTheWayOfGradients) {
   for (const ExactMethod method : {ExactMethod::direct, ExactMethod::adjoint}) {
-    const ProblemFile problem = block_with(0.2);
-    const auto analysis = analyze(problem, start_design(problem));
+    const auto [problem, x, analysis] = AtStart(block_with(0.2));
     const GradientsAndKinks both = gradients_and_kinks(*analysis, problem.variables, method);
     const Eigen::MatrixXd gradients =
         sampled_gradients(*analysis, response_values(*analysis), method);
@@ -164,9 +160,7 @@ class ReducedBodies : public testing::TestWithParam<int> {};
 /// models. The round bars have pairs of equal frequencies in space.
 TEST_P(ReducedBodies, HaveTheGradientsOfModelsThatAreReducedAnew) {
   const SampleScene sample = all_samples()[GetParam()];
-  const ProblemFile problem = problem_of(sample);
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [problem, x, analysis] = AtStart(problem_of(sample));
   const Eigen::MatrixXd direct = direct_gradients(*analysis) * x.asDiagonal();
   Eigen::MatrixXd best = Eigen::MatrixXd::Ones(direct.rows(), direct.cols());
   for (double step : {1e-3, 1e-4}) {

@@ -2,7 +2,7 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "sensitivity/direct.hpp"
-#include "tests/support/convergence.hpp"
+#include "tests/support/differences.hpp"
 #include "tests/support/sample_scenes.hpp"
 #include "tests/support/scheme_case.hpp"
 #include "tests/support/test.hpp"

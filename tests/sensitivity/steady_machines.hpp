@@ -40,8 +40,7 @@ inline ProblemFile four_bar(std::vector<std::string> overrides = {}) {
 /// Turned by a motor that is controlled towards 50 rad/s: the crank is free to turn, too.
 inline ProblemFile motor() {
   return four_bar(
-      {R"(/scene/joints/crank_bearing={"type": "revolute", "bodies": ["ground", "crank"],
-          "at": [0, 0, 0]})",
+      {R"(/scene/joints/crank_bearing={"type": "revolute", "bodies": ["ground", "crank"], "at": [0, 0, 0]})",
        R"(/scene/loads/motor={"type": "joint", "joint": "crank_bearing", "motor": {
           "type": "control", "target": {"type": "constant-speed", "speed": "50 rad/s"},
           "proportional": "100 N m/rad", "derivative": "2 N m s/rad"}})",
@@ -88,8 +87,7 @@ struct Oscillator {
         "simulation": {{"end_time": {:.17g}, "step": {:.17g}, "initial_state": "periodic",
                         "newton_tolerance": 1e-14}},
         {}
-        "responses": {{"x": {{"type": "position", "body": "mass", "direction": "x",
-                              "over_time": "max"}}}}}})",
+        "responses": {{"x": {{"type": "position", "body": "mass", "direction": "x", "over_time": "max"}}}}}})",
                                     m, k, damper, force, frequency_text, period, period / steps,
                                     is_variable ? variable : ""));
   }

@@ -6,17 +6,15 @@
 #include "sensitivity/sampled_gradients.hpp"
 #include "studies/noise.hpp"
 #include "tests/studies/quick_problem.hpp"
-#include "tests/support/problem_runs.hpp"
-#include "tests/support/source_folder.hpp"
+#include "tests/support/at_start.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::derivative_check_test {
 namespace {
 
 TEST(DerivativeCheck, AgreesForEveryResponseOfASampleProblem) {
-  const ProblemFile problem = test::quick_problem();
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [problem, x, analysis] = AtStart(test::quick_problem());
   const auto checks = check_derivatives(problem, x, *analysis);
   ASSERT_EQ(checks.responses.size(), problem.responses.size());
   ASSERT_EQ(checks.directions.size(), 1u);
@@ -30,9 +28,7 @@ TEST(DerivativeCheck, AgreesForEveryResponseOfASampleProblem) {
 }
 
 TEST(DerivativeCheck, FindsThatDirectAndAdjointAreTheSameUpToRoundOff) {
-  const ProblemFile problem = test::quick_problem();
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [problem, x, analysis] = AtStart(test::quick_problem());
   const auto checks = check_derivatives(problem, x, *analysis);
   for (std::size_t i = 0; i < checks.responses.size(); ++i) {
     EXPECT_LT(checks.responses[i].adjoint_error, 1e-10) << problem.responses[i].name;
@@ -55,21 +51,18 @@ TEST(DerivativeCheck, FindsDirectAndAdjointAsFarApartAsRoundOffMovesTheMotion) {
             "section": {{"type": "rectangle", "width": {4}, "height": {{"variable": "h"}}}}}})",
         i == 0 ? "" : ", ", i, 0.2 * i, 0.2 * (i + 1), width);
     joints += fmt::format(
-        R"({0}"j{1}": {{"type": "revolute", "bodies": ["{2}", "b{1}"], "at": [{3}, 0, 0],
-            "axis": [0, 0, 1]{4}}})",
+        R"({0}"j{1}": {{"type": "revolute", "bodies": ["{2}", "b{1}"], "at": [{3}, 0, 0], "axis": [0, 0, 1]{4}}})",
         i == 0 ? "" : ", ", i, before, 0.2 * i, drive);
   }
   const ProblemFile problem = problem_from(R"({"scene": {"gravity": [0, -9.81, 0],
           "materials": {"soft": {"young": "2 GPa", "poisson": 0.3, "density": 1200}},
           "bodies": {)" + bodies + R"(}, "joints": {)" +
                                            joints + R"(}},
-          "simulation": {"end_time": "0.5 s", "step": "1 ms",
-            "formulation": "stabilized-index-2"},
+          "simulation": {"end_time": "0.5 s", "step": "1 ms", "formulation": "stabilized-index-2"},
           "variables": {"h": {"start": 0.01, "lower": 0.005, "upper": 0.02},
             "w": {"start": 0.012, "lower": 0.005, "upper": 0.02}},
           "responses": {
-            "a": {"type": "acceleration", "body": "b4", "at": 1, "direction": "y",
-              "over_time": "max-abs"},
+            "a": {"type": "acceleration", "body": "b4", "at": 1, "direction": "y", "over_time": "max-abs"},
             "s": {"type": "stress", "body": "b0", "over_time": "max"}}})");
   const Eigen::VectorXd x = start_design(problem);
   const auto gradients = [&](const Eigen::VectorXd& design, ExactMethod method) {
@@ -94,12 +87,10 @@ TEST(DerivativeCheck, FindsDirectAndAdjointAsFarApartAsRoundOffMovesTheMotion) {
 /// An energy balance and a drift of constraints are what errors leave: differences of them say
 /// nothing of the gradient where Newton's method is loose, and must not say that it is wrong.
 TEST(DerivativeCheck, DoesNotBlameResponsesThatAreNoise) {
-  const ProblemFile problem = test::quick_problem(
+  const auto [problem, x, analysis] = AtStart(test::quick_problem(
       {"/simulation/newton_tolerance=1e-4", R"(/responses/balance={"type": "energy-balance"})",
        R"(/responses/drift={"type": "constraint-drift", "over_time": "max-abs"})",
-       R"(/responses/rate={"type": "constraint-drift", "level": "velocity", "over_time": "max-abs"})"});
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+       R"(/responses/rate={"type": "constraint-drift", "level": "velocity", "over_time": "max-abs"})"}));
   const auto checks = check_derivatives(problem, x, *analysis);
   for (std::size_t i = 0; i < checks.responses.size(); ++i) {
     const JudgedDerivative& worst = checks.responses[i].worst();
@@ -140,8 +131,7 @@ ProblemFile tight_problem() {
 TEST(DerivativeCheck, WouldFindTheDerivativesRightWithATightTolerance) {
   ProblemFile problem = tight_problem();
   problem.simulation.newton_tolerance = 1e-13;
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [x, analysis] = started(problem);
   const Eigen::VectorXd values = values_of(*analysis);
   const Eigen::MatrixXd direct =
       sampled_gradients(*analysis, response_values(*analysis), ExactMethod::direct);
@@ -153,9 +143,8 @@ TEST(DerivativeCheck, WouldFindTheDerivativesRightWithATightTolerance) {
 }
 
 TEST(DerivativeCheck, BlamesALooseNewtonToleranceAndNotTheDerivatives) {
-  const ProblemFile problem = loose_problem(), tight = tight_problem();
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [problem, x, analysis] = AtStart(loose_problem());
+  const ProblemFile tight = tight_problem();
   const auto tight_analysis = analyze(tight, x);
   const auto checks = check_derivatives(problem, x, *analysis);
   const auto tight_checks = check_derivatives(tight, x, *tight_analysis);
@@ -255,9 +244,7 @@ TEST(DerivativeCheck, FindsTheOneVariableWhoseDerivativeIsWrongByHalves) {
 /// Every response that counts (a relative change along the direction moves it by a hundredth of
 /// that), with an error put into one of its derivatives, against the same differences and noise.
 TEST(DerivativeCheck, FindsErrorsPutIntoDerivativesOfASimulation) {
-  const ProblemFile problem = test::quick_problem();
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [problem, x, analysis] = AtStart(test::quick_problem());
   const Eigen::MatrixXd gradients =
       sampled_gradients(*analysis, response_values(*analysis), ExactMethod::direct);
   const auto checks = check_derivatives(problem, x, *analysis);

@@ -6,8 +6,10 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "optimization/design/design_solve.hpp"
+#include "studies/number_prices.hpp"
+#include "tests/optimization/known_problems.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/problem_runs.hpp"
-#include "tests/support/source_folder.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::number_prices_test {
@@ -20,8 +22,7 @@ constexpr const char* bar = R"({
     "materials": {"steel": {"young": "210 GPa", "poisson": 0.3, "density": "7850 kg/m^3"}},
     "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": ["400 mm", 0, 0],
                        "material": "steel", "elements": 2,
-                       "section": {"type": "rectangle", "width": "30 mm",
-                                   "height": {"variable": "height"}}}},
+                       "section": {"type": "rectangle", "width": "30 mm", "height": {"variable": "height"}}}},
     "joints": {"wall": {"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}},
     "loads": {"press": {"type": "force", "body": "bar", "at": [0.4, 0, 0],
                         "direction": [0, -1, 0], "value": "0.5 kN"}}},
@@ -248,8 +249,7 @@ TEST(NumberPrices, AreThoseOfOptimizingAnew) {
     DesignProblem design(read_problem(path, overrides).complete());
     return solve_design(design, {});
   };
-  const Result result = optimum({coarse});
-  ASSERT_EQ(result.status, Status::verified);
+  const Result result = verified(optimum({coarse}));
   const PriceList list =
       number_prices({file, path, {coarse}}, read_problem(path, {coarse}).complete(), result.x);
   struct Case {

@@ -18,8 +18,7 @@ namespace {
 const std::vector<std::string> four_points = {"/pareto/points=4"};
 
 std::vector<ParetoPoint> front(const ProblemFile& problem) {
-  SolveOptions options;
-  options.backend = problem.optimizer.backend;
+  SolveOptions options{.backend = problem.optimizer.backend};
   return pareto_front(problem, options).points;
 }
 
@@ -44,8 +43,7 @@ TEST(Pareto, FirstPointIsTheOptimumOfTheProblemWithThatLimit) {
     if (constraint.name == problem.pareto->constraint) constraint.upper = problem.pareto->from;
   }
   DesignProblem design_problem(limited);
-  SolveOptions options;
-  options.backend = problem.optimizer.backend;
+  SolveOptions options{.backend = problem.optimizer.backend};
   const Result alone = solve_design(design_problem, options);
   EXPECT_DOUBLE_EQ(front(problem).front().result.evaluation.objective, alone.evaluation.objective);
 }
@@ -182,8 +180,7 @@ TEST(Pareto, OverALowerLimitHasMultipliersOfTheOtherSign) {
 
 TEST(Pareto, DoesNotDependOnTheNumberOfJobs) {
   const ProblemFile problem = test::quick_problem(four_points);
-  SolveOptions options;
-  options.backend = problem.optimizer.backend;
+  SolveOptions options{.backend = problem.optimizer.backend};
   std::vector<double> limits;
   const ParetoObserver note = [&](const ParetoPoint& point) { limits.push_back(point.limit); };
   const std::vector<ParetoPoint> one = pareto_front(problem, options, {{.jobs = 1}}, note).points;
@@ -238,10 +235,8 @@ using Json = nlohmann::ordered_json;
 Json distances(const std::string& pareto) {
   Json document = Json::parse(R"json({
     "constants": {"target": 1},
-    "scene": {"bodies": {"stone": {"type": "rigid", "at": [0, 0, 0], "mass": 1,
-                                   "inertia": [1, 1, 1, 0, 0, 0]}},
-              "joints": {"floor": {"type": "fixed", "bodies": ["ground", "stone"],
-                                   "at": [0, 0, 0]}}},
+    "scene": {"bodies": {"stone": {"type": "rigid", "at": [0, 0, 0], "mass": 1, "inertia": [1, 1, 1, 0, 0, 0]}},
+              "joints": {"floor": {"type": "fixed", "bodies": ["ground", "stone"], "at": [0, 0, 0]}}},
     "simulation": {"end_time": "2 s", "step": "1 s", "resolution_check": false},
     "sensitivity": {"method": "direct"},
     "variables": {"x": {"start": 1.3, "lower": 0.5, "upper": 10}},
@@ -310,8 +305,7 @@ TEST(ParetoOverCases, TradesResponsesOfTwoCases) {
 
 TEST(ParetoOverCases, TradesASumOverThem) {
   const auto points = case_front(distances(
-      R"({"responses": ["cost[near]", {"minimize": "distance", "over_cases": "sum"}],
-          "points": 4})"));
+      R"({"responses": ["cost[near]", {"minimize": "distance", "over_cases": "sum"}], "points": 4})"));
   ASSERT_EQ(points.size(), 4u);
   for (const ParetoPoint& point : points) {
     EXPECT_EQ(point.result.status, Status::verified) << point.result.message;
@@ -372,12 +366,14 @@ TEST(ParetoOverCases, SaysWhichNamesThereAre) {
               AllOf(HasSubstr("/pareto/responses/0"), HasSubstr("\"distance [near]\"")));
   EXPECT_THAT(complaint(R"({"constraint": "reach[fra]", "from": 1, "to": 2})"),
               AllOf(HasSubstr("/pareto/constraint"), HasSubstr("reach [far]")));
-  EXPECT_THAT(complaint(R"({"responses": [{"minimize": "distance", "over_cases": {"nah": 1}},
-                                          "cost[near]"]})"),
-              AllOf(HasSubstr("/pareto/responses/0/over_cases/nah"), HasSubstr("near")));
-  EXPECT_THAT(complaint(R"({"responses": [{"minimize": "distance[near]", "over_cases": "sum"},
-                                          "cost[near]"]})"),
-              HasSubstr("/pareto/responses/0/over_cases"));
+  EXPECT_THAT(
+      complaint(
+          R"({"responses": [{"minimize": "distance", "over_cases": {"nah": 1}}, "cost[near]"]})"),
+      AllOf(HasSubstr("/pareto/responses/0/over_cases/nah"), HasSubstr("near")));
+  EXPECT_THAT(
+      complaint(
+          R"({"responses": [{"minimize": "distance[near]", "over_cases": "sum"}, "cost[near]"]})"),
+      HasSubstr("/pareto/responses/0/over_cases"));
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/scene/problem_reader.hpp"
-#include "tests/support/source_folder.hpp"
+#include "tests/support/files.hpp"
 
 namespace pleuel::test {
 

@@ -8,7 +8,7 @@
 #include "core/effects/floating_frame_body.hpp"
 #include "core/joints/joint_term.hpp"
 #include "core/model/model.hpp"
-#include "tests/support/planar_parts.hpp"
+#include "tests/support/sample_parts.hpp"
 
 /// The flexible slider-crank of the IVP Test Set (Simeon 1998): rigid crank, rod with two sine
 /// modes in bending and a quadratic axial displacement, no gravity, Ω = 150 rad/s.

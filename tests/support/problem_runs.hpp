@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 
 #include "core/scene/problem_reader.hpp"
-#include "tests/support/source_folder.hpp"
+#include "tests/support/files.hpp"
 
 /// A problem from its text, with overrides.
 inline pleuel::ProblemFile problem_from(const std::string& text,

@@ -5,6 +5,7 @@
 
 #include "core/model/model.hpp"
 #include "core/scene/problem_file.hpp"
+#include "tests/support/test.hpp"
 
 /// Small mechanisms that together contain every kind of body, joint, drive and load, with all kinds
 /// of numbers bound to variables.
@@ -75,3 +76,8 @@ inline constexpr int sample_count = 9;
 /// A beam of steel from the origin along x, turning about z on a bearing in the origin; gravity
 /// along −y. No variables.
 pleuel::Scene swinging_beam(double length, const pleuel::Section& section, int elements);
+
+/// The name of a test whose parameter is the place of its sample among all_samples().
+inline std::string sample_name(const testing::TestParamInfo<int>& info) {
+  return all_samples()[info.param].name;
+}

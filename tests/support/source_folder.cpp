@@ -1,4 +1,4 @@
-#include "tests/support/source_folder.hpp"
+#include "tests/support/files.hpp"
 
 namespace pleuel {
 

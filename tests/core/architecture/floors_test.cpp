@@ -4,7 +4,7 @@
 #include <regex>
 #include <set>
 
-#include "tests/support/source_folder.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::floors_test {

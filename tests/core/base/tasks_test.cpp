@@ -14,7 +14,7 @@
 #include "core/base/stopwatch.hpp"
 #include "core/jobs/parallel.hpp"
 #include "core/jobs/rank_place.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::tasks_test {
@@ -240,14 +240,10 @@ TEST(ParallelWork, IsDoneOnceEach) {
 
 TEST(ParallelWork, PassesOnTheFirstFailure) {
   for (int threads : {1, 4}) {
-    try {
-      for_each_in_parallel(20, threads, [](int i) {
-        if (i >= 3) throw std::runtime_error(std::to_string(i));
-      });
-      FAIL() << "nothing was thrown";
-    } catch (const std::runtime_error& error) {
-      EXPECT_STREQ(error.what(), "3");
-    }
+    const auto fail = [](int i) {
+      if (i >= 3) throw std::runtime_error(std::to_string(i));
+    };
+    EXPECT_EQ(thrown<std::runtime_error>([&] { for_each_in_parallel(20, threads, fail); }), "3");
   }
 }
 

@@ -82,8 +82,7 @@ struct RotatingCantilever {
   Eigen::VectorXd flapping_numbers(double eta) const {
     Scene scene = swinging_beam(length, RectangleSection{depth, 10 * depth}, elements);
     scene.gravity = {0.0, 0.0, 0.0};
-    EffectSettings effects;
-    effects.spatial_motion = EffectChoice::on;
+    EffectSettings effects{.spatial_motion = EffectChoice::on};
     Model model = build_model(scene, effects, {}, {});
     const double flap_stiffness = 2.1e11 * depth * depth / 12 / 7850;  // EI/ρA, flap along z
     const double speed = eta * std::sqrt(flap_stiffness) / (length * length);

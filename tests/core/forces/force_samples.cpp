@@ -42,8 +42,7 @@ Marker planar_marker(int offset) {
 }
 
 Marker ground_marker() {
-  Marker marker;
-  marker.frame = ground_frame();
+  Marker marker{.frame = ground_frame()};
   return marker;
 }
 

@@ -44,8 +44,7 @@ Scene scene_of(const Freedom& c) {
 
 /// Coordinates less the rank of Φ_q.
 int freedom_of(const Scene& scene, EffectChoice spatial) {
-  EffectSettings effects;
-  effects.spatial_motion = spatial;
+  EffectSettings effects{.spatial_motion = spatial};
   Model model = build_model(scene, effects, {}, {});
   System& system = *model.mechanism.system;
   State state = model.mechanism.guess;
@@ -186,8 +185,7 @@ double driven_coordinate(const Pair& pair, const Carried& first, const Carried& 
 void check(const Pair& pair, EffectChoice spatial) {
   SCOPED_TRACE(std::string(pair.name) + (pair.driven ? ", driven" : "") +
                (spatial == EffectChoice::off ? ", in a plane" : ", in space"));
-  EffectSettings effects;
-  effects.spatial_motion = spatial;
+  EffectSettings effects{.spatial_motion = spatial};
   Model model = build_model(scene_of(pair, spatial), effects, {}, {});
   const Trajectory trajectory = simulate(model.mechanism, {0.1, 1e-3, 0.8});
   State start, end;

@@ -7,8 +7,8 @@
 #include "core/trust/check_list.hpp"
 #include "core/trust/model_variants.hpp"
 #include "tests/core/start/quasi_static_beam.hpp"
-#include "tests/core/trust/findings_of.hpp"
-#include "tests/support/problem_runs.hpp"
+#include "tests/core/trust/trust_scenes.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::turning_stability_test {
@@ -30,10 +30,8 @@ std::string shaft(const std::string& frame, double h, double speed, double press
                        "elements": 6, "frame": "{}", "angular_velocity": [{}, 0, 0],
                        "damping": {{"stiffness": {}}}}}}},
       "joints": {{"a": {{"type": "spherical", "bodies": ["ground", "b"], "at": [0, 0, 0]}},
-                "l": {{"type": "point-on-line", "bodies": ["ground", "b"], "at": [1, 0, 0],
-                      "axis": [1, 0, 0]}}}},
-      "loads": {{"p": {{"type": "force", "body": "b", "at": [1, 0, 0], "direction": [-1, 0, 0],
-                      "value": {}}}}}}},
+                "l": {{"type": "point-on-line", "bodies": ["ground", "b"], "at": [1, 0, 0], "axis": [1, 0, 0]}}}},
+      "loads": {{"p": {{"type": "force", "body": "b", "at": [1, 0, 0], "direction": [-1, 0, 0], "value": {}}}}}}},
       "effects": {{"spatial_motion": "on"}},
       "simulation": {{"end_time": 2e-4, "step": 1e-4, "initial_state": "quasi-static"}},
       "responses": {{
@@ -220,15 +218,12 @@ std::string held_rotor(double speed, double damping, double damper, double sprin
               "angular_velocity": [{0}, 0, 0], "damping": {{"stiffness": {1}}}}},
         "disk": {{"type": "rigid", "at": [0.5, 0, 0], "mass": 1,
                  "inertia": [1e-6, 1e-6, 1e-6, 0, 0, 0], "angular_velocity": [{0}, 0, 0]}},
-        "block": {{"type": "rigid", "at": [0.5, 0, 0], "mass": 1,
-                  "inertia": [1e-6, 1e-6, 1e-6, 0, 0, 0]}}}},
+        "block": {{"type": "rigid", "at": [0.5, 0, 0], "mass": 1, "inertia": [1e-6, 1e-6, 1e-6, 0, 0, 0]}}}},
       "joints": {{
         "a": {{"type": "spherical", "bodies": ["ground", "b"], "at": [0, 0, 0]}},
-        "l": {{"type": "point-on-line", "bodies": ["ground", "b"], "at": [1, 0, 0],
-              "axis": [1, 0, 0]}},
+        "l": {{"type": "point-on-line", "bodies": ["ground", "b"], "at": [1, 0, 0], "axis": [1, 0, 0]}},
         "weld": {{"type": "fixed", "bodies": ["b", "disk"], "at": [0.5, 0, 0]}},
-        "bearing": {{"type": "revolute", "bodies": ["b", "block"], "at": [0.5, 0, 0],
-                    "axis": [1, 0, 0]}}}},
+        "bearing": {{"type": "revolute", "bodies": ["b", "block"], "at": [0.5, 0, 0], "axis": [1, 0, 0]}}}},
       "loads": {{
         "y": {{"type": "spring", "bodies": ["ground", "block"], "at": [[0.5, 10, 0], [0.5, 0, 0]],
               "stiffness": {3}, "damping": {2}}},
@@ -282,8 +277,7 @@ ProblemFile blade(const std::string& frame, double speed = 50.0) {
           "joints": {{"d": {{"type": "revolute", "bodies": ["ground", "b"], "at": [0, 0, 0],
             "drive": {{"type": "constant-speed", "speed": {}}}}}}}}},
         "simulation": {{"end_time": 1e-3, "step": 1e-4, "initial_state": "quasi-static"}},
-        "responses": {{"flap": {{"type": "frequency", "mode": 1}},
-                       "lag": {{"type": "frequency", "mode": 2}}}}}})",
+        "responses": {{"flap": {{"type": "frequency", "mode": 1}}, "lag": {{"type": "frequency", "mode": 2}}}}}})",
                                   frame, speed));
 }
 
@@ -302,8 +296,7 @@ TEST(TurningAxes, GiveARotatingBeamItsFrequenciesInAnyFrame) {
   for (const char* frame :
        {R"("frame": "tangent")", R"("frame": "chord")", R"("frame": "mean-axis")",
         R"("frame": "tangent-end")", R"("frames": 2)"}) {
-    const ProblemFile problem = blade(frame);
-    const auto analysis = analyze(problem, start_design(problem));
+    const auto [problem, x, analysis] = AtStart(blade(frame));
     const Eigen::VectorXd found = frequencies(*analysis);
     EXPECT_NEAR(found(0), std::sqrt(flap + 1.193 * square), 0.003 * found(0)) << frame;
     EXPECT_NEAR(found(1), std::sqrt(lag + 0.193 * square), 0.003 * found(1)) << frame;
@@ -311,8 +304,7 @@ TEST(TurningAxes, GiveARotatingBeamItsFrequenciesInAnyFrame) {
 }
 
 TEST(TurningAxes, LeaveTheFrequenciesOfAMechanismAtRest) {
-  const ProblemFile problem = blade(R"("frame": "chord")", 0.0);
-  const auto analysis = analyze(problem, start_design(problem));
+  const auto [problem, x, analysis] = AtStart(blade(R"("frame": "chord")", 0.0));
   const Eigen::VectorXd found = frequencies(*analysis);
   EXPECT_NEAR(found(0), analysis->mechanism_frequencies(0), 1e-9 * found(0));
   EXPECT_NEAR(found(5), analysis->mechanism_frequencies(5), 1e-9 * found(5));
@@ -320,8 +312,7 @@ TEST(TurningAxes, LeaveTheFrequenciesOfAMechanismAtRest) {
 
 TEST(Frequencies, AreDoubtedWhereTheAxesMatter) {
   const auto findings = [](const ProblemFile& problem) {
-    const Eigen::VectorXd x = start_design(problem);
-    const auto analysis = analyze(problem, x);
+    const auto [x, analysis] = started(problem);
     return check_frequencies({problem, x, *analysis, Monitors{}});
   };
   EXPECT_TRUE(findings(blade(R"("frame": "tangent")")).empty());
@@ -337,7 +328,7 @@ TEST(Frequencies, AreDoubtedWhereTheAxesMatter) {
 TEST(Frequencies, AreDoubtedWhereAFollowerForceMakesThemGrow) {
   const auto findings = [](double load) {
     const double stiffness = 2.1e11 * 0.013 * std::pow(0.01, 3) / 12;
-    const ProblemFile problem = problem_from(fmt::format(R"({{"scene": {{
+    const auto [problem, x, analysis] = AtStart(problem_from(fmt::format(R"({{"scene": {{
           "materials": {{"m": {{"young": 2.1e11, "poisson": 0.3, "density": 7850}}}},
           "bodies": {{"b": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "m",
             "section": {{"type": "rectangle", "width": 0.01, "height": 0.013}}, "elements": 8}}}},
@@ -346,9 +337,7 @@ TEST(Frequencies, AreDoubtedWhereAFollowerForceMakesThemGrow) {
             "direction": [-1, 0, 0], "value": {}}}}}}},
         "simulation": {{"end_time": 1e-3, "step": 1e-4, "initial_state": "quasi-static"}},
         "responses": {{"first": {{"type": "frequency"}}}}}})",
-                                                         load * stiffness));
-    const Eigen::VectorXd x = start_design(problem);
-    const auto analysis = analyze(problem, x);
+                                                                         load * stiffness)));
     return check_stability({problem, x, *analysis, Monitors{}});
   };
   EXPECT_TRUE(findings(20.0).empty());
@@ -364,8 +353,7 @@ TEST(Frequencies, AreDoubtedWhereMoreFramesChangeThem) {
     return problem_from(fmt::format(R"({{"scene": {{"gravity": [0, 0, 0],
           "materials": {{"m": {{"young": 2.1e11, "poisson": 0.3, "density": 7850}}}},
           "bodies": {{"b": {{"type": "beam", "from": {0}, "to": {1}, "material": "m",
-            "section": {{"type": "rectangle", "width": 0.008, "height": 0.016}}, "elements": 6,
-            "frames": {2}}}}},
+            "section": {{"type": "rectangle", "width": 0.008, "height": 0.016}}, "elements": 6, "frames": {2}}}}},
           "joints": {{"wall": {{"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]}}}},
           "loads": {{"moment": {{"type": "torque", "body": "b", "at": [0.6, 0, 0],
                                "direction": [0, 1, 0], "value": 20}}}}}},

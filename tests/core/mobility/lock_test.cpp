@@ -60,12 +60,10 @@ ProblemFile slider_crank(
       fmt::format(R"(, "slider": {{"type": "point-mass", "at": {}, "mass": 1}})",
                   point_text(slider));
   const std::string joints = fmt::format(
-      R"("shaft": {{"type": "revolute", "bodies": ["ground", "crank"], "at": [0, 0, 0],
-          "drive": {}}},
+      R"("shaft": {{"type": "revolute", "bodies": ["ground", "crank"], "at": [0, 0, 0], "drive": {}}},
         "pin": {{"type": "revolute", "bodies": ["crank", "rod"], "at": {}}},
         "slider_pin": {{"type": "revolute", "bodies": ["rod", "slider"], "at": {}}},
-        "guide": {{"type": "point-on-line", "bodies": ["ground", "slider"], "at": {},
-          "axis": [1, 0, 0]}})",
+        "guide": {{"type": "point-on-line", "bodies": ["ground", "slider"], "at": {}, "axis": [1, 0, 0]}})",
       drive, point_text(pin), point_text(slider), point_text(slider));
   return problem_of(bodies, joints + more_joints);
 }
@@ -106,10 +104,9 @@ TEST(Lock, IsSimulatedWhereBodiesAreMeantToBend) {
 
 /// A pendulum that hangs on the pin changes nothing.
 TEST(Lock, IsFoundBesideFreeMotions) {
-  const ProblemFile problem =
-      slider_crank(0.055, bars_text({{"pendulum", {0.06, 0, 0}, {0.06, -0.1, 0}}}) + ", ",
-                   R"(, "hook": {"type": "revolute", "bodies": ["crank", "pendulum"],
-                     "at": [0.06, 0, 0]})");
+  const ProblemFile problem = slider_crank(
+      0.055, bars_text({{"pendulum", {0.06, 0, 0}, {0.06, -0.1, 0}}}) + ", ",
+      R"(, "hook": {"type": "revolute", "bodies": ["crank", "pendulum"], "at": [0.06, 0, 0]})");
   const RigidPath path = path_of(problem);
   ASSERT_EQ(path.end, RigidPath::End::locks);
   EXPECT_NEAR(path.time, std::asin(0.055 / 0.06) / (2 * pi), 1e-4);
@@ -185,8 +182,7 @@ TEST(Lock, IsNoneWhereADriveLeavesADeadCentre) {
         "pin": {"type": "revolute", "bodies": ["crank", "rod"], "at": [0.06, 0, 0]},
         "slider_pin": {"type": "revolute", "bodies": ["rod", "slider"], "at": [0.2, 0, 0]},
         "cylinder": {"type": "prismatic", "bodies": ["ground", "slider"], "at": [0.2, 0, 0],
-          "axis": [-1, 0, 0], "drive": {"type": "harmonic", "amplitude": "AMPLITUDE",
-          "frequency": "0.5 Hz"}})";
+          "axis": [-1, 0, 0], "drive": {"type": "harmonic", "amplitude": "AMPLITUDE", "frequency": "0.5 Hz"}})";
   const auto with = [&](const std::string& amplitude) {
     std::string text = joints;
     text.replace(text.find("AMPLITUDE"), 9, amplitude);
@@ -275,8 +271,7 @@ TEST(Lock, IsNoneWhereABodyBendsFromTheStart) {
       R"("bearing": {"type": "revolute", "bodies": ["ground", "eccentric"], "at": [0, 0, 0],
           "drive": {"type": "constant-speed", "speed": "1 rev/s"}},
         "pin": {"type": "revolute", "bodies": ["eccentric", "spring"], "at": [0.005, 0, 0]},
-        "clamp": {"type": "prismatic", "bodies": ["ground", "spring"], "at": [0.2, 0, 0],
-          "axis": [1, 0, 0]})");
+        "clamp": {"type": "prismatic", "bodies": ["ground", "spring"], "at": [0.2, 0, 0], "axis": [1, 0, 0]})");
   EXPECT_EQ(path_of(problem).end, RigidPath::End::bends);
 }
 

@@ -4,31 +4,18 @@
 #include "core/response/monitors.hpp"
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/gradients.hpp"
-#include "tests/support/bent_cantilever.hpp"
-#include "tests/support/convergence.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/differences.hpp"
-#include "tests/support/problem_runs.hpp"
+#include "tests/support/one_beam.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::divided_beam_test {
 namespace {
 
-struct Simulated {
-  ProblemFile problem;
-  std::unique_ptr<Analysis> analysis;
-
-  explicit Simulated(ProblemFile file)
-      : problem(std::move(file)), analysis(analyze(problem, start_design(problem))) {}
-  explicit Simulated(const BentCantilever& cantilever) : Simulated(cantilever.problem()) {}
-
-  double value(const std::string& response) const {
-    return analysis->reductions[response_index(problem, response)].value;
-  }
-  std::string place(const std::string& response, int channel) const {
-    return analysis->responses[response_index(problem, response)].history()->signal->describe(
-        channel);
-  }
-};
+std::string place(const AtStart& run, const std::string& response, int channel) {
+  const auto i = response_index(run.problem, response);
+  return run.analysis->responses[i].history()->signal->describe(channel);
+}
 
 /// α = 1 is 10 % off in one frame. Measured against the tables of the elastica, each doubling of
 /// the frames takes three quarters of the error.
@@ -40,7 +27,7 @@ TEST(DividedBeam, ConvergesToTheElasticaAtLeastAsTheSquareOfItsFrames) {
       BentCantilever cantilever{.force_y = exact.load * BentCantilever::bending_stiffness};
       cantilever.frames = frames;
       cantilever.motion = motion;
-      const Simulated run(cantilever);
+      const AtStart run(cantilever.problem());
       sizes.push_back(1.0 / frames);
       errors.push_back(
           std::hypot(run.value("y") - exact.deflection, run.value("x") - (1.0 - exact.shortening)));
@@ -58,7 +45,7 @@ TEST(DividedBeam, BendsInAnyDirectionInSpaceAlike) {
   cantilever.frames = 8;
   cantilever.force_y = 0.6 * exact.load * BentCantilever::bending_stiffness;
   cantilever.force_z = 0.8 * exact.load * BentCantilever::bending_stiffness;
-  const Simulated run(cantilever);
+  const AtStart run(cantilever.problem());
   EXPECT_NEAR(run.value("y"), 0.6 * exact.deflection, 5e-3 * exact.deflection);
   EXPECT_NEAR(run.value("z"), 0.8 * exact.deflection, 5e-3 * exact.deflection);
   EXPECT_NEAR(run.value("x"), 1.0 - exact.shortening, 5e-3 * exact.deflection);
@@ -67,9 +54,9 @@ TEST(DividedBeam, BendsInAnyDirectionInSpaceAlike) {
 /// M L/(E I) = 1: an arc of that angle. Its moment is the same everywhere.
 TEST(DividedBeam, RollsUpToAnArcUnderAMoment) {
   BentCantilever cantilever;
-  cantilever.frames = 8;
   cantilever.moment_z = BentCantilever::bending_stiffness;
-  const Simulated run(cantilever);
+  cantilever.frames = 8;
+  const AtStart run(cantilever.problem());
   EXPECT_NEAR(run.value("x"), std::sin(1.0), 1e-3);
   EXPECT_NEAR(run.value("y"), 1.0 - std::cos(1.0), 1e-3);
   const double stress = 0.005 * 1.2e11 / 1.0;  // E (h/2) κ
@@ -90,7 +77,7 @@ TEST(DividedBeam, IsTheSameInFramesOfEveryKind) {
       ProblemFile problem = cantilever.problem();
       ResponseSettings& tip = problem.responses[response_index(problem, "tip")];
       if (frame == "mean-axis") tip.against = DeflectionReference::chord;
-      const Simulated run(problem);
+      const AtStart run(problem);
       EXPECT_NEAR(run.value("y"), exact.deflection, 3e-3 * exact.deflection) << frame << more;
       // The end is where the tangent at the end and the chord pass through.
       const double expected = frame == "tangent" ? run.value("y") : 0.0;
@@ -104,16 +91,16 @@ TEST(DividedBeam, HasOneFieldOfStress) {
   const ElasticaTip& exact = elastica_tips[1];
   BentCantilever cantilever{.force_y = exact.load * BentCantilever::bending_stiffness};
   cantilever.frames = 2;
-  const Simulated run(cantilever);
+  const AtStart run(cantilever.problem());
   EXPECT_NEAR(run.value("stress"), run.value("root"), 1e-9 * run.value("root"));
   const Eigen::MatrixXd& cut = run.analysis->histories[response_index(run.problem, "cut")];
   ASSERT_EQ(cut.rows() % 2, 0);
   const Eigen::Index half = cut.rows() / 2;
   EXPECT_LE((cut.topRows(half) - cut.bottomRows(half)).lpNorm<Eigen::Infinity>(),
             5e-3 * cut.lpNorm<Eigen::Infinity>());
-  EXPECT_THAT(run.place("cut", 0), HasSubstr("node 8 towards node 7"));
-  EXPECT_THAT(run.place("cut", static_cast<int>(half)), HasSubstr("node 8 towards node 9"));
-  EXPECT_EQ(run.place("tip", 0), "at 1 of the length");
+  EXPECT_THAT(place(run, "cut", 0), HasSubstr("node 8 towards node 7"));
+  EXPECT_THAT(place(run, "cut", static_cast<int>(half)), HasSubstr("node 8 towards node 9"));
+  EXPECT_EQ(place(run, "tip", 0), "at 1 of the length");
 }
 
 /// What does not depend on frames: mass, frequencies, the load of buckling.
@@ -125,7 +112,7 @@ TEST(DividedBeam, HasTheConstantsOfTheWholeBeam) {
       "/simulation/end_time=0.02 s", "/simulation/step=1e-4 s"};
   std::vector<std::string> divided = responses;
   divided.push_back("/scene/bodies/rod/frames=3");
-  const Simulated one(sample_problem("slider_crank_tapered", responses)),
+  const AtStart one(sample_problem("slider_crank_tapered", responses)),
       three(sample_problem("slider_crank_tapered", divided));
   EXPECT_NEAR(three.value("m"), one.value("m"), 1e-14 * one.value("m"));
   EXPECT_NEAR(three.value("f"), one.value("f"), 1e-12 * one.value("f"));
@@ -139,7 +126,7 @@ TEST(DividedBeam, MovesWithAMechanismAsTheWholeBeam) {
   const std::vector<std::string> quick = {"/simulation/end_time=0.06 s", "/simulation/step=1e-4 s"};
   std::vector<std::string> divided = quick;
   divided.insert(divided.end(), {"/scene/bodies/rod/frames=3", "/scene/bodies/crank/frames=2"});
-  const Simulated one(sample_problem("slider_crank", quick)),
+  const AtStart one(sample_problem("slider_crank", quick)),
       many(sample_problem("slider_crank", divided));
   for (const char* name : {"crank_stress", "rod_stress", "rod_bow", "crank_tip", "torque_peak",
                            "torque_rms", "slider_end"}) {
@@ -174,12 +161,10 @@ ProblemFile designed_problem() {
        R"(/responses/chord={"type": "deflection", "body": "crank", "at": 0.4, "against": "chord",
             "over_time": "rms"})",
        R"(/responses/elastic={"type": "elastic-energy", "body": "rod", "over_time": "rms"})",
-       R"(/responses/speed={"type": "velocity", "body": "rod", "at": 0.3, "direction": "y",
-            "over_time": "final"})",
+       R"(/responses/speed={"type": "velocity", "body": "rod", "at": 0.3, "direction": "y", "over_time": "final"})",
        R"(/responses/frequency={"type": "frequency", "body": "rod"})",
        R"(/responses/rod_stress={"type": "stress", "body": "rod", "at": 0.5, "over_time": "rms"})",
-       R"(/responses/crank_stress={"type": "stress", "body": "crank", "at": 0.1,
-            "over_time": "rms"})",
+       R"(/responses/crank_stress={"type": "stress", "body": "crank", "at": 0.1, "over_time": "rms"})",
        R"(/responses/reaction={"type": "reaction-force", "joint": "crank_pin", "direction": "x",
             "over_time": "rms"})"});
   problem.simulation.newton_tolerance = 1e-13;
@@ -193,8 +178,7 @@ TEST(DividedBeam, HasExactGradients) {
       problem.effects.spatial_motion = EffectChoice::on;
       std::get<BeamBody>(problem.scene.bodies[1].shape).reduction = CraigBampton{2, {}};
     }
-    const Eigen::VectorXd x = start_design(problem);
-    const auto analysis = analyze(problem, x);
+    const auto [x, analysis] = started(problem);
     const auto gradients_by = [&](GradientMethod method) {
       return Eigen::MatrixXd(gradients(problem, x, *analysis, method) * x.asDiagonal());
     };
@@ -230,14 +214,13 @@ TEST(DividedBeam, SpinsUpAsAGeometricallyExactBeam) {
   const auto tip = [](int frames) {
     // A = 4e-4 m², I = 2e-7 m⁴: of a rectangle with height √(12 I/A)
     const double height = std::sqrt(12.0 * 2e-7 / 4e-4);
-    return Simulated(
+    return AtStart(
                turning_beam(frames, fmt::format(R"("to": [10, 0, 0], "material": "light", "section":
             {{"type": "rectangle", "width": {}, "height": {}}}}}}},
           "joints": {{"hub": {{"type": "revolute", "bodies": ["ground", "beam"], "at": [0, 0, 0],
             "drive": {{"type": "ramp-to-speed", "speed": 6, "ramp": 15}}}}}}}},
         "simulation": {{"end_time": 6.75, "step": 5e-3}},
-        "responses": {{"tip": {{"type": "deflection", "body": "beam", "at": 1,
-          "over_time": "final"}}}})",
+        "responses": {{"tip": {{"type": "deflection", "body": "beam", "at": 1, "over_time": "final"}}}})",
                                                 4e-4 / height, height)))
         .value("tip");
   };
@@ -252,7 +235,7 @@ TEST(DividedBeam, SpinsUpAsAGeometricallyExactBeam) {
 TEST(DividedBeam, SwingsAsAPendulumWithoutLosingEnergy) {
   std::vector<double> ends;
   for (int frames : {2, 4, 8}) {
-    const Simulated run(turning_beam(frames, R"("to": [0.5, 0, 0], "material": "rubber",
+    const AtStart run(turning_beam(frames, R"("to": [0.5, 0, 0], "material": "rubber",
           "section": {"type": "circle", "diameter": 0.02}}},
         "joints": {"pin": {"type": "revolute", "bodies": ["ground", "beam"], "at": [0, 0, 0]}},
         "gravity": [0, -9.81, 0]},
@@ -280,7 +263,7 @@ TEST(DividedBeam, StartsWithTheSpinOfTheWholeBeam) {
       "first": {"type": "velocity", "body": "beam", "at": 0, "direction": "y", "over_time": "final"},
       "last": {"type": "velocity", "body": "beam", "at": 1, "direction": "y", "over_time": "final"},
       "energy": {"type": "kinetic-energy", "body": "beam", "over_time": "max"}}})";
-  const Simulated run(problem_from(text));
+  const AtStart run(problem_from(text));
   EXPECT_NEAR(run.value("first"), 2.0, 1e-3);
   EXPECT_NEAR(run.value("last"), 2.0 + 5.0 * 1.0, 1e-3);  // v + ω L
 }
@@ -304,8 +287,8 @@ TEST(DividedBeam, IsRefusedWhereFramesWouldChangeWhatIsMeant) {
 TEST(DividedBeam, HasAnElementAFrameAndItsJointsWhereTheyAre) {
   BentCantilever cantilever;
   cantilever.force_y = 1.0;
-  cantilever.elements = 2;
   cantilever.frames = 3;
+  cantilever.elements = 2;
   ProblemFile problem = cantilever.problem();
   std::get<PointForce>(problem.scene.loads.front().element).at = {0.5, 0.0, 0.0};
   const DividedScene divided = divide_beams(problem.scene, problem.effects, {});

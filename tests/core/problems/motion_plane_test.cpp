@@ -83,10 +83,7 @@ class RefusedPlane : public testing::TestWithParam<OutOfPlane> {};
 
 Scene pendulum_in_a_plane() {
   Scene scene = swinging_beam(0.7, RectangleSection{0.03, 0.02}, 2);
-  RigidBody mass;
-  mass.at = {0.7, 0.0, 0.0};
-  mass.mass = 1.0;
-  mass.inertia = {1.0, 2.0, 3.0, 0.1, 0.0, 0.0};
+  RigidBody mass{.at = {0.7, 0.0, 0.0}, .mass = 1.0, .inertia = {1.0, 2.0, 3.0, 0.1, 0.0, 0.0}};
   scene.bodies.push_back({"mass", mass});
   Joint joint;
   joint.name = "end";

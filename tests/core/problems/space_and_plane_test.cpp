@@ -3,12 +3,17 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/eager_matrices.hpp"
+#include "core/base/error.hpp"
+#include "core/response/analysis.hpp"
 #include "core/response/monitors.hpp"
 #include "sensitivity/gradients.hpp"
+#include "sensitivity/sampled_gradients.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/differences.hpp"
-#include "tests/support/places.hpp"
-#include "tests/support/problem_runs.hpp"
+#include "tests/support/model_state.hpp"
 #include "tests/support/test.hpp"
+
+/// Forces that are spread along a stretch, beside closed forms of beams.
 
 namespace pleuel::test::space_and_plane_test {
 namespace {
@@ -27,8 +32,7 @@ Json swung_arm() {
                  "elements": 3, "frame": "chord", "damping": {"stiffness": 1e-4}},
         "arm": {"type": "beam", "from": [0.48, 0.36, 0], "to": [0.4, 0.6, 0], "material": "light",
                 "section": {"type": "rectangle", "width": 0.02, "height": 0.016}, "elements": 2,
-                "damping": {"stiffness": 1e-4}}
-      },
+                "damping": {"stiffness": 1e-4}}},
       "joints": {
         "shoulder": {"type": "revolute", "bodies": ["ground", "boom"], "at": [0, 0, 0],
                      "drive": {"type": "harmonic", "amplitude": 0.12, "frequency": 30}},
@@ -42,10 +46,8 @@ Json swung_arm() {
       "arm stress": {"type": "stress", "body": "arm", "over_time": "max"},
       "x": {"type": "position", "body": "arm", "at": 1, "direction": "x", "over_time": "max"},
       "y": {"type": "position", "body": "arm", "at": 1, "direction": "y", "over_time": "max"},
-      "force": {"type": "reaction-force", "joint": "wrist", "direction": "magnitude",
-                "over_time": "max"},
-      "moment": {"type": "reaction-moment", "joint": "shoulder", "direction": "z",
-                 "over_time": "max-abs"}
+      "force": {"type": "reaction-force", "joint": "wrist", "direction": "magnitude", "over_time": "max"},
+      "moment": {"type": "reaction-moment", "joint": "shoulder", "direction": "z", "over_time": "max-abs"}
     }
   })");
 }
@@ -92,8 +94,7 @@ void expect_same_histories(const ProblemFile& problem, const Analysis& expected,
 }
 
 void expect_space_as_plane(const Json& document) {
-  const ProblemFile planar = problem_of(document, "auto");
-  const auto plane = analyze(planar, start_design(planar));
+  const auto [planar, x, plane] = AtStart(problem_of(document, "auto"));
   const auto space = analyze(problem_of(document, "on"), start_design(planar));
   ASSERT_LT(plane->model.mechanism.system->coordinates(),
             space->model.mechanism.system->coordinates());
@@ -132,8 +133,7 @@ std::string loaded(const std::string& load) {
 }
 
 const std::string slide_spring =
-    R"({"type": "joint", "joint": "wrist", "coordinate": "displacement", "stiffness": 2000,
-        "damping": 3})";
+    R"({"type": "joint", "joint": "wrist", "coordinate": "displacement", "stiffness": 2000, "damping": 3})";
 const std::string hinge_spring =
     R"({"type": "joint", "joint": "wrist", "coordinate": "angle", "stiffness": 20,
         "damping": 0.1, "rest": 0.05,
@@ -144,9 +144,10 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Case{"Revolute", "{}"}, Case{"RevoluteAgainst", wrist(R"({"axis": [0, 0, -1]})")},
         Case{"RevoluteWithSpringAndMotor", loaded_wrist("{}", hinge_spring)},
-        Case{"RevoluteDriven",
-             wrist(R"({"axis": [0, 0, -1], "drive": {"type": "harmonic", "amplitude": 0.3,
-                                                     "frequency": 40}})")},
+        Case{
+            "RevoluteDriven",
+            wrist(
+                R"({"axis": [0, 0, -1], "drive": {"type": "harmonic", "amplitude": 0.3, "frequency": 40}})")},
         Case{"Fixed", wrist(R"({"type": "fixed"})")},
         Case{"PrismaticOnASpring",
              loaded_wrist(R"({"type": "prismatic", "axis": [0.28, 0.96, 0]})", slide_spring)},
@@ -173,15 +174,12 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Case{"FollowerForce", loaded(R"({"type": "force", "body": "boom", "at": [0.48, 0.36, 0],
                                          "direction": [-0.6, 0.8, 0], "follows": true,
-                                         "value": {"type": "harmonic", "amplitude": 8,
-                                                   "frequency": 30}})")},
+                                         "value": {"type": "harmonic", "amplitude": 8, "frequency": 30}})")},
         Case{"Torque", loaded(R"({"type": "torque", "body": "boom", "at": [0.48, 0.36, 0],
                                   "direction": [0, 0, -1],
-                                  "value": {"type": "harmonic", "amplitude": 1.5,
-                                            "frequency": 40}})")},
+                                  "value": {"type": "harmonic", "amplitude": 1.5, "frequency": 40}})")},
         Case{"FollowerTorque", loaded(R"({"type": "torque", "body": "boom", "at": [0.32, 0.24, 0],
-                                          "direction": [0, 0, 1], "follows": true,
-                                          "value": 1.5})")}),
+                                          "direction": [0, 0, 1], "follows": true, "value": 1.5})")}),
     [](const auto& test) { return test.param.name; });
 
 std::string boom(const std::string& keys) {
@@ -249,9 +247,8 @@ TEST(ElasticRotation, AboutASkewLocalAxisIsThatOfThePlane) {
   const Json skew = skew_arm(1);
   Json straight = skew;
   straight["scene"]["bodies"]["boom"].erase("reference");
-  const ProblemFile planar = problem_of(straight, "auto"), spatial = problem_of(skew, "on");
-  const auto expected = analyze(planar, start_design(planar));
-  const auto found = analyze(spatial, start_design(spatial));
+  const auto [planar, x, expected] = AtStart(problem_of(straight, "auto"));
+  const auto [spatial, start, found] = AtStart(problem_of(skew, "on"));
   EXPECT_GE(largest_rotation(*expected), 0.1);
   expect_same_histories(planar, *expected, *found);
 }
@@ -286,9 +283,7 @@ TEST(ElasticRotation, HasTheGradientsOfDifferencesAndOfBothMethods) {
                            {"stiffness", {{"start", 2000.0}, {"lower", 100.0}, {"upper", 1e4}}}};
   // Maxima over time have kinks.
   for (Json& response : document["responses"]) response["over_time"] = "final";
-  const ProblemFile problem = problem_of(document, "auto");
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [problem, x, analysis] = AtStart(problem_of(document, "auto"));
   EXPECT_GE(largest_rotation(*analysis), 0.1);
   const Eigen::MatrixXd direct = gradients(problem, x, *analysis, GradientMethod::direct);
   const Eigen::MatrixXd adjoint = gradients(problem, x, *analysis, GradientMethod::adjoint);
@@ -346,8 +341,7 @@ TEST(ElasticRotation, DoesNotDependOnHowTheSceneStands) {
   Json there = here;
   turn(there["scene"],
        Eigen::AngleAxisd(1.1, Eigen::Vector3d(0.48, -0.6, 0.64)).toRotationMatrix());
-  const ProblemFile problem = problem_of(here, "auto");
-  const auto expected = analyze(problem, start_design(problem));
+  const auto [problem, x, expected] = AtStart(problem_of(here, "auto"));
   EXPECT_GE(largest_rotation(*expected), 0.1);
   const auto found = analyze(problem_of(there, "auto"), start_design(problem));
   expect_same_histories(problem, *expected, *found);
@@ -360,13 +354,136 @@ TEST(ElasticRotation, KeepsTheBalanceOfEnergy) {
     Json document = inclined_wrist();
     document["simulation"]["step"] = step;
     document["simulation"]["spectral_radius"] = 1.0;
-    const ProblemFile problem = problem_of(document, "auto");
-    const auto analysis = analyze(problem, start_design(problem));
+    const auto [problem, x, analysis] = AtStart(problem_of(document, "auto"));
     return monitor(analysis->model, analysis->trajectory).energy_error;
   };
   const double coarse = error_with(2e-4), fine = error_with(1e-4);
   EXPECT_LE(fine, 1e-3);
   EXPECT_NEAR(coarse / fine, 4.0, 1.0);
+}
+
+constexpr double young = 210e9, length = 0.8, side = 0.02, force = 30.0;
+constexpr double bending_stiffness = young * side * side * side * side / 12.0;
+
+/// A cantilever along (3, 4, 0)/5, loaded across from x = 0.3 to the variable `end` of its length, at rest.
+constexpr const char* cantilever = R"({
+  "variables": {"end": {"start": "0.5 m", "lower": "0.4 m", "upper": "0.7 m"},
+                       "long": {"start": "0.8 m", "lower": "0.75 m", "upper": "1 m"}},
+  "scene": {
+    "materials": {"m": {"young": 210e9, "poisson": 0.3, "density": 7850}},
+    "bodies": {"b": {"type": "beam", "from": [0, 0, 0], "to": ["= 0.6*long", "= 0.8*long", 0],
+      "material": "m", "section": {"type": "rectangle", "width": 0.02, "height": 0.02}, "elements": 3,
+      "damping": {"stiffness": "= 0 s/m * end"}}},
+    "joints": {"f": {"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]}},
+    "loads": {"wind": {"type": "force", "body": "b", "at": ["= 0.225*long", "= 0.3*long", 0],
+      "to": ["= 0.6*end", "= 0.8*end", 0], "direction": [-0.8, 0.6, 0], "value": 30}}},
+    "simulation": {"end_time": 1e-3, "step": 1e-3, "initial_state": "quasi-static"},
+  "effects": {"geometric_stiffening": "off"},
+  "responses": {
+    "tip": {"type": "deflection", "body": "b", "at": 1, "direction": "y", "over_time": "final"},
+    "reaction": {"type": "reaction-force", "joint": "f", "direction": "magnitude", "over_time": "final"}
+  }
+})";
+
+ProblemFile problem_of(const std::vector<std::string>& overrides) {
+  return problem_from(cantilever, overrides);
+}
+
+double value(const ProblemFile& problem, const Eigen::VectorXd& x, std::size_t response) {
+  return analyze(problem, x)->reductions[response].value;
+}
+
+/// Ends of the stretch that keep their shares of the beam, as several frames need it.
+const std::string shares = R"(/scene/loads/wind/to=["= 0.375*long", "= 0.5*long", 0])";
+
+double value(const std::vector<std::string>& overrides, std::size_t response = 0) {
+  const ProblemFile problem = problem_of(overrides);
+  return value(problem, start_design(problem), response);
+}
+
+/// F/(b − a) ∫ x² (3 L − x)/(6 EI) dx over the stretch: the sum of the tip's deflections by point forces
+/// (Euler–Bernoulli).
+double tip_by_points(double a, double b) {
+  const auto integral = [](double x) { return x * x * x * length - x * x * x * x / 4.0; };
+  return force / (b - a) * (integral(b) - integral(a)) / (6.0 * bending_stiffness);
+}
+
+TEST(SpreadForce, BendsACantileverAsInTheTextbook) {
+  EXPECT_NEAR(value({}), tip_by_points(0.3, 0.5), 1e-9 * tip_by_points(0.3, 0.5));
+  const std::vector<std::string> whole = {
+      "/scene/loads/wind/at=[0, 0, 0]", R"(/scene/loads/wind/to=["= 0.6*long", "= 0.8*long", 0])"};
+  const double tip = force * length * length * length / (8.0 * bending_stiffness);
+  EXPECT_NEAR(value(whole), tip, 1e-9 * tip);
+}
+
+TEST(SpreadForce, IsTheSameFromItsOtherEnd) {
+  EXPECT_NEAR(value({"/scene/loads/wind/at=[0.3, 0.4, 0]", "/scene/loads/wind/to=[0.18, 0.24, 0]"}),
+              value({}), 1e-11 * value({}));
+}
+
+TEST(SpreadForce, IsTheSameInSpaceReducedAndInSeveralFrames) {
+  const double tip = value({});
+  EXPECT_NEAR(value({"/effects/spatial_motion=\"on\""}), tip, 1e-8 * tip);
+  EXPECT_NEAR(value({"/scene/bodies/b/reduction={\"modes\": 6}"}), tip, 1e-3 * tip);
+  // Small displacements: frames turn by 1e-4 and less.
+  EXPECT_NEAR(value({shares, "/scene/bodies/b/frames=3", "/scene/loads/wind/value=3e-3"}),
+              1e-4 * tip, 1e-9 * tip);
+}
+
+/// Against the sum of the reactions: what acts on all frames is the whole force.
+TEST(SpreadForce, HasItsWholeValueOnSeveralFrames) {
+  for (const char* frames : {"1", "2", "5"}) {
+    EXPECT_NEAR(value({shares, "/scene/bodies/b/frames=" + std::string(frames)}, 1), force,
+                1e-6 * force);
+  }
+}
+
+TEST(SpreadForce, ActsInTheMiddleOfARigidBody) {
+  const std::vector<std::string> rigid = {
+      R"(/scene/bodies/b={"type": "beam", "from": [0, 0, 0], "to": ["= 0.6*long", "= 0.8*long", 0],
+         "material": "m", "section": {"type": "rectangle", "width": 0.02, "height": 0.02}, "rigid": true, "elements": 1})",
+      R"(/responses/tip={"type": "reaction-moment", "joint": "f", "direction": "z", "over_time": "final"})"};
+  EXPECT_NEAR(std::abs(value(rigid)), 0.4 * force, 1e-9 * force);
+}
+
+/// Ends of the stretch and of the beam that move with the design.
+TEST(SpreadForce, HasExactGradients) {
+  for (const std::vector<std::string>& overrides : {std::vector<std::string>{},
+                                                    {"/scene/bodies/b/shear=true"},
+                                                    {shares, "/scene/bodies/b/frames=2"}}) {
+    const auto [problem, x, analysis] = AtStart(problem_of(overrides));
+    const auto values = response_values(*analysis);
+    for (const ExactMethod method : {ExactMethod::direct, ExactMethod::adjoint}) {
+      const Eigen::MatrixXd gradients = sampled_gradients(*analysis, values, method);
+      for (Eigen::Index j = 0; j < x.size(); ++j) {
+        Eigen::VectorXd more = x, less = x;
+        more(j) += 1e-4;
+        less(j) -= 1e-4;
+        const double difference = (value(problem, more, 0) - value(problem, less, 0)) / 2e-4;
+        EXPECT_NEAR(gradients(0, j), difference, 1e-5 * std::abs(difference)) << j;
+      }
+    }
+  }
+}
+
+/// The recovery knows forces at nodes only: the moment at the clamp is p l²/12 too small with elements of
+/// the length l.
+TEST(SpreadForce, MissesItsMomentWithinElements) {
+  for (const int elements : {1, 2, 4}) {
+    const double moment =
+        value({"/scene/loads/wind/at=[0, 0, 0]",
+               R"(/scene/loads/wind/to=["= 0.6*long", "= 0.8*long", 0])",
+               "/scene/bodies/b/elements=" + std::to_string(elements),
+               R"(/responses/tip={"type": "section-force", "body": "b", "part": "moment-z", "at": 0,
+                                                    "over_time": "max-abs"})"});
+    const double l = length / elements, load = force / length;
+    EXPECT_NEAR(moment, 0.5 * force * length - load * l * l / 12.0, 1e-8 * force * length);
+  }
+}
+
+TEST(SpreadForce, NeedsTwoPoints) {
+  EXPECT_THROW(problem_of({"/scene/loads/wind/to=[0.18, 0.24, 0]"}), InputError);
+  EXPECT_THROW(problem_of({"/scene/loads/wind/to=[0.18, 0.25, 0]"}), InputError);
 }
 
 }  // namespace

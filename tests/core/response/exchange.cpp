@@ -9,7 +9,7 @@
 #include "core/base/error.hpp"
 #include "core/response/body_export.hpp"
 #include "sensitivity/gradients.hpp"
-#include "tests/support/source_folder.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test {
@@ -31,14 +31,11 @@ constexpr const char* responses = R"({
   "lag": {"type": "deflection", "body": "rod", "at": 0.5, "against": "rigid-mechanism",
           "direction": "y", "over_time": "max-abs"},
   "place": {"type": "position", "body": "rod", "at": 0.5, "direction": "y", "over_time": "rms"},
-  "speed": {"type": "velocity", "body": "rod", "at": 0.4, "direction": "magnitude",
-            "over_time": "rms"},
-  "jerk": {"type": "acceleration", "body": "rod", "at": 0.5, "direction": "x",
-           "over_time": "mean"},
+  "speed": {"type": "velocity", "body": "rod", "at": 0.4, "direction": "magnitude", "over_time": "rms"},
+  "jerk": {"type": "acceleration", "body": "rod", "at": 0.5, "direction": "x", "over_time": "mean"},
   "energy": {"type": "elastic-energy", "body": "rod", "over_time": "rms"},
   "torque": {"type": "drive-torque", "joint": "bearing", "over_time": "rms"},
-  "reaction": {"type": "reaction-force", "joint": "slider_pin", "direction": "magnitude",
-               "over_time": "rms"}
+  "reaction": {"type": "reaction-force", "joint": "slider_pin", "direction": "magnitude", "over_time": "rms"}
 })";
 
 }  // namespace

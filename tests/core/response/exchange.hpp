@@ -5,7 +5,7 @@
 #include "core/response/analysis.hpp"
 #include "core/scene/body_constants.hpp"
 #include "core/scene/problem_reader.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/test.hpp"
 
 /// A member that is taken out of a problem by its invariants and put back as a body that is known

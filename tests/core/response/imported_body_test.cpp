@@ -11,9 +11,9 @@
 #include "sensitivity/constant_gradients.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/core/response/exchange.hpp"
+#include "tests/support/at_start.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/parameter_name.hpp"
-#include "tests/support/problem_runs.hpp"
-#include "tests/support/source_folder.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::imported_body_test {
@@ -291,13 +291,11 @@ Json column(const std::string& frame) {
     "scene": {{
       "materials": {{"steel": {{"young": "210 GPa", "poisson": 0.3, "density": 7850}}}},
       "bodies": {{"rod": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
-        "section": {{"type": "rectangle", "width": {{"variable": "width"}},
-                     "height": {{"variable": "height"}}}},
+        "section": {{"type": "rectangle", "width": {{"variable": "width"}}, "height": {{"variable": "height"}}}},
         "elements": 6, "frame": "{}"}}}},
       "joints": {{"foot": {{"type": "fixed", "bodies": ["ground", "rod"], "at": [0, 0, 0]}}}},
       "loads": {{"press": {{"type": "force", "body": "rod", "at": [1, 0, 0],
-                            "direction": [-1, 0, 0], "value": "5 kN"}}}}
-    }},
+                            "direction": [-1, 0, 0], "value": "5 kN"}}}}}},
     "simulation": {{"end_time": "1 ms", "step": "0.5 ms", "initial_state": "quasi-static"}},
     "effects": {{"spatial_motion": "on"}},
     "variables": {{"width": {{"start": "20 mm", "lower": "5 mm", "upper": "60 mm"}},
@@ -306,8 +304,7 @@ Json column(const std::string& frame) {
       "buckling": {{"type": "buckling", "body": "rod", "over_time": "max"}},
       "slow": {{"type": "frequency", "mode": 1}},
       "next": {{"type": "frequency", "mode": 2}},
-      "mass": {{"type": "mass"}}
-    }},
+      "mass": {{"type": "mass"}}}},
     "objective": {{"minimize": "mass"}}
   }})",
                                  frame));
@@ -422,9 +419,7 @@ TEST_F(Exchange, HasGradientsByItsNumbersThatAddUpToThoseByVariables) {
   document["simulation"]["end_time"] = 2e-3;
   document["scene"]["bodies"]["rod"]["elements"] = 2;
   document["responses"].erase("crank_stress");
-  const ProblemFile problem = read("imported.json", exchanged(document));
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [problem, x, analysis] = AtStart(read("imported.json", exchanged(document)));
   const Eigen::MatrixXd expected = gradients(problem, x, *analysis, GradientMethod::adjoint);
   const ConstantGradients found = constant_gradients(problem, x, "rod");
   const auto& rod = std::get<ImportedBody>(problem.scene.bodies[1].shape);

@@ -4,9 +4,9 @@
 #include "core/base/error.hpp"
 #include "core/trust/sideways_buckling.hpp"
 #include "sensitivity/gradients.hpp"
-#include "tests/core/trust/findings_of.hpp"
+#include "tests/core/trust/trust_scenes.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/parameter_name.hpp"
-#include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"
 
 /// A thin bar of 1.2 m, 2 mm × 40 mm, on edge: it bends in the plane x–y.
@@ -25,9 +25,9 @@ const std::string clamp =
     R"("wall": {"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]})";
 
 std::string force(double value, const std::string& direction) {
-  return fmt::format(R"("f": {{"type": "force", "body": "bar", "at": [1.2, 0, 0],
-                               "direction": {}, "value": {}}})",
-                     direction, value);
+  return fmt::format(
+      R"("f": {{"type": "force", "body": "bar", "at": [1.2, 0, 0], "direction": {}, "value": {}}})",
+      direction, value);
 }
 
 std::string rigid(const std::string& name, const std::string& at) {
@@ -47,8 +47,7 @@ ProblemFile problem_of(const Bar& bar) {
                                        "height": {{"variable": "h"}}}}{}}}{}}},
     "joints": {{{}}}, "loads": {{{}}}}},
   "effects": {{{}}},
-  "simulation": {{"end_time": "2 ms", "step": "1 ms", "initial_state": "quasi-static",
-                  "newton_tolerance": 1e-13}},
+  "simulation": {{"end_time": "2 ms", "step": "1 ms", "initial_state": "quasi-static", "newton_tolerance": 1e-13}},
   "variables": {{"b": {{"start": "2 mm", "lower": "1 mm", "upper": "50 mm"}},
                 "h": {{"start": "40 mm", "lower": "1 mm", "upper": "90 mm"}}}},
   "responses": {{"share": {{"type": "lateral-buckling", "body": "bar", "over_time": "max"}}}}}})j",
@@ -87,18 +86,13 @@ TEST(LateralBucklingResponse, OfATipForceIsTheClosedForm) {
 TEST(LateralBucklingResponse, OfAConstantMomentBetweenHingesIsTheClosedForm) {
   const double moment = 0.4 * 2 * pi * std::sqrt(lateral * twisting) / length / m;
   const std::string loads = fmt::format(
-      R"("a": {{"type": "torque", "body": "bar", "at": [0, 0, 0], "direction": [0, 0, 1],
-                "value": {}}},
-         "b": {{"type": "torque", "body": "bar", "at": [1.2, 0, 0], "direction": [0, 0, -1],
-                "value": {}}})",
+      R"("a": {{"type": "torque", "body": "bar", "at": [0, 0, 0], "direction": [0, 0, 1], "value": {}}},
+         "b": {{"type": "torque", "body": "bar", "at": [1.2, 0, 0], "direction": [0, 0, -1], "value": {}}})",
       moment, moment);
   const std::string hinges =
-      R"("a": {"type": "revolute", "bodies": ["ground", "bar"], "at": [0, 0, 0],
-               "axis": [0, 0, 1]},
-         "b": {"type": "revolute", "bodies": ["carriage", "bar"], "at": [1.2, 0, 0],
-               "axis": [0, 0, 1]},
-         "slide": {"type": "prismatic", "bodies": ["ground", "carriage"], "at": [1.2, 0, 0],
-                   "axis": [1, 0, 0]})";
+      R"("a": {"type": "revolute", "bodies": ["ground", "bar"], "at": [0, 0, 0], "axis": [0, 0, 1]},
+         "b": {"type": "revolute", "bodies": ["carriage", "bar"], "at": [1.2, 0, 0], "axis": [0, 0, 1]},
+         "slide": {"type": "prismatic", "bodies": ["ground", "carriage"], "at": [1.2, 0, 0], "axis": [1, 0, 0]})";
   Bar bar{hinges, loads};
   bar.bodies = rigid("carriage", "[1.2, 0, 0]");
   // (2π/16)²/24 = 6.4e-3 of a whole wave of twist.
@@ -107,8 +101,7 @@ TEST(LateralBucklingResponse, OfAConstantMomentBetweenHingesIsTheClosedForm) {
 
 TEST(LateralBucklingResponse, OfColumnsIsTheirEulerLoad) {
   const std::string slide =
-      R"(, "slide": {"type": "prismatic", "bodies": ["ground", "bar"], "at": [1.2, 0, 0],
-                     "axis": [1, 0, 0]})";
+      R"(, "slide": {"type": "prismatic", "bodies": ["ground", "bar"], "at": [1.2, 0, 0], "axis": [1, 0, 0]})";
   const auto pressed = [&](const std::string& joints, double load) {
     return share_of({joints, force(load, "[-1, 0, 0]"), space});
   };
@@ -157,12 +150,10 @@ Bar strut_in_eyes(const std::string& before, const std::string& after, double pr
   const std::string joints = fmt::format(
       R"("u": {{"type": "universal", "bodies": ["ground", "left"], "at": [{}, 0, 0],
                "axis": [0, 0, 1], "second_axis": [0, 1, 0]}},
-         "l": {{"type": "point-on-line", "bodies": ["ground", "right"], "at": [{}, 0, 0],
-               "axis": [1, 0, 0]}})",
+         "l": {{"type": "point-on-line", "bodies": ["ground", "right"], "at": [{}, 0, 0], "axis": [1, 0, 0]}})",
       before, after);
   const std::string loads = fmt::format(
-      R"("f": {{"type": "force", "body": "right", "at": [{}, 0, 0], "direction": [-1, 0, 0],
-               "value": {}}})",
+      R"("f": {{"type": "force", "body": "right", "at": [{}, 0, 0], "direction": [-1, 0, 0], "value": {}}})",
       after, press);
   Bar bar{welds + joints, loads, space};
   bar.bodies = rigid("left", fmt::format("[{}, 0, 0]", before)) +
@@ -205,8 +196,7 @@ TEST(LateralBucklingResponse, OfAColumnUnderARigidBodyIsTheRootOfItsEquation) {
 
   Bar beam = bar;
   beam.bodies = R"(, "top": {"type": "beam", "from": [1.2, 0, 0], "to": [1.9, 0, 0],
-    "material": "light", "elements": 2, "rigid": true,
-    "section": {"type": "circle", "diameter": 0.01}})";
+    "material": "light", "elements": 2, "rigid": true, "section": {"type": "circle", "diameter": 0.01}})";
   EXPECT_NEAR(share_of(beam), 0.5, 1e-4);
 
   Bar weight = bar;
@@ -224,8 +214,7 @@ TEST(LateralBucklingResponse, OfAPinnedEndIsNotChangedByABodyOnIt) {
   const std::string joints =
       R"("u": {"type": "universal", "bodies": ["ground", "bar"], "at": [0, 0, 0],
                "axis": [0, 0, 1], "second_axis": [0, 1, 0]},
-         "l": {"type": "point-on-line", "bodies": ["ground", "bar"], "at": [1.2, 0, 0],
-               "axis": [1, 0, 0]})";
+         "l": {"type": "point-on-line", "bodies": ["ground", "bar"], "at": [1.2, 0, 0], "axis": [1, 0, 0]})";
   Bar bar{joints, force(0.5 * euler, "[-1, 0, 0]"), space};
   EXPECT_NEAR(share_of(bar), 0.5, 1e-4);
   bar.joints += R"(, "w": {"type": "fixed", "bodies": ["bar", "weight"], "at": [0, 0, 0]})";
@@ -260,13 +249,11 @@ TEST(LateralBucklingResponse, OfAColumnIsNotChangedByWhatItsTipCarries) {
 TEST(LateralBucklingResponse, OfASquareBarOnALineIsTheSameHoweverTheLineIsTurned) {
   const auto share_on_line = [&](const char* axis) {
     const std::string line = fmt::format(
-        R"(, "l": {{"type": "point-on-line", "bodies": ["ground", "bar"], "at": [1.2, 0, 0],
-                   "axis": {}}})",
+        R"(, "l": {{"type": "point-on-line", "bodies": ["ground", "bar"], "at": [1.2, 0, 0], "axis": {}}})",
         axis);
     // Half of the force presses the first half of the bar, the other half pulls at the second.
     const std::string middle =
-        R"("f": {"type": "force", "body": "bar", "at": [0.6, 0, 0], "direction": [-1, 0, 0],
-                 "value": 1000})";
+        R"("f": {"type": "force", "body": "bar", "at": [0.6, 0, 0], "direction": [-1, 0, 0], "value": 1000})";
     const ProblemFile problem = problem_of({clamp + line, middle, space});
     return analyze(problem, Eigen::Vector2d(0.01, 0.01))->reductions[0].value;
   };
@@ -313,8 +300,7 @@ class GradientsOfLateralBuckling
   static ProblemFile swinging() {
     const auto& [effects, body] = GetParam();
     Bar bar{R"("hinge": {"type": "revolute", "bodies": ["ground", "bar"], "at": [0, 0, 0],
-                         "axis": [0, 0, 1], "drive": {"type": "ramp-to-speed", "speed": 8,
-                         "ramp": "20 ms"}})",
+                         "axis": [0, 0, 1], "drive": {"type": "ramp-to-speed", "speed": 8, "ramp": "20 ms"}})",
             force(3.0, "[-1, -2, 0]"), effects, body, 6};
     ProblemFile problem = problem_of(bar);
     problem.simulation.end_time = 0.02;
@@ -330,9 +316,7 @@ class GradientsOfLateralBuckling
 };
 
 TEST_P(GradientsOfLateralBuckling, OfBothMethodsAndOfDifferencesAgree) {
-  const ProblemFile problem = swinging();
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [problem, x, analysis] = AtStart(swinging());
   for (const Reduction& reduction : analysis->reductions) EXPECT_GT(reduction.value, 0.01);
   const Eigen::MatrixXd direct =
       gradients(problem, x, *analysis, GradientMethod::direct) * x.asDiagonal();
@@ -367,9 +351,7 @@ TEST(GradientsOfFittings, OfBothMethodsAndOfDifferencesAgree) {
                     "direction": [-1, 1, 0], "value": 3})"};
   mast.bodies = rigid("top", "[1.5, 0, 0]");
   for (const Bar& bar : {strut, mast}) {
-    const ProblemFile problem = problem_of(bar);
-    const Eigen::VectorXd x = start_design(problem);
-    const auto analysis = analyze(problem, x);
+    const auto [problem, x, analysis] = AtStart(problem_of(bar));
     EXPECT_GT(analysis->reductions[0].value, 0.1);
     const auto scaled = [&](const Eigen::MatrixXd& slopes) {
       return Eigen::MatrixXd(slopes * x.asDiagonal());
@@ -398,8 +380,7 @@ TEST(LateralBucklingResponse, OfAPendulumWithARigidTipIsThatOfACantilever) {
   const double d = 0.25 * length, u = angle_of(length / d);
   for (const char* pivot : {R"("type": "spherical")", R"("type": "revolute", "axis": [0, 1, 0])"}) {
     Bar bar{fmt::format(R"("pivot": {{{}, "bodies": ["ground", "bar"], "at": [0, 0, 0]}},
-                           "weld": {{"type": "fixed", "bodies": ["bar", "tip"],
-                                     "at": [1.2, 0, 0]}})",
+                           "weld": {{"type": "fixed", "bodies": ["bar", "tip"], "at": [1.2, 0, 0]}})",
                         pivot),
             fmt::format(R"("f": {{"type": "force", "body": "tip", "at": [{}, 0, 0],
                                   "direction": [-1, 0, 0], "value": {}}})",

@@ -10,6 +10,7 @@
 #include "core/response/peak_place.hpp"
 #include "tests/core/response/response_samples.hpp"
 #include "tests/picture/picture_problems.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/parameter_name.hpp"
 #include "tests/support/test.hpp"
 
@@ -187,8 +188,7 @@ TEST(BrokenInstants, AreThereButForRoundOff) {
 /// Four elements of equal lengths: node k is at k/4, wherever frames divide the beam.
 TEST(PeakPlace, CountsElementsThroughAllFrames) {
   for (const char* more : {R"("frame": "tangent")", R"("frames": 2)"}) {
-    const ProblemFile problem = turning_arm(more);
-    const auto analysis = analyze(problem, start_design(problem));
+    const auto [problem, x, analysis] = AtStart(turning_arm(more));
     const auto share = [&](const std::string& place) {
       return share_of_place(analysis->model, "arm", place);
     };
@@ -200,8 +200,7 @@ TEST(PeakPlace, CountsElementsThroughAllFrames) {
 }
 
 TEST(PeakPlace, IsUnknownOfOtherWordsAndOtherBodies) {
-  const ProblemFile problem = turning_arm(R"("frame": "tangent")");
-  const auto analysis = analyze(problem, start_design(problem));
+  const auto [problem, x, analysis] = AtStart(turning_arm(R"("frame": "tangent")"));
   EXPECT_EQ(share_of_place(analysis->model, "arm", "drive"), std::nullopt);
   EXPECT_EQ(share_of_place(analysis->model, "arm", "node of"), std::nullopt);
   EXPECT_EQ(share_of_place(analysis->model, "ball", "node 1"), std::nullopt);
@@ -209,8 +208,7 @@ TEST(PeakPlace, IsUnknownOfOtherWordsAndOtherBodies) {
 
 /// A cantilever that is turned bends most at its root: the peak that the words say.
 TEST(PeakPlace, IsWhereTheSignalSaysThatThePeakIs) {
-  const ProblemFile problem = turning_arm(R"("frame": "tangent")");
-  const auto analysis = analyze(problem, start_design(problem));
+  const auto [problem, x, analysis] = AtStart(turning_arm(R"("frame": "tangent")"));
   const Reduction& bending = analysis->reductions[0];
   const std::string place =
       analysis->responses[0].history()->signal->describe(bending.samples.front().channel);

@@ -5,7 +5,7 @@
 #include "core/response/lateral_buckling_signal.hpp"
 #include "core/response/make_responses.hpp"
 #include "core/scene/response_kind.hpp"
-#include "tests/support/random_state.hpp"
+#include "tests/support/model_state.hpp"
 #include "tests/support/sample_scenes.hpp"
 
 /// Every kind of response, asked of every body and joint of a sample.
@@ -16,8 +16,7 @@ using namespace pleuel;
 
 /// In the plane as far as the scene allows, or in space.
 inline EffectSettings in_motion(EffectChoice spatial) {
-  EffectSettings effects;
-  effects.spatial_motion = spatial;
+  EffectSettings effects{.spatial_motion = spatial};
   return effects;
 }
 
@@ -37,39 +36,47 @@ inline SampleScene sample_with_strength(int index) {
   return sample;
 }
 
+/// Of an enumerator, for names.
+template <class Enum>
+std::string number(Enum value) {
+  return std::to_string(static_cast<int>(value));
+}
+
+inline void add(ResponseSettings settings, const std::string& name,
+                std::vector<ResponseSettings>& all) {
+  settings.name = name;
+  all.push_back(settings);
+}
+
 inline void add_beam_responses(const BodyModel& body, std::vector<ResponseSettings>& all) {
   ResponseSettings settings;
-  settings.bodies = {body.name};
   settings.type = ResponseType::stress;
+  settings.bodies = {body.name};
   for (StressPart part : {StressPart::von_mises, StressPart::normal, StressPart::axial,
                           StressPart::bending, StressPart::shear, StressPart::utilization}) {
     settings.part = part;
-    settings.name = body.name + " stress " + std::to_string(static_cast<int>(part));
-    all.push_back(settings);
+    add(settings, body.name + " stress " + number(part), all);
   }
   settings.part = StressPart::von_mises;
   for (ResponseType type :
        {ResponseType::shear_stress, ResponseType::fatigue, ResponseType::fatigue_damage}) {
     settings.type = type;
-    settings.name = body.name + " of stress " + std::to_string(static_cast<int>(type));
+    settings.name = body.name + " of stress " + number(type);
     const bool is_general = body.beam.elements.front().section.shear_points.empty();
     if (type != ResponseType::shear_stress || !is_general) all.push_back(settings);
   }
   settings.type = ResponseType::stress;
   settings.part = StressPart::normal;
   settings.station = 0.37;
-  settings.name = body.name + " stress at 0.37";
-  all.push_back(settings);
+  add(settings, body.name + " stress at 0.37", all);
   settings.station = {};
   settings.type = ResponseType::buckling;
-  settings.name = body.name + " buckling";
-  all.push_back(settings);
+  add(settings, body.name + " buckling", all);
   settings.type = ResponseType::deflection;
   settings.at = 0.6;
   for (int direction : {1, 2, 0, magnitude_direction}) {
     settings.direction = direction;
-    settings.name = body.name + " deflection " + std::to_string(direction);
-    all.push_back(settings);
+    add(settings, body.name + " deflection " + std::to_string(direction), all);
   }
   settings.type = ResponseType::section_force;
   settings.station = 0.37;
@@ -77,8 +84,7 @@ inline void add_beam_responses(const BodyModel& body, std::vector<ResponseSettin
        {SectionForcePart::axial, SectionForcePart::moment_y, SectionForcePart::moment_z,
         SectionForcePart::torque, SectionForcePart::shear_y, SectionForcePart::shear_z}) {
     settings.section_part = part;
-    settings.name = body.name + " section force " + std::to_string(static_cast<int>(part));
-    all.push_back(settings);
+    add(settings, body.name + " section force " + number(part), all);
   }
 }
 
@@ -88,8 +94,7 @@ inline void add_lateral_buckling(const BodyModel& body, const Model& model,
   ResponseSettings settings;
   settings.type = ResponseType::lateral_buckling;
   settings.bodies = {body.name};
-  settings.name = body.name + " lateral buckling";
-  all.push_back(settings);
+  add(settings, body.name + " lateral buckling", all);
 }
 
 inline void add_spin_responses(const BodyModel& body, std::vector<ResponseSettings>& all) {
@@ -99,15 +104,12 @@ inline void add_spin_responses(const BodyModel& body, std::vector<ResponseSettin
     settings.type = type;
     for (int direction : {0, 1, 2, magnitude_direction}) {
       settings.direction = direction;
-      settings.name = body.name + " turning " + std::to_string(static_cast<int>(type)) + " " +
-                      std::to_string(direction);
-      all.push_back(settings);
+      add(settings, body.name + " turning " + number(type) + " " + std::to_string(direction), all);
     }
   }
   settings.type = ResponseType::angle;
   settings.direction = 2;
-  settings.name = body.name + " angle";
-  all.push_back(settings);
+  add(settings, body.name + " angle", all);
 }
 
 inline void add_joint_motion(const JointModel& joint, std::vector<ResponseSettings>& all) {
@@ -115,7 +117,7 @@ inline void add_joint_motion(const JointModel& joint, std::vector<ResponseSettin
   settings.joint = joint.name;
   for (ResponseType type : {ResponseType::joint_position, ResponseType::joint_velocity}) {
     settings.type = type;
-    settings.name = joint.name + " motion " + std::to_string(static_cast<int>(type));
+    settings.name = joint.name + " motion " + number(type);
     settings.coordinate = DrivenCoordinate::angle;
     if (joint.angle) all.push_back(settings);
     settings.coordinate = DrivenCoordinate::displacement;
@@ -130,7 +132,7 @@ inline void add_load_responses(const LoadModel& load, std::vector<ResponseSettin
   for (ResponseType type : {ResponseType::spring_length, ResponseType::spring_force,
                             ResponseType::motor_power, ResponseType::damper_power}) {
     settings.type = type;
-    settings.name = load.name + " reading " + std::to_string(static_cast<int>(type));
+    settings.name = load.name + " reading " + number(type);
     if (load.gauge) all.push_back(settings);
   }
 }
@@ -144,13 +146,10 @@ inline void add_motion_responses(const BodyModel& body, std::vector<ResponseSett
     settings.type = type;
     for (int direction : {0, 1, 2, magnitude_direction}) {
       settings.direction = direction;
-      settings.name = body.name + " motion " + std::to_string(static_cast<int>(type)) + " " +
-                      std::to_string(direction);
-      all.push_back(settings);
+      add(settings, body.name + " motion " + number(type) + " " + std::to_string(direction), all);
     }
     settings.along = {{0.48, 0.6, -0.64}};
-    settings.name = body.name + " motion " + std::to_string(static_cast<int>(type)) + " along";
-    all.push_back(settings);
+    add(settings, body.name + " motion " + number(type) + " along", all);
     settings.along = std::nullopt;
   }
 }
@@ -162,16 +161,14 @@ inline void add_joint_responses(const JointModel& joint, std::vector<ResponseSet
     settings.type = type;
     for (int direction : {0, 1, 2, magnitude_direction}) {
       settings.direction = direction;
-      settings.name = joint.name + " reaction " + std::to_string(static_cast<int>(type)) + " " +
-                      std::to_string(direction);
-      all.push_back(settings);
+      add(settings, joint.name + " reaction " + number(type) + " " + std::to_string(direction),
+          all);
     }
   }
   if (joint.drive_row < 0) return;
   for (ResponseType type : {ResponseType::drive_torque, ResponseType::drive_power}) {
     settings.type = type;
-    settings.name = joint.name + " drive " + std::to_string(static_cast<int>(type));
-    all.push_back(settings);
+    add(settings, joint.name + " drive " + number(type), all);
   }
 }
 
@@ -180,9 +177,7 @@ inline void add_energy(ResponseType type, const std::vector<std::string>& bodies
   ResponseSettings settings;
   settings.type = type;
   settings.bodies = bodies;
-  settings.name = (bodies.empty() ? "all" : bodies.front()) + " energy " +
-                  std::to_string(static_cast<int>(type));
-  all.push_back(settings);
+  add(settings, (bodies.empty() ? "all" : bodies.front()) + " energy " + number(type), all);
 }
 
 inline void add_monitor_responses(const Model& model, std::vector<ResponseSettings>& all) {
@@ -196,8 +191,7 @@ inline void add_monitor_responses(const Model& model, std::vector<ResponseSettin
   settings.type = ResponseType::constraint_drift;
   for (DriftLevel level : {DriftLevel::position, DriftLevel::velocity}) {
     settings.level = level;
-    settings.name = "drift " + std::to_string(static_cast<int>(level));
-    all.push_back(settings);
+    add(settings, "drift " + number(level), all);
   }
 }
 
@@ -247,8 +241,8 @@ inline Eigen::Vector3d reaction(const Model& model, const std::string& joint, Re
   for (int direction : {0, 1, 2}) {
     ResponseSettings settings;
     settings.type = type;
-    settings.joint = joint;
     settings.direction = direction;
+    settings.joint = joint;
     components(direction) = observed(model, settings, state);
   }
   return components;

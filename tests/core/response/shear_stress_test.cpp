@@ -1,9 +1,10 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/response/analysis.hpp"
+#include "core/response/buckling_signal.hpp"
 #include "sensitivity/gradients.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/parameter_name.hpp"
-#include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::shear_stress_test {
@@ -36,15 +37,11 @@ ProblemFile cantilever(const std::string& section, const Loads& loads) {
     "bodies": {{"bar": {{"type": "beam", "from": [0, 0, 0], "to": [0.5, 0, 0], "elements": 2,
                          "material": "light", "section": {}}}}},
     "joints": {{"wall": {{"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}}}},
-    "loads": {{"y": {{"type": "force", "body": "bar", "at": [0.5, 0, 0], "direction": [0, 1, 0],
-                      "value": {}}},
-              "z": {{"type": "force", "body": "bar", "at": [0.5, 0, 0], "direction": [0, 0, 1],
-                      "value": {}}},
-              "t": {{"type": "torque", "body": "bar", "at": [0.5, 0, 0], "direction": [1, 0, 0],
-                     "value": {}}}}}}},
+    "loads": {{"y": {{"type": "force", "body": "bar", "at": [0.5, 0, 0], "direction": [0, 1, 0], "value": {}}},
+              "z": {{"type": "force", "body": "bar", "at": [0.5, 0, 0], "direction": [0, 0, 1], "value": {}}},
+              "t": {{"type": "torque", "body": "bar", "at": [0.5, 0, 0], "direction": [1, 0, 0], "value": {}}}}}}},
   "effects": {{"geometric_stiffening": "off", "spatial_motion": "on"}},
-  "simulation": {{"end_time": "2 ms", "step": "1 ms", "initial_state": "quasi-static",
-                  "newton_tolerance": 1e-13}},
+  "simulation": {{"end_time": "2 ms", "step": "1 ms", "initial_state": "quasi-static", "newton_tolerance": 1e-13}},
   "variables": {{{}}},
   "responses": {{"tau": {{"type": "shear-stress", "body": "bar", "over_time": "max"}}}}}})j",
       section, loads.y, loads.z, loads.torque, variables_of(section)));
@@ -58,8 +55,8 @@ double stress_of(const std::string& section, const Loads& loads) {
 const std::string rectangle =
     R"({"type": "rectangle", "width": {"variable": "a"}, "height": {"variable": "b"}})";
 const std::string circle = R"({"type": "circle", "diameter": {"variable": "a"}})";
-const std::string tube = R"({"type": "tube", "outer_diameter": {"variable": "a"},
-                             "thickness": "2 mm"})";
+const std::string tube =
+    R"({"type": "tube", "outer_diameter": {"variable": "a"}, "thickness": "2 mm"})";
 const std::string ellipse =
     R"({"type": "ellipse", "width": {"variable": "a"}, "height": {"variable": "b"}})";
 const std::string box = R"({"type": "box", "width": {"variable": "a"}, "height": {"variable": "b"},
@@ -132,10 +129,8 @@ TEST(ShearStress, AddsThatOfTorsion) {
 /// Central differences of simulated designs, 1e-4 of a variable: errors of 1e-7.
 TEST(ShearStress, HasTheGradientOfDifferences) {
   for (const std::string& section : {rectangle, circle, tube, ellipse, box, i_beam}) {
-    const ProblemFile problem =
-        cantilever(section, {.y = force, .z = 0.4 * force, .torque = torque});
-    const Eigen::VectorXd x = start_design(problem);
-    const auto analysis = analyze(problem, x);
+    const auto [problem, x, analysis] =
+        AtStart(cantilever(section, {.y = force, .z = 0.4 * force, .torque = torque}));
     const Eigen::VectorXd found = gradients(problem, x, *analysis, GradientMethod::direct).row(0);
     for (Eigen::Index i = 0; i < x.size(); ++i) {
       const auto at = [&](double factor) {
@@ -150,18 +145,12 @@ TEST(ShearStress, HasTheGradientOfDifferences) {
 }
 
 TEST(ShearStress, OfAGeneralSectionIsNotKnown) {
-  try {
-    stress_of(R"({"type": "general", "area": 1e-4, "inertia_y": 1e-9, "inertia_z": 1e-9,
-                  "torsion": 1e-9, "points": [{"y": 0.01, "z": 0, "shear": 0}]})",
-              {.y = force});
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what())
-                  .find("/responses/tau/body names a beam with a general "
-                        "section"),
-              std::string::npos)
-        << error.what();
-  }
+  EXPECT_THAT(thrown<InputError>([] {
+                stress_of(R"({"type": "general", "area": 1e-4, "inertia_y": 1e-9, "inertia_z": 1e-9,
+                              "torsion": 1e-9, "points": [{"y": 0.01, "z": 0, "shear": 0}]})",
+                          {.y = force});
+              }),
+              HasSubstr("/responses/tau/body names a beam with a general section"));
 }
 
 // Stress of a beam where a load acts, which the mesh of the file need not know of, against beam
@@ -225,9 +214,8 @@ TEST_P(Meshes, GiveTheStressBesideAnAxialForce) {
 
 /// ∂(0.24 F L/W): the node at the load moves with the length.
 TEST_P(Meshes, GiveTheGradient) {
-  const ProblemFile problem = supported_beam(
-      GetParam(), 0.0, R"("type": "force", "direction": [0, -1, 0], "value": "100 N")");
-  const auto analysis = analyze(problem, start_design(problem));
+  const auto [problem, x, analysis] = AtStart(supported_beam(
+      GetParam(), 0.0, R"("type": "force", "direction": [0, -1, 0], "value": "100 N")"));
   const Eigen::MatrixXd gradient = direct_gradients(*analysis);
   const double stress = 100.0 * a * b / length / modulus;
   EXPECT_NEAR(gradient(0, 0), stress / length, 1e-6 * stress / length);
@@ -237,6 +225,93 @@ TEST_P(Meshes, GiveTheGradient) {
 /// 5 and 10 have a node there already.
 INSTANTIATE_TEST_SUITE_P(Elements, Meshes, testing::Values(1, 2, 3, 4, 5, 7, 8, 10),
                          named_by_value());
+
+constexpr double young = 2.1e11, shear_modulus = young / 2.6, density = 7850;
+constexpr double span = 0.5, wide_area = 0.02, inertia = 7e-5, shear_area = 0.004;
+
+/// A beam of 0.5 m along x in elastic equilibrium, so soft in shear that it counts.
+std::unique_ptr<Analysis> analysis_of(const std::string& gravity, const std::string& joints,
+                                      const std::vector<std::string>& responses) {
+  std::string list;
+  for (std::size_t i = 0; i < responses.size(); ++i) {
+    list += fmt::format(R"({}"r{}": {})", i == 0 ? "" : ", ", i, responses[i]);
+  }
+  const ProblemFile problem = problem_from(fmt::format(R"({{"scene": {{"gravity": {},
+            "materials": {{"steel": {{"young": 2.1e11, "poisson": 0.3, "density": 7850}}}},
+            "bodies": {{"beam": {{"type": "beam", "from": [0, 0, 0], "to": [0.5, 0, 0],
+              "material": "steel", "elements": 3, "shear": true,
+              "section": {{"type": "general", "area": 0.02, "inertia_y": 7e-5, "inertia_z": 7e-5,
+                "torsion": 1e-4, "shear_area_y": 0.004, "shear_area_z": 0.004,
+                "points": [{{"y": 0.1, "z": 0, "shear": 0}}]}}}}}},
+            "joints": {}}},
+          "effects": {{"rotary_inertia": "off", "geometric_stiffening": "off"}},
+          "simulation": {{"end_time": 2e-9, "step": 1e-9, "initial_state": "quasi-static"}},
+          "responses": {{{}}}}})",
+                                                       gravity, joints, list));
+  return analyze(problem, start_design(problem));
+}
+
+std::string force_at(double share, const char* part) {
+  return fmt::format(
+      R"({{"type": "section-force", "body": "beam", "at": {}, "part": "{}", "over_time": "max-abs"}})",
+      share, part);
+}
+
+double value(const Analysis& analysis, std::size_t response) {
+  return std::abs(analysis.reductions[response].value);
+}
+
+/// Clamped at one end, on a roller at the other, under its weight q: the roller's force R holds
+///     q L⁴/8EI + q L²/2κGA = R (L³/3EI + L/κGA)
+TEST(ForcesOfAShearedBeam, HeldTwiceAreTimoshenkos) {
+  const auto found = analysis_of(
+      "[0, -9.81, 0]",
+      R"({"clamp": {"type": "fixed", "bodies": ["ground", "beam"], "at": [0, 0, 0]},
+          "roller": {"type": "point-on-line", "bodies": ["ground", "beam"], "at": [0.5, 0, 0],
+                     "axis": [1, 0, 0]}})",
+      {force_at(0.0, "moment-z"), force_at(0.6, "moment-z"), force_at(0.6, "shear-y"),
+       R"({"type": "reaction-force", "joint": "roller", "direction": "y", "over_time": "max-abs"})"});
+  const double q = 9.81 * density * wide_area, L = span;
+  const double bending = 1 / (young * inertia), shear = 1 / (shear_modulus * shear_area);
+  const double R = q * (std::pow(L, 4) / 8 * bending + L * L / 2 * shear) /
+                   (std::pow(L, 3) / 3 * bending + L * shear);
+  ASSERT_GT(R, 1.1 * 3 * q * L / 8);  // not that of a beam without shear
+  const double rest = 0.4 * L;        // from the cut to the roller
+  const double expected[] = {q * L * L / 2 - R * L, R * rest - q * rest * rest / 2, R - q * rest,
+                             R};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(value(*found, i), std::abs(expected[i]), 1e-6 * R) << i;
+  }
+}
+
+/// Turned with the acceleration α: M = ρAα (L³/3 − x L²/2 + x³/6), V = ρAα (L² − x²)/2. Loads that
+/// grow along an element are held by moments that depend on shear, and the strain of its nodes is
+/// without them.
+TEST(ForcesOfAShearedBeam, UnderALoadThatGrowsAreThoseOfStatics) {
+  const auto found = analysis_of(
+      "[0, 0, 0]",
+      R"({"hinge": {"type": "revolute", "bodies": ["ground", "beam"], "at": [0, 0, 0],
+                    "axis": [0, 0, 1], "drive": {"type": "polynomial", "coefficients": [0, 0, 5]}}})",
+      {force_at(0.0, "moment-z"), force_at(0.45, "moment-z"), force_at(0.45, "shear-y")});
+  const double load = density * wide_area * 10.0, L = span, x = 0.45 * L;
+  const double moment = load * (L * L * L / 3 - x * L * L / 2 + x * x * x / 6);
+  EXPECT_NEAR(value(*found, 0), load * L * L * L / 3, 1e-6 * load);
+  EXPECT_NEAR(value(*found, 1), moment, 1e-6 * load);
+  EXPECT_NEAR(value(*found, 2), load * (L * L - x * x) / 2, 1e-6 * load);
+}
+
+/// Engesser: P/(1 + P/κGA).
+TEST(EulerLoad, OfAShearedBeamIsEngessers) {
+  const auto found = analysis_of(
+      "[0, 0, 0]", R"({"clamp": {"type": "fixed", "bodies": ["ground", "beam"], "at": [0, 0, 0]}})",
+      {R"({"type": "mass"})"});
+  const double euler = std::pow(std::numbers::pi / span, 2) * young * inertia;
+  const double expected = euler / (1 + euler / (shear_modulus * shear_area));
+  const auto loads = euler_loads(found->model.body("beam"), 0);
+  ASSERT_EQ(loads.size(), 1u);
+  EXPECT_NEAR(loads[0].value, expected, 1e-12 * expected);
+  EXPECT_LT(expected, 0.5 * euler);
+}
 
 }  // namespace
 }  // namespace pleuel::test::shear_stress_test

@@ -6,8 +6,9 @@
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/core/response/response_samples.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/differences.hpp"
-#include "tests/support/sample_name.hpp"
+#include "tests/support/sample_scenes.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::signal_derivative_test {
@@ -246,8 +247,7 @@ double noise_of(ResponseType type) {
 /// changes per relative change of a variable, at the better of two steps, the second of which is taken
 /// where the first is not good enough. 5e-6: measured 2.4e-6 of an acceleration, 1e-6 of all else.
 TEST_P(GradientsOfResponses, AreThoseOfDifferencesOfSimulations) {
-  const Eigen::VectorXd x = start_design(problem_);
-  const auto analysis = analyze(problem_, x);
+  const auto [x, analysis] = started(problem_);
   const Eigen::MatrixXd direct = direct_gradients(*analysis) * x.asDiagonal();
   constexpr double any = 1e300;
   Eigen::VectorXd allowed = Eigen::VectorXd::Constant(direct.rows(), any);

@@ -191,8 +191,7 @@ Eigen::VectorXd averages(const std::string& spatial_motion) {
   const ProblemFile problem = problem_from(fmt::format(
       R"({{"scene": {{
           "bodies": {{"rod": {{"type": "beam", "from": [0, 0, 0], "to": [{}, 0, 0],
-                              "material": "steel", "elements": 2,
-                              "section": {{"type": "circle", "diameter": {}}},
+                              "material": "steel", "elements": 2, "section": {{"type": "circle", "diameter": {}}},
                               "damping": {{"stiffness": "1e-4 s"}}}}}},
           "joints": {{"clamp": {{"type": "fixed", "bodies": ["ground", "rod"], "at": [0, 0, 0]}}}},
           "loads": {{

@@ -1,5 +1,3 @@
-#include "tests/core/section/saint_venant.hpp"
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <Eigen/SparseCholesky>
 
 #include "core/base/eager_matrices.hpp"
+#include "tests/core/section/section_references.hpp"
 
 namespace pleuel::test {
 namespace {

@@ -1,8 +1,7 @@
 #include "core/section/box_section.hpp"
 #include "core/section/i_section.hpp"
 #include "core/section/rectangle_section.hpp"
-#include "tests/core/section/saint_venant.hpp"
-#include "tests/core/section/section_derivative.hpp"
+#include "tests/core/section/section_references.hpp"
 #include "tests/support/parameter_name.hpp"
 #include "tests/support/test.hpp"
 

@@ -32,10 +32,8 @@ inline std::string beam(const std::string& joints, double axial, double transver
                        "section": {{"type": "rectangle", "width": 0.02, "height": 0.002}},
                        "elements": {}, "frame": "{}"}}}},
       "joints": {{{}}},
-      "loads": {{"n": {{"type": "force", "body": "b", "at": [1, 0, 0], "direction": [1, 0, 0],
-                      "value": {}}},
-               "p": {{"type": "force", "body": "b", "at": [1, 0, 0], "direction": [0, 1, 0],
-                     "value": {}}}}}}},
+      "loads": {{"n": {{"type": "force", "body": "b", "at": [1, 0, 0], "direction": [1, 0, 0], "value": {}}},
+               "p": {{"type": "force", "body": "b", "at": [1, 0, 0], "direction": [0, 1, 0], "value": {}}}}}}},
       "effects": {},
       "simulation": {{"end_time": 0.001, "step": 0.001, "initial_state": "quasi-static"}},
       "responses": {{

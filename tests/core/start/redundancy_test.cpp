@@ -8,8 +8,8 @@
 #include "core/response/analysis.hpp"
 #include "core/start/degrees_of_freedom.hpp"
 #include "core/start/initial_state.hpp"
-#include "tests/support/places.hpp"
-#include "tests/support/problem_runs.hpp"
+#include "tests/support/at_start.hpp"
+#include "tests/support/model_state.hpp"
 #include "tests/support/sample_scenes.hpp"
 #include "tests/support/test.hpp"
 
@@ -50,8 +50,7 @@ Scene four_bar(const Point& crank_pin, const Point& rocker_pin) {
 }
 
 Model in_space(const Scene& scene) {
-  EffectSettings effects;
-  effects.spatial_motion = EffectChoice::on;
+  EffectSettings effects{.spatial_motion = EffectChoice::on};
   return build_model(scene, effects, {}, {});
 }
 
@@ -173,8 +172,7 @@ TEST(RedundantConstraints, OfTwoDrivesShareTheTorqueOfOne) {
   const double mass = 7850.0 * width * width * length;
   const double inertia = mass * (length * length / 3 + width * width / 12);
   for (const EffectChoice spatial : {EffectChoice::automatic, EffectChoice::on}) {
-    EffectSettings effects;
-    effects.spatial_motion = spatial;
+    EffectSettings effects{.spatial_motion = spatial};
     Model model = build_model(scene, effects, {}, {});
     const Trajectory trajectory = simulate(model.mechanism, {0.2, 1e-3});
     State state;
@@ -237,10 +235,8 @@ class RigidFreedoms : public testing::TestWithParam<Expected> {};
 /// Counted by hand: three coordinates a body in the plane and two a point, six and three in space.
 TEST_P(RigidFreedoms, AreThoseOfTheMechanism) {
   const Expected& expected = GetParam();
-  const ProblemFile problem = sample_problem(expected.problem, expected.overrides);
-  const auto analysis = analyze(problem, start_design(problem));
-  State initial;
-  analysis->trajectory.states->load(0, initial);
+  const auto [problem, x, analysis] = AtStart(sample_problem(expected.problem, expected.overrides));
+  State initial = state_of(analysis->trajectory, 0);
   const DegreesOfFreedom freedoms = rigid_degrees_of_freedom(analysis->model.mechanism, initial);
   EXPECT_EQ(freedoms.coordinates, expected.coordinates);
   EXPECT_EQ(freedoms.free(), expected.free);
@@ -248,11 +244,10 @@ TEST_P(RigidFreedoms, AreThoseOfTheMechanism) {
 
 /// Free motions keep all constraints to first order, and are as many as the freedoms.
 TEST_P(RigidFreedoms, AreSpannedByMotionsThatKeepTheConstraints) {
-  const ProblemFile problem = sample_problem(GetParam().problem, GetParam().overrides);
-  const auto analysis = analyze(problem, start_design(problem));
+  const auto [problem, x, analysis] =
+      AtStart(sample_problem(GetParam().problem, GetParam().overrides));
   Mechanism& mechanism = analysis->model.mechanism;
-  State state;
-  analysis->trajectory.states->load(0, state);
+  State state = state_of(analysis->trajectory, 0);
   const Eigen::MatrixXd motions = free_motions(mechanism, state);
   ASSERT_EQ(motions.cols(), GetParam().free);
   State generic = generic_position(mechanism, state);

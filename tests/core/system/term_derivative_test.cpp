@@ -2,11 +2,9 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/mechanism/mechanism.hpp"
-#include "tests/support/common_basis.hpp"
 #include "tests/support/dense.hpp"
 #include "tests/support/differences.hpp"
-#include "tests/support/random_state.hpp"
-#include "tests/support/sample_name.hpp"
+#include "tests/support/model_state.hpp"
 #include "tests/support/sample_scenes.hpp"
 #include "tests/support/test.hpp"
 

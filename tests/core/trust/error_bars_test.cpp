@@ -5,9 +5,8 @@
 #include "core/scene/problem_reader.hpp"
 #include "core/trust/check_list.hpp"
 #include "core/trust/checks.hpp"
-#include "tests/core/trust/crank_rocker.hpp"
-#include "tests/core/trust/findings_of.hpp"
-#include "tests/support/source_folder.hpp"
+#include "tests/core/trust/trust_scenes.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::error_bars_test {
@@ -138,8 +137,8 @@ TEST_F(ErrorBarOfAValue, AddsUpItsParts) {
 TEST_F(ErrorBarOfAValue, PrefersFinerRuns) {
   const RefinedRun found = run(10.0), twice = run(10.4), half = run(9.9), more = run(9.7);
   JudgingRuns runs;
-  runs.twice_step = &twice;
   runs.half_step = &half;
+  runs.twice_step = &twice;
   runs.more_elements = {&more, &found};
   const ErrorBar bar = error_bar(analysis_, 0, runs, 2);
   EXPECT_NEAR(bar.step.change, -0.1 - 0.1 / 3, 1e-12);
@@ -152,8 +151,8 @@ TEST_F(ErrorBarOfAValue, PrefersFinerRuns) {
 TEST_F(ErrorBarOfAValue, TakesThreeTimesTheLastChangeWhereNothingFalls) {
   const RefinedRun twice = run(12.0), half = run(8.0), near = run(9.9), far = run(10.1);
   JudgingRuns runs;
-  runs.twice_step = &twice;
   runs.half_step = &half;
+  runs.twice_step = &twice;
   const ErrorBar coarse = error_bar(analysis_, 0, runs, 2);
   EXPECT_NEAR(coarse.step.bound, 6.0, 1e-12);
   EXPECT_FALSE(coarse.is_resolved());
@@ -168,9 +167,9 @@ TEST_F(ErrorBarOfAValue, TakesThreeTimesTheLastChangeWhereNothingFalls) {
 TEST_F(ErrorBarOfAValue, AsksAQuarterOfTheStep) {
   const RefinedRun twice = run(10.1), half = run(10.1), quarter = run(10.125);
   JudgingRuns runs;
-  runs.twice_step = &twice;
-  runs.half_step = &half;
   runs.quarter_step = &quarter;
+  runs.half_step = &half;
+  runs.twice_step = &twice;
   const ErrorBar bar = error_bar(analysis_, 0, runs, 2);
   EXPECT_TRUE(bar.is_resolved());
   EXPECT_NEAR(bar.step.change, 0.125 + 0.025 / 3, 1e-12);

@@ -1,9 +1,9 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/trust/bent_beams.hpp"
 #include "core/trust/check_list.hpp"
-#include "tests/core/trust/findings_of.hpp"
-#include "tests/support/bent_cantilever.hpp"
-#include "tests/support/problem_runs.hpp"
+#include "tests/core/trust/trust_scenes.hpp"
+#include "tests/support/at_start.hpp"
+#include "tests/support/one_beam.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::far_bending_test {
@@ -12,9 +12,6 @@ namespace {
 struct BentBeam : StartRun {
   explicit BentBeam(const BentCantilever& cantilever) : StartRun(cantilever.problem()) {}
 
-  double value(const std::string& response) const {
-    return analysis->reductions[response_index(problem, response)].value;
-  }
   /// What more frames are told to change of a response; 0: nothing is told.
   double missing(const std::string& response) const {
     for (const VariantChange& variant : compare_variants(run()).changes) {
@@ -113,21 +110,18 @@ TEST(MoreFrames, AreNotToldOfElementsWithFramesOfTheirOwn) {
 /// A leaf of 1 m × 20 mm × 5 mm with a force of 8 N across its tip, which bends it by 61 mm, and one
 /// along it.
 std::vector<Finding> findings_of_leaf(double along, double place, int frames) {
-  return findings_of(
-      read_scene(fmt::format(
-          R"j({{"scene": {{"bodies": {{"leaf": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0],
-              "material": "steel", "section": {{"type": "rectangle", "width": "20 mm", "height": "5 mm"}},
-              "elements": 8, "frame": "tangent", "frames": {}}}}},
-            "joints": {{"clamp": {{"type": "fixed", "bodies": ["ground", "leaf"], "at": [0, 0, 0]}}}},
-            "loads": {{"across": {{"type": "force", "body": "leaf", "at": [1, 0, 0],
-                                   "direction": [0, 1, 0], "value": 8}},
-                       "along": {{"type": "force", "body": "leaf", "at": [1, 0, 0],
-                                  "direction": [1, 0, 0], "value": {}}}}}}},
-          "simulation": {{"end_time": 1e-3, "step": 1e-4, "initial_state": "quasi-static"}},
-          "responses": {{"pull": {{"type": "section-force", "body": "leaf", "at": {}, "part": "axial",
-                                   "over_time": "max"}}}}}})j",
-          frames, along, place)),
-      check_variants);
+  const OneBeam leaf{
+      .name = "leaf",
+      .section = rectangle(0.02, 0.005),
+      .elements = 8,
+      .more = fmt::format(R"("frame": "tangent", "frames": {})", frames),
+      .end_loads = {{8.0}, {along, "[1, 0, 0]"}},
+      .simulation = at_rest(1e-3, 1e-4),
+      .responses = fmt::format(
+          R"("pull": {{"type": "section-force", "body": "leaf", "at": {}, "part": "axial",
+                                   "over_time": "max"}})",
+          place)};
+  return findings_of(leaf.problem(), check_variants);
 }
 
 /// In its middle the section is turned by ¾ · P L²/(2 EI) = 0.07 rad, which makes 0.55 N of 8 N an axial
@@ -166,9 +160,8 @@ TEST(LinearElasticity, IsLeftByFarBendingThatCannotBeDivided) {
 /// 0.16 % at 0.06.
 TEST(MoreFrames, ThatAResponseDoesNotAllowAreJudgedByRotations) {
   const auto findings = [](double alpha) {
-    const std::string text = pushed(alpha).text();
-    const ProblemFile problem =
-        read_scene(text, {R"(/responses/m={"type": "deflection", "body": "beam", "at": 1,
+    const ProblemFile problem = pushed(alpha).beam().problem(
+        {R"(/responses/m={"type": "deflection", "body": "beam", "at": 1,
                                             "direction": "x", "over_time": "final"})"});
     return findings_of(problem, check_variants);
   };
@@ -182,20 +175,16 @@ TEST(MoreFrames, ThatAResponseDoesNotAllowAreJudgedByRotations) {
 // A wire of 2 mm, clamped at one end, pulled and pushed across at the other.
 
 ProblemFile wire(double pull, double across, int elements, const std::string& type = "stress") {
-  return read_scene(fmt::format(
-      R"j({{"scene": {{"gravity": [0, 0, 0],
-        "materials": {{"steel": {{"young": 2.1e11, "poisson": 0.3, "density": 7850}}}},
-        "bodies": {{"wire": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "elements": {},
-                             "material": "steel", "frame": "tangent",
-                             "section": {{"type": "circle", "diameter": 0.002}}}}}},
-        "joints": {{"wall": {{"type": "fixed", "bodies": ["ground", "wire"], "at": [0, 0, 0]}}}},
-        "loads": {{"pull": {{"type": "force", "body": "wire", "at": [1, 0, 0],
-                            "direction": [1, 0, 0], "value": {}}},
-                  "across": {{"type": "force", "body": "wire", "at": [1, 0, 0],
-                              "direction": [0, -1, 0], "value": {}}}}}}},
-      "simulation": {{"end_time": 0.01, "step": 0.005, "initial_state": "quasi-static"}},
-      "responses": {{"s": {{"type": "{}", "body": "wire", "over_time": "max"}}}}}})j",
-      elements, pull, across, type));
+  return OneBeam{.name = "wire",
+                 .section = circle(0.002),
+                 .elements = elements,
+                 .more = R"("frame": "tangent")",
+                 .materials = plain_steel,
+                 .end_loads = {{pull, "[1, 0, 0]"}, {across, "[0, -1, 0]"}},
+                 .simulation = at_rest(0.01, 0.005),
+                 .responses = fmt::format(
+                     R"("s": {{"type": "{}", "body": "wire", "over_time": "max"}})", type)}
+      .problem();
 }
 
 /// N/A + F tanh(kL)/k · c/I with k = √(N/EI) = 78/m: 645 MPa. Elements of 250 mm see 336 MPa of it,
@@ -204,8 +193,7 @@ TEST(TautMembers, AreDoubtedWhereElementsAreLongerThanBendingReaches) {
   const double pi = std::numbers::pi, inertia = pi * 1e-12 / 4, area = pi * 1e-6;
   const double k = std::sqrt(1000.0 / (2.1e11 * inertia));
   const double stress = 1000.0 / area + 20.0 * std::tanh(k) / k * 1e-3 / inertia;
-  const ProblemFile coarse = wire(1000.0, 20.0, 4);
-  const auto analysis = analyze(coarse, start_design(coarse));
+  const auto [coarse, x, analysis] = AtStart(wire(1000.0, 20.0, 4));
   EXPECT_LT(analysis->reductions[0].value, 0.6 * stress);
   const Finding finding = only(findings_of(coarse, check_tension_layers));
   EXPECT_TRUE(finding.is_serious);

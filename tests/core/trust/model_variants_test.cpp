@@ -1,6 +1,10 @@
+#include "core/base/eager_matrices.hpp"
 #include "core/response/effect_measurement.hpp"
+#include "core/trust/joint_findings.hpp"
 #include "core/trust/neglected_effects.hpp"
-#include "tests/core/trust/findings_of.hpp"
+#include "core/trust/resolution.hpp"
+#include "tests/core/trust/trust_scenes.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::model_variants_test {
@@ -10,21 +14,16 @@ namespace {
 
 /// A clamped bar of 20 mm × 20 mm, drawn by 4 kN and bent by a force across its end.
 ProblemFile bar(double across, const std::string& axial) {
-  return read_scene(fmt::format(
-      R"j({{"scene": {{"gravity": [0, 0, 0],
-        "materials": {{"m": {{"young": 2.1e11, "poisson": 0.3, "density": 7850}}}},
-        "bodies": {{"bar": {{"type": "beam", "from": [0, 0, 0], "to": [0.5, 0, 0], "elements": 4,
-                            "material": "m",
-                            "section": {{"type": "rectangle", "width": 0.02, "height": 0.02}}}}}},
-        "joints": {{"wall": {{"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}}}},
-        "loads": {{"pull": {{"type": "force", "body": "bar", "at": [0.5, 0, 0],
-                            "direction": [1, 0, 0], "value": 4000}},
-                  "across": {{"type": "force", "body": "bar", "at": [0.5, 0, 0],
-                              "direction": [0, -1, 0], "value": {}}}}}}},
-      "effects": {{"axial_elasticity": "{}", "geometric_stiffening": "off"}},
-      "simulation": {{"end_time": 0.01, "step": 0.005, "initial_state": "quasi-static"}},
-      "responses": {{"s": {{"type": "stress", "body": "bar", "over_time": "max"}}}}}})j",
-      across, axial));
+  return OneBeam{
+      .name = "bar",
+      .to = "[0.5, 0, 0]",
+      .materials = plain_steel,
+      .end_loads = {{4000.0, "[1, 0, 0]"}, {across, "[0, -1, 0]"}},
+      .simulation = at_rest(0.01, 0.005),
+      .responses = R"("s": {"type": "stress", "body": "bar", "over_time": "max"})",
+      .rest = fmt::format(
+          R"("effects": {{"axial_elasticity": "{}", "geometric_stiffening": "off"}})", axial)}
+      .problem();
 }
 
 /// N/A = 10 MPa beside the bending stress F L/W = 3.75 MPa for 10 N.
@@ -53,20 +52,18 @@ using testing::Field;
 constexpr double frequency = 262.48526926, ratio = 0.02;
 
 ProblemFile shaken(double force, const std::string& damping) {
-  return read_scene(fmt::format(
-      R"({{"scene": {{"gravity": [0, 0, 0], "bodies": {{
-            "beam": {{"type": "beam", "from": [0, 0, 0], "to": [0.4, 0, 0], "material": "steel",
-              "elements": 8, "section": {{"type": "rectangle", "width": 0.02, "height": 0.008}},
-              "reduction": {{"modes": 4}}, "damping": {}}}}},
-          "joints": {{"wall": {{"type": "fixed", "bodies": ["ground", "beam"], "at": [0, 0, 0]}}}},
-          "loads": {{"push": {{"type": "force", "body": "beam", "at": [0.4, 0, 0],
-            "direction": [0, 1, 0],
-            "value": {{"type": "harmonic", "amplitude": {}, "frequency": {}}}}}}}}},
-          "simulation": {{"end_time": {}, "step": {}, "initial_state": "periodic"}},
-          "responses": {{"tip": {{"type": "deflection", "body": "beam", "at": 1,
-                                  "over_time": "max-abs"}}}}}})",
-      damping, force, frequency, 2.0 * std::numbers::pi / frequency,
-      2.0 * std::numbers::pi / frequency / 400.0));
+  const double period = 2.0 * std::numbers::pi / frequency;
+  return OneBeam{
+      .to = "[0.4, 0, 0]",
+      .section = rectangle(0.02, 0.008),
+      .elements = 8,
+      .more = R"("reduction": {"modes": 4}, "damping": )" + damping,
+      .end_loads = {{fmt::format(R"({{"type": "harmonic", "amplitude": {}, "frequency": {}}})",
+                                 force, frequency)}},
+      .simulation = time_loop(period, period / 400.0, R"("initial_state": "periodic")"),
+      .responses =
+          R"("tip": {"type": "deflection", "body": "beam", "at": 1, "over_time": "max-abs"})"}
+      .problem();
 }
 
 double tip(const ProblemFile& problem) {
@@ -95,16 +92,18 @@ TEST(ModalDamping, OfABeamThatBendsFarIsTold) {
 /// A pull of 200 N on a rod of 5 mm, 0.3 m long: of its Euler load π² E I/L² = 706 N, 28 %.
 TEST(LostStiffening, IsADoubtWhereAxialForcesAreLarge) {
   const auto problem_with = [](double force) {
-    return read_scene(fmt::format(
-        R"({{"scene": {{"materials": {{"m": {{"young": 2.1e11, "poisson": 0.3, "density": 7850}}}},
-          "bodies": {{"rod": {{"type": "beam", "from": [0, 0, 0], "to": [0.3, 0, 0], "material": "m",
-              "section": {{"type": "circle", "diameter": 0.005}}, "elements": 2, "frame": "chord"}}}},
-          "joints": {{"a": {{"type": "revolute", "bodies": ["ground", "rod"], "at": [0, 0, 0]}},
-                      "b": {{"type": "point-on-line", "bodies": ["ground", "rod"], "at": [0.3, 0, 0], "axis": [1, 0, 0]}}}},
-          "loads": {{"pull": {{"type": "force", "body": "rod", "at": [0.3, 0, 0], "direction": [1, 0, 0], "value": {}}}}}}},
-          "effects": {{"axial_elasticity": "off"}},
-          "simulation": {{"end_time": 0.01, "step": 0.001}}}})",
-        force));
+    return OneBeam{.name = "rod",
+                   .to = "[0.3, 0, 0]",
+                   .section = circle(0.005),
+                   .elements = 2,
+                   .more = R"("frame": "chord")",
+                   .materials = plain_steel,
+                   .joints = on_two_supports("rod", "[0.3, 0, 0]"),
+                   .end_loads = {{force, "[1, 0, 0]"}},
+                   .simulation = time_loop(0.01, 0.001),
+                   .responses = "",
+                   .rest = R"("effects": {"axial_elasticity": "off"})"}
+        .problem();
   };
   EXPECT_THAT(findings_of(problem_with(1.0), check_lost_stiffening), IsEmpty());
   // From one percent on.
@@ -120,21 +119,22 @@ TEST(LostStiffening, IsADoubtWhereAxialForcesAreLarge) {
 /// A square column of 1 m × 10 mm, clamped, pressed slowly at its tip, which moves by less than 1e-3 of
 /// its length: no response calls for its elasticity.
 ProblemFile pressed_column(double force, const char* spatial_motion, double tolerance) {
-  ProblemFile problem = read_scene(fmt::format(
-      R"j({{"scene": {{
-        "materials": {{"light": {{"young": 2.1e11, "poisson": 0.3, "density": 1}}}},
-        "bodies": {{"bar": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "elements": 6,
-                            "material": "light", "damping": {{"stiffness": 1e-4}},
-                            "section": {{"type": "rectangle", "width": 0.01, "height": 0.01}}}}}},
-        "joints": {{"wall": {{"type": "fixed", "bodies": ["ground", "bar"], "at": [0, 0, 0]}}}},
-        "loads": {{"press": {{"type": "force", "body": "bar", "at": [1, 0, 0],
-                             "direction": [-1, 0, 0],
-                             "value": {{"type": "ramp", "to": {}, "end": 0.05}}}}}}}},
-      "effects": {{"spatial_motion": "{}", "tolerance": {}}},
-      "simulation": {{"end_time": 0.05, "step": 0.0025}},
-      "responses": {{"tip": {{"type": "position", "body": "bar", "at": 1, "direction": "x",
-                             "over_time": "final"}}}}}})j",
-      force, spatial_motion, tolerance));
+  ProblemFile problem =
+      OneBeam{
+          .name = "bar",
+          .material = "light",
+          .section = rectangle(0.01, 0.01),
+          .elements = 6,
+          .more = R"("damping": {"stiffness": 1e-4})",
+          .materials = light,
+          .end_loads = {{fmt::format(R"({{"type": "ramp", "to": {}, "end": 0.05}})", force),
+                         "[-1, 0, 0]"}},
+          .simulation = time_loop(0.05, 0.0025),
+          .responses =
+              R"("tip": {"type": "position", "body": "bar", "at": 1, "direction": "x", "over_time": "final"})",
+          .rest = fmt::format(R"("effects": {{"spatial_motion": "{}", "tolerance": {}}})",
+                              spatial_motion, tolerance)}
+          .problem();
   decide_effects(problem);
   return problem;
 }
@@ -154,8 +154,8 @@ TEST(BucklingOfWhatIsLeftOut, IsThatOfTheCompleteMechanism) {
   const double critical = std::pow(std::numbers::pi / 2, 2) * 2.1e11 * 1e-8 / 12;
   for (const char* spatial_motion : {"auto", "on"}) {
     for (double share : {0.6, 1.02}) {
-      const ProblemFile lean = pressed_column(share * critical, spatial_motion, 1e-2);
-      const auto analysis = analyze(lean, start_design(lean));
+      const auto [lean, x, analysis] =
+          AtStart(pressed_column(share * critical, spatial_motion, 1e-2));
       EXPECT_FALSE(analysis->model.bodies[0].is_elastic);
       const std::vector<std::string> told =
           buckling_of(check_run(lean, start_design(lean), *analysis));
@@ -164,6 +164,89 @@ TEST(BucklingOfWhatIsLeftOut, IsThatOfTheCompleteMechanism) {
       EXPECT_EQ(told.empty(), share < 1.0) << spatial_motion << " " << share;
     }
   }
+}
+
+// Energy that is missing.
+
+/// Of the largest energy, one percent may be missing.
+TEST(EnergyBalance, IsDoubtedAboveOnePercent) {
+  const auto [problem, x, analysis] = AtStart(read_scene(crank_rocker(driven, closed)));
+  Monitors monitors = monitor(analysis->model, analysis->trajectory);
+  monitors.energy_error = 0.0098;
+  EXPECT_THAT(check_energy_balance(TrustedRun{problem, x, *analysis, monitors}), IsEmpty());
+  monitors.energy_error = 0.0102;
+  const Finding finding = only(check_energy_balance(TrustedRun{problem, x, *analysis, monitors}));
+  EXPECT_THAT(finding.text, HasSubstr("balanced to 1 % of"));
+}
+
+/// What does not move has no energy to be balanced: the last digits of its potential are none.
+TEST(EnergyBalance, IsNotDoubtedWhereNothingMoves) {
+  const ProblemFile problem = OneBeam{.to = "[0.0525, -0.3823, 0.2024]",
+                                      .section = circle(0.02),
+                                      .elements = 1,
+                                      .more = R"("rigid": true)",
+                                      .gravity = "[1.336, 8.616, -4.495]",
+                                      .simulation = time_loop(0.15, 0.0007673)}
+                                  .problem();
+  EXPECT_THAT(findings_of(problem, check_energy_balance), IsEmpty());
+}
+
+/// An error of a small vibration is not hidden by where a scene stands.
+TEST(EnergyBalance, IsAskedOfSmallMotionsFarFromTheOrigin) {
+  const auto error_at = [](double height) {
+    const auto [problem, x, analysis] = AtStart(read_scene(fmt::format(
+        R"({{"scene": {{"gravity": [0, -9.81, 0],
+              "bodies": {{"block": {{"type": "rigid", "at": [0, {0}, 0], "mass": 1,
+                                    "inertia": [1, 1, 1, 0, 0, 0], "velocity": [1e-3, 0, 0]}}}},
+              "joints": {{"guide": {{"type": "prismatic", "bodies": ["ground", "block"],
+                                    "at": [0, {0}, 0], "axis": [1, 0, 0]}}}},
+              "loads": {{"spring": {{"type": "joint", "joint": "guide", "stiffness": 1e4}}}}}},
+            "simulation": {{"end_time": 0.2, "step": 0.01, "spectral_radius": 0.5}},
+            "responses": {{"mass": {{"type": "mass"}}}}}})",
+        height)));
+    return monitor(analysis->model, analysis->trajectory).energy_error;
+  };
+  const double near = error_at(0.0);
+  EXPECT_GT(near, 0.02);
+  EXPECT_NEAR(error_at(1000.0), near, 0.01 * near);
+}
+
+/// A shaft along x in two bearings, 100 mm apart, with a pull along y beyond the second one.
+std::vector<Finding> findings(const std::string& first, const std::string& second) {
+  const ProblemFile shaft = read_scene(fmt::format(
+      R"({{"scene": {{"gravity": [0, 0, 0], "bodies": {{
+            "shaft": {{"type": "rigid", "at": [0.05, 0, 0], "mass": 1, "inertia": [1e-3, 2e-3, 2e-3, 0, 0, 0]}}}},
+          "joints": {{"one": {}, "other": {}}},
+          "loads": {{"belt": {{"type": "force", "body": "shaft", "at": [0.13, 0, 0],
+                               "direction": [0, 1, 0], "value": 500}}}}}},
+          "simulation": {{"end_time": 0.01, "step": 0.001}},
+          "responses": {{
+            "one": {{"type": "reaction-force", "joint": "one", "direction": "y", "over_time": "final"}},
+            "other": {{"type": "reaction-force", "joint": "other", "direction": "y", "over_time": "final"}},
+            "speed": {{"type": "angular-velocity", "body": "shaft", "direction": "x",
+                       "over_time": "max-abs"}}}}}})",
+      first, second));
+  return findings_of(shaft, check_undetermined_reactions);
+}
+
+std::string bearing(const std::string& type, double at) {
+  const std::string axis = type == "spherical" ? "" : R"(, "axis": [1, 0, 0])";
+  return fmt::format(R"({{"type": "{}", "bodies": ["ground", "shaft"], "at": [{}, 0, 0]{}}})", type,
+                     at, axis);
+}
+
+/// Two hinges hold the tilt of the shaft twice: 650 and −150 N follow only where each holds forces
+/// alone.
+TEST(UndeterminedReactions, OfTwoHingesAreTold) {
+  const Finding found = only(findings(bearing("revolute", 0.1), bearing("revolute", 0.0)));
+  EXPECT_THAT(found.responses, UnorderedElementsAre("one", "other"));
+  EXPECT_FALSE(found.is_serious);
+  // Nor where only one of them holds the tilt, and the other one the way of its end.
+  EXPECT_THAT(findings(bearing("revolute", 0.1), bearing("spherical", 0.0)), SizeIs(1));
+}
+
+TEST(UndeterminedReactions, AreNoneOfBearingsThatHoldForces) {
+  EXPECT_THAT(findings(bearing("point-on-line", 0.1), bearing("spherical", 0.0)), IsEmpty());
 }
 
 }  // namespace

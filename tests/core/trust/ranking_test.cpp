@@ -5,10 +5,7 @@ namespace pleuel::test::ranking_test {
 namespace {
 
 Finding finding(const std::string& text, Cause cause, bool is_serious) {
-  Finding one;
-  one.text = text;
-  one.cause = cause;
-  one.is_serious = is_serious;
+  Finding one{.text = text, .is_serious = is_serious, .cause = cause};
   return one;
 }
 

@@ -9,8 +9,8 @@
 #include "core/integration/period_map.hpp"
 #include "core/trust/refined_runs.hpp"
 #include "core/trust/round_off.hpp"
-#include "tests/core/trust/findings_of.hpp"
-#include "tests/support/problem_runs.hpp"
+#include "tests/core/trust/trust_scenes.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::resolution_test {
@@ -23,21 +23,17 @@ constexpr const char* cantilever = R"({
   "scene": {
     "materials": {"m": {"young": 210e9, "poisson": 0.3, "density": 7850}},
     "bodies": {"b": {"type": "beam", "from": [0, 0, 0], "to": [0.3, 0, 0], "material": "m",
-      "section": {"type": "rectangle", "width": 0.02,
-                  "height": {"variable": "height"}}, "elements": 4,
+      "section": {"type": "rectangle", "width": 0.02, "height": {"variable": "height"}}, "elements": 4,
       "damping": {"stiffness": 1e-4}}},
     "joints": {"f": {"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]}},
     "loads": {"push": {"type": "force", "body": "b", "at": [0.3, 0, 0], "direction": [0, 1, 0],
-      "value": {"type": "harmonic", "amplitude": 500, "frequency": 30}}}
-  },
+      "value": {"type": "harmonic", "amplitude": 500, "frequency": 30}}}},
   "simulation": {"end_time": 0.1, "step": 1e-4},
   "variables": {"height": {"start": 0.02, "lower": 0.01, "upper": 0.03}},
-  "responses": {
-    "mass": {"type": "mass"},
+  "responses": {"mass": {"type": "mass"},
     "stress": {"type": "stress", "body": "b", "over_time": "max"},
     "tip": {"type": "deflection", "body": "b", "at": 1, "over_time": "max-abs"},
-    "jerk": {"type": "acceleration", "body": "b", "at": 1, "direction": "magnitude",
-             "over_time": "max"}
+    "jerk": {"type": "acceleration", "body": "b", "at": 1, "direction": "magnitude", "over_time": "max"}
   },
   "objective": {"minimize": "mass"},
   "constraints": {"soft": {"response": "tip", "upper": 1}}
@@ -120,12 +116,10 @@ std::pair<double, std::vector<Finding>> shaken_block(double steps) {
             "bodies": {{"block": {{"type": "point-mass", "at": [0, 0, 0], "mass": 2}}}},
             "joints": {{"guide": {{"type": "point-on-line", "bodies": ["ground", "block"],
                                    "at": [0, 0, 0], "axis": [1, 0, 0]}}}},
-            "loads": {{"push": {{"type": "force", "body": "block", "at": [0, 0, 0],
-              "direction": [1, 0, 0],
+            "loads": {{"push": {{"type": "force", "body": "block", "at": [0, 0, 0], "direction": [1, 0, 0],
               "value": {{"type": "harmonic", "amplitude": 120, "frequency": 60}}}}}}}},
           "simulation": {{"end_time": 0.1, "step": {:.17g}}},
-          "responses": {{"x": {{"type": "position", "body": "block", "direction": "x",
-                                "over_time": "final"}}}}}})",
+          "responses": {{"x": {{"type": "position", "body": "block", "direction": "x", "over_time": "final"}}}}}})",
                                                 shaken_time / steps)));
   return {std::abs(start.analysis->reductions[0].value / exact - 1.0), findings_about(start.run())};
 }
@@ -188,9 +182,8 @@ TEST(Resolution, KnowsTheOrderOfTheScheme) {
 /// The motion that repeats itself is found again beside one of other steps: the same one as from the
 /// start, and nothing is differentiated for it.
 TEST(Refinement, FindsPeriodicMotionsBesideTheOneThatIsKnown) {
-  const ProblemFile problem = sample_problem("running_press", {"/simulation/step== turn/250"});
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto [problem, x, analysis] =
+      AtStart(sample_problem("running_press", {"/simulation/step== turn/250"}));
   const ProblemFile coarse = refined(problem, {2.0, 1.0});
   const auto alone = analyze(coarse, x), beside = analyze(coarse, x, &analysis->trajectory);
   EXPECT_GT(alone->trajectory.periodic->differentiations, 0);
@@ -247,12 +240,12 @@ TEST(Resolution, NamesWhatAReductionLeavesOut) {
 /// one: the middle of a clamped beam under its weight then sags by 1/24 in place of 17/384 wL⁴/EI.
 TEST(Resolution, HasBarsForModesThatNeedMoreElements) {
   const ProblemFile problem = problem_from(
-      cantilever, {R"(/scene/gravity=[0, -9.81, 0])", "/scene/bodies/b/elements=1",
-                   R"(/scene/bodies/b/reduction={"modes": 0})", "/scene/loads/push/value=0",
-                   "/simulation/initial_state=quasi-static",
-                   R"(/responses={"sag": {"type": "deflection", "body": "b", "at": 0.5,
-                              "over_time": "max-abs"}})",
-                   "/constraints={}", R"(/objective={"minimize": "sag"})"});
+      cantilever,
+      {R"(/scene/gravity=[0, -9.81, 0])", "/scene/bodies/b/elements=1",
+       R"(/scene/bodies/b/reduction={"modes": 0})", "/scene/loads/push/value=0",
+       "/simulation/initial_state=quasi-static",
+       R"(/responses={"sag": {"type": "deflection", "body": "b", "at": 0.5, "over_time": "max-abs"}})",
+       "/constraints={}", R"(/objective={"minimize": "sag"})"});
   const StartRun start(problem);
   const Resolution found = judge_resolution(start.run());
   const double exact = 17.0 / 384.0 * 24.0 * start.analysis->reductions[0].value;
@@ -298,11 +291,9 @@ TEST(Resolution, IsNotAskedOfATorqueThatHoldsNothing) {
 /// beam as a slow one, at any such step. The energy tells.
 TEST(EnergyBalance, IsSeriousWhereSuddenLoadsLookSlow) {
   const auto findings = [](const std::string& end, const std::string& step) {
-    const ProblemFile problem =
+    const auto [problem, x, analysis] = AtStart(
         problem_from(cantilever, {sudden, "/simulation/spectral_radius=0",
-                                  "/simulation/end_time=" + end, "/simulation/step=" + step});
-    const Eigen::VectorXd x = start_design(problem);
-    const auto analysis = analyze(problem, x);
+                                  "/simulation/end_time=" + end, "/simulation/step=" + step}));
     return check_energy_balance(
         {problem, x, *analysis, monitor(analysis->model, analysis->trajectory)});
   };
@@ -316,8 +307,7 @@ TEST(EnergyBalance, IsSeriousWhereSuddenLoadsLookSlow) {
 TEST(Resolution, OfASingleStepComesFromFinerOnes) {
   const ProblemFile problem = problem_from(R"({"scene": {
       "bodies": {"m": {"type": "point-mass", "at": [0, 0, 0], "mass": 1, "velocity": [1, 0, 0]}},
-      "joints": {"g": {"type": "point-on-line", "bodies": ["ground", "m"], "at": [0, 0, 0],
-                       "axis": [1, 0, 0]}},
+      "joints": {"g": {"type": "point-on-line", "bodies": ["ground", "m"], "at": [0, 0, 0], "axis": [1, 0, 0]}},
       "loads": {"s": {"type": "joint", "joint": "g", "stiffness": 39.47841760435743}}},
     "simulation": {"end_time": 0.2, "step": 0.2},
     "responses": {"x": {"type": "joint-position", "joint": "g", "over_time": "final"}}})");
@@ -342,22 +332,21 @@ struct TautBeam {
   }
 
   static ProblemFile with(int elements, int frames) {
-    return problem_from(fmt::format(R"({{"scene": {{
-      "materials": {{"s": {{"young": 210e9, "poisson": 0.3, "density": 7850}}}},
-      "bodies": {{"b": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "s",
-        "section": {{"type": "rectangle", "width": 0.08, "height": 0.01}}, "frame": "chord",
-        "elements": {}, "frames": {}}}}},
-      "joints": {{"a": {{"type": "revolute", "bodies": ["ground", "b"], "at": [0, 0, 0]}},
-                 "e": {{"type": "point-on-line", "bodies": ["ground", "b"], "at": [1, 0, 0],
-                       "axis": [1, 0, 0]}}}},
-      "loads": {{"P": {{"type": "force", "body": "b", "at": [1, 0, 0], "direction": [1, 0, 0],
-                       "value": {}}},
-                "Q": {{"type": "force", "body": "b", "at": [0.5, 0, 0], "direction": [0, 1, 0],
-                       "value": {}}}}}}},
-    "simulation": {{"end_time": 0.02, "step": 0.001, "initial_state": "quasi-static"}},
-    "responses": {{"M": {{"type": "section-force", "body": "b", "at": 0.5, "part": "moment-z",
-                        "over_time": "max-abs"}}}}}})",
-                                    elements, frames, tension, force));
+    return OneBeam{
+        .name = "b",
+        .section = rectangle(0.08, 0.01),
+        .elements = elements,
+        .more = fmt::format(R"("frame": "chord", "frames": {})", frames),
+        .materials = plain_steel,
+        .joints = on_two_supports("b"),
+        .end_loads = {{tension, "[1, 0, 0]"}},
+        .loads = fmt::format(
+            R"("Q": {{"type": "force", "body": "b", "at": [0.5, 0, 0], "direction": [0, 1, 0], "value": {}}})",
+            force),
+        .simulation = at_rest(0.02, 0.001),
+        .responses =
+            R"("M": {"type": "section-force", "body": "b", "at": 0.5, "part": "moment-z", "over_time": "max-abs"})"}
+        .problem();
   }
 };
 
@@ -392,15 +381,15 @@ TEST(ErrorBars, HoldWhereLoadsDivideTheMesh) {
   for (const auto& [elements, places] : meshes) {
     std::vector<std::string> loads;
     for (const double at : places) loads.push_back(load(at));
-    const ProblemFile problem = problem_from(fmt::format(R"({{"scene": {{
-      "materials": {{"s": {{"young": 210e9, "poisson": 0.3, "density": 7850}}}},
-      "bodies": {{"b": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "s",
-        "section": {{"type": "rectangle", "width": 0.002, "height": 0.001}}, "elements": {}}}}},
-      "joints": {{"a": {{"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]}}}},
-      "loads": {{{}}}}},
-    "simulation": {{"end_time": 2e-6, "step": 1e-6}},
-    "responses": {{"f": {{"type": "frequency", "body": "b", "direction": "y", "mode": 2}}}}}})",
-                                                         elements, fmt::join(loads, ", ")));
+    const OneBeam beam{
+        .name = "b",
+        .section = rectangle(0.002, 0.001),
+        .elements = elements,
+        .materials = plain_steel,
+        .loads = fmt::format("{}", fmt::join(loads, ", ")),
+        .simulation = time_loop(2e-6, 1e-6),
+        .responses = R"("f": {"type": "frequency", "body": "b", "direction": "y", "mode": 2})"};
+    const ProblemFile problem = beam.problem();
     const StartRun start(problem);
     const Resolution found = judge_resolution(start.run());
     const double exact = 22.034491564666766 * std::sqrt(210e9 / 7850 / 12.0) * 0.001;

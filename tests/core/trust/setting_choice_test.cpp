@@ -23,14 +23,12 @@ constexpr const char* cantilever = R"({
       "damping": {"stiffness": 1e-4}}},
     "joints": {"f": {"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]}},
     "loads": {"push": {"type": "force", "body": "b", "at": [0.3, 0, 0], "direction": [0, 1, 0],
-      "value": {"type": "harmonic", "amplitude": 500, "frequency": 30}}}
-  },
+      "value": {"type": "harmonic", "amplitude": 500, "frequency": 30}}}},
   "simulation": {"end_time": 0.1, "step": 1e-4},
   "responses": {
     "stress": {"type": "stress", "body": "b", "over_time": "max"},
     "tip": {"type": "deflection", "body": "b", "at": 1, "over_time": "max-abs"},
-    "jerk": {"type": "acceleration", "body": "b", "at": 1, "direction": "magnitude",
-             "over_time": "max"}
+    "jerk": {"type": "acceleration", "body": "b", "at": 1, "direction": "magnitude", "over_time": "max"}
   }
 })";
 

@@ -1,7 +1,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/section/section_properties.hpp"
-#include "tests/core/trust/sheared_beam.hpp"
-#include "tests/support/problem_runs.hpp"
+#include "tests/core/trust/trust_scenes.hpp"
+#include "tests/support/at_start.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::shear_range_test {
@@ -110,19 +110,15 @@ TEST(ShearRange, OfAFrequencyIsThatOfItsMode) {
 /// A square of 150 mm and 250 mm, clamped at both ends: without shear its torsion is the lowest mode,
 /// with it bending has passed that. Told is what becomes of the lowest frequency.
 TEST(ShearRange, OfAFrequencyCountsModesThatPassOthers) {
-  const ProblemFile problem = problem_from(R"({"scene": {
+  const auto [problem, x, analysis] = AtStart(problem_from(R"({"scene": {
       "materials": {"s": {"young": 210e9, "poisson": 0.3, "density": 7850}},
       "bodies": {"b": {"type": "beam", "from": [0, 0, 0], "to": [0.5, 0, 0], "material": "s",
-        "section": {"type": "rectangle", "width": 0.25, "height": 0.15}, "elements": 8,
-        "frame": "chord"}},
+        "section": {"type": "rectangle", "width": 0.25, "height": 0.15}, "elements": 8, "frame": "chord"}},
       "joints": {"a": {"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]},
                  "e": {"type": "fixed", "bodies": ["ground", "b"], "at": [0.5, 0, 0]}},
-      "loads": {"Q": {"type": "force", "body": "b", "at": [0.25, 0, 0], "direction": [0, 1, 0],
-                      "value": 1000}}},
+      "loads": {"Q": {"type": "force", "body": "b", "at": [0.25, 0, 0], "direction": [0, 1, 0], "value": 1000}}},
     "simulation": {"end_time": 2e-6, "step": 1e-6, "initial_state": "quasi-static"},
-    "responses": {"f": {"type": "frequency"}}})");
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+    "responses": {"f": {"type": "frequency"}}})"));
   ProblemFile sheared = problem;
   std::get<BeamBody>(sheared.scene.bodies[0].shape).has_shear = true;
   const double with_shear = values_of(*analyze(sheared, x))(0);
@@ -177,11 +173,9 @@ TEST(ShearRange, OfBucklingIsThatOfThePlaneThatBucklesFirst) {
 /// A slider-crank of stubby members in space: its three revolute joints hold the loop three times
 /// against motion across, where nothing pulls. Its torque is that of its inertia.
 TEST(ShearRange, DoesNotConcernTheForcesOfAPlanarLoopInSpace) {
-  const ProblemFile problem = sample_problem(
+  const auto [problem, x, analysis] = AtStart(sample_problem(
       "slider_crank", {"/effects/spatial_motion=on", "/simulation/step=0.2 ms",
-                       "/simulation/end_time=60 ms", "/simulation/resolution_check=false"});
-  const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+                       "/simulation/end_time=60 ms", "/simulation/resolution_check=false"}));
   const std::vector<Finding> found = check_variants({problem, x, *analysis, Monitors{}});
   ASSERT_FALSE(found.empty());
   for (const Finding& finding : found) {
@@ -194,18 +188,15 @@ TEST(ShearRange, DoesNotConcernTheForcesOfAPlanarLoopInSpace) {
 /// 12EI/L³ / (1 + 12EI/(κGAL²)) a metre: forces and stresses are as wrong as its stiffness.
 TEST(ShearRange, ConcernsTheForcesOfWhatIsHeldMoreThanItNeeds) {
   const auto findings = [](const std::string& response) {
-    const ProblemFile problem = problem_from(
+    const auto [problem, x, analysis] = AtStart(problem_from(
         R"({"scene": {"materials": {"m": {"young": 2.1e11, "poisson": 0.3, "density": 7850}},
             "bodies": {"b": {"type": "beam", "from": [0, 0, 0], "to": [0.2, 0, 0], "material": "m",
               "section": {"type": "rectangle", "width": 0.05, "height": 0.1}, "elements": 4}},
             "joints": {"clamp": {"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]},
-                       "ram": {"type": "prismatic", "bodies": ["ground", "b"], "at": [0.2, 0, 0],
-                               "axis": [0, 1, 0],
+                       "ram": {"type": "prismatic", "bodies": ["ground", "b"], "at": [0.2, 0, 0], "axis": [0, 1, 0],
                                "drive": {"type": "polynomial", "coefficients": [0, 1e-5]}}}},
           "simulation": {"end_time": 1, "step": 0.25}, "responses": {"asked": )" +
-        response + "}}");
-    const Eigen::VectorXd x = start_design(problem);
-    const auto analysis = analyze(problem, x);
+        response + "}}"));
     return check_variants({problem, x, *analysis, Monitors{}});
   };
   const double phi = 12 * 2.6 * 0.25 / 12 / rectangle_shear_coefficient(nu);
@@ -262,8 +253,8 @@ TEST(ShearRange, SaysWhatHelps) {
 TEST(ShearRange, AgainstTheChordIsThatAgainstTheChord) {
   LoadedBeam beam{rectangle(0.039)};
   beam.load_at = 0.1;
-  beam.response = R"({"type": "deflection", "body": "beam", "at": 0.9, "against": "chord",
-                      "over_time": "min"})";
+  beam.response =
+      R"({"type": "deflection", "body": "beam", "at": 0.9, "against": "chord", "over_time": "min"})";
   // F = EI = 1: w(0.1) = ℓ³/3, slope ℓ²/2, and shear adds γ ℓ from 0.1 on.
   const double l = 0.1, bent = l * l * l / 3.0, slope = 0.5 * l * l;
   const double sheared =
@@ -308,8 +299,8 @@ TEST(ShearRange, IsNotAskedWithoutResponses) {
 TEST(ShearRange, IsNotLeftByWhatDoesNotBend) {
   LoadedBeam beam{rectangle(0.3)};
   beam.direction = "[-1, 0, 0]";
-  beam.response = R"({"type": "position", "body": "beam", "at": 1, "direction": "y",
-                      "over_time": "max-abs"})";
+  beam.response =
+      R"({"type": "position", "body": "beam", "at": 1, "direction": "y", "over_time": "max-abs"})";
   EXPECT_TRUE(ShearedBeam(beam).findings().empty());
 }
 
@@ -348,20 +339,16 @@ TEST(ShearRange, OfABlockIsToldOfWhatStandsBesideIt) {
   const auto problem = [](bool has_shear) {
     return read_scene(fmt::format(R"j({{"scene": {{"bodies": {{
         "block": {{"type": "beam", "from": [0, 0, 0], "to": [0.1, 0, 0], "material": "steel",
-                   "elements": 2, "shear": {},
-                   "section": {{"type": "rectangle", "width": 0.01, "height": 0.1}}}},
+                   "elements": 2, "shear": {}, "section": {{"type": "rectangle", "width": 0.01, "height": 0.1}}}},
         "beam": {{"type": "beam", "from": [0, 0.5, 0], "to": [0.5, 0.5, 0], "material": "steel",
                   "elements": 2, "section": {{"type": "rectangle", "width": 0.3, "height": 0.05}}}},
-        "bar": {{"type": "rigid", "at": [0.3, 0.25, 0], "mass": 0.001,
-                 "inertia": [1e-6, 1e-6, 1e-6, 0, 0, 0]}}}},
+        "bar": {{"type": "rigid", "at": [0.3, 0.25, 0], "mass": 0.001, "inertia": [1e-6, 1e-6, 1e-6, 0, 0, 0]}}}},
       "joints": {{
         "a": {{"type": "fixed", "bodies": ["ground", "block"], "at": [0, 0, 0]}},
         "b": {{"type": "fixed", "bodies": ["ground", "beam"], "at": [0, 0.5, 0]}},
-        "to_block": {{"type": "point-on-line", "bodies": ["bar", "block"], "at": [0.1, 0, 0],
-                      "axis": [1, 0, 0]}},
+        "to_block": {{"type": "point-on-line", "bodies": ["bar", "block"], "at": [0.1, 0, 0], "axis": [1, 0, 0]}},
         "to_beam": {{"type": "revolute", "bodies": ["bar", "beam"], "at": [0.5, 0.5, 0]}},
-        "guide": {{"type": "prismatic", "bodies": ["ground", "bar"], "at": [0.3, 0.25, 0],
-                   "axis": [0, 1, 0]}}}},
+        "guide": {{"type": "prismatic", "bodies": ["ground", "bar"], "at": [0.3, 0.25, 0], "axis": [0, 1, 0]}}}},
       "loads": {{"push": {{"type": "force", "body": "bar", "at": [0.3, 0.25, 0],
                            "direction": [0, -1, 0], "value": 1000}}}}}},
       "simulation": {{"end_time": 0.002, "step": 0.001, "initial_state": "quasi-static"}},
@@ -424,8 +411,7 @@ TEST(ShearRange, OfAPositionIsThatOfItsOwnMotion) {
       "responses": {
         "y": {"type": "position", "body": "block", "at": 1, "direction": "y", "over_time": "min"},
         "sag": {"type": "expression", "value": "0.5 m - y"},
-        "of_reed": {"type": "position", "body": "reed", "at": 1, "direction": "y",
-                    "over_time": "min"}}})"),
+        "of_reed": {"type": "position", "body": "reed", "at": 1, "direction": "y", "over_time": "min"}}})"),
                                                  check_variants);
   ASSERT_EQ(found.size(), 1u);
   EXPECT_THAT(found[0].responses, ElementsAre("y", "sag"));
@@ -439,20 +425,17 @@ TEST(ShearRange, OfASmallDamageIsThatOfTheDamage) {
   const auto damage = [](const std::string& shear) {
     return read_scene(R"({"scene": {"gravity": [0, 0, 0],
         "materials": {"m": {"young": 2.1e11, "poisson": 0.3, "density": 7850,
-                            "ultimate_strength": 1e9, "fatigue_strength": 1e9,
-                            "fatigue_exponent": 5}},
+                            "ultimate_strength": 1e9, "fatigue_strength": 1e9, "fatigue_exponent": 5}},
         "bodies": {"block": {"type": "beam", "from": [0, 0, 0], "to": [0.1, 0, 0], "material": "m",
                    "elements": 2, "section": {"type": "rectangle", "width": 0.01, "height": 0.1}, )" +
                       shear + R"(}},
         "joints": {"a": {"type": "fixed", "bodies": ["ground", "block"], "at": [0, 0, 0]}},
-        "loads": {"push": {"type": "force", "body": "block", "at": [0.1, 0, 0],
-                           "direction": [0, -1, 0],
+        "loads": {"push": {"type": "force", "body": "block", "at": [0.1, 0, 0], "direction": [0, -1, 0],
                            "value": {"type": "harmonic", "amplitude": 10000, "frequency": 1}},
                   "spring": {"type": "spring", "bodies": ["block", "ground"],
                              "at": [[0.1, 0, 0], [0.1, -5, 0]], "stiffness": 5.25e8}}},
       "simulation": {"end_time": 1, "step": 0.05, "initial_state": "quasi-static"},
-      "responses": {"damage": {"type": "fatigue-damage", "body": "block",
-                                "criterion": "goodman"}}})");
+      "responses": {"damage": {"type": "fatigue-damage", "body": "block", "criterion": "goodman"}}})");
   };
   const ProblemFile problem = damage(R"("shear": false)");
   const double without = values_of(*analyze(problem, start_design(problem)))(0);

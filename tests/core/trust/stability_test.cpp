@@ -1,6 +1,6 @@
 #include "core/trust/check_list.hpp"
 #include "core/trust/sideways_buckling.hpp"
-#include "tests/core/trust/findings_of.hpp"
+#include "tests/core/trust/trust_scenes.hpp"
 #include "tests/support/test.hpp"
 
 /// A square column of 1 m × 10 mm, pressed slowly: EI = 175 N m².
@@ -14,21 +14,24 @@ std::vector<Finding> findings_of_column(const std::string& bodies, const std::st
                                         const std::string& springs = "",
                                         const std::string& spatial_motion = "on",
                                         FindChecks find = check_stability, double end_time = 0.1) {
-  const std::string text = fmt::format(
-      R"j({{"scene": {{
-        "materials": {{"light": {{"young": 2.1e11, "poisson": 0.3, "density": 1}}}},
-        "bodies": {{"bar": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "elements": 6,
-                            "material": "light", "damping": {{"stiffness": 1e-4}},
-                            "section": {{"type": "rectangle", "width": 0.01, "height": 0.01}}}}{}}},
-        "joints": {{{}}},
-        "loads": {{{}"press": {{"type": "force", "body": "{}", "at": [{}, 0, 0],
-                             "direction": [-1, 0, 0],
-                             "value": {{"type": "ramp", "to": {}, "end": 0.05}}}}}}}},
-      "effects": {{"spatial_motion": "{}", "geometric_stiffening": "on"}},
-      "simulation": {{"end_time": {}, "step": 0.0025}},
-      "responses": {{"mass": {{"type": "mass"}}}}}})j",
-      bodies, joints, springs, loaded, at, force, spatial_motion, end_time);
-  return findings_of(read_scene(text), find);
+  const std::string press = fmt::format(
+      R"("press": {{"type": "force", "body": "{}", "at": [{}, 0, 0], "direction": [-1, 0, 0],
+                             "value": {{"type": "ramp", "to": {}, "end": 0.05}}}})",
+      loaded, at, force);
+  const OneBeam bar{
+      .name = "bar",
+      .material = "light",
+      .section = rectangle(0.01, 0.01),
+      .elements = 6,
+      .more = R"("damping": {"stiffness": 1e-4})",
+      .materials = light,
+      .bodies = bodies,
+      .joints = joints,
+      .loads = springs + press,
+      .simulation = time_loop(end_time, 0.0025),
+      .rest = fmt::format(R"("effects": {{"spatial_motion": "{}", "geometric_stiffening": "on"}})",
+                          spatial_motion)};
+  return findings_of(bar.problem(), find);
 }
 
 std::string rigid(const std::string& name, double at) {
@@ -114,10 +117,8 @@ TEST(Stability, BuckleBesideWhatTurns) {
 /// tan u = u (Timoshenko & Gere, §2.1), eight times that of a free tip, by which none is judged.
 TEST(Stability, BuckleBetweenSpringsThatHoldTheTip) {
   const std::string springs = R"(
-      "y": {"type": "spring", "bodies": ["ground", "bar"], "at": [[1, 10, 0], [1, 0, 0]],
-            "stiffness": 1e7},
-      "z": {"type": "spring", "bodies": ["ground", "bar"], "at": [[1, 0, 10], [1, 0, 0]],
-            "stiffness": 1e7}, )";
+      "y": {"type": "spring", "bodies": ["ground", "bar"], "at": [[1, 10, 0], [1, 0, 0]], "stiffness": 1e7},
+      "z": {"type": "spring", "bodies": ["ground", "bar"], "at": [[1, 0, 10], [1, 0, 0]], "stiffness": 1e7}, )";
   const double critical = 20.1907 * stiffness;
   expect_critical(critical, [&](double force) {
     return findings_of_column("", clamp, "bar", 1, force, springs);
@@ -183,25 +184,25 @@ const std::string weld =
 std::vector<Finding> findings_of_shaft(const Shaft& shaft) {
   const double wave = std::numbers::pi * std::numbers::pi;
   const double speed = shaft.speed * wave * std::sqrt(7e10 / 2700 / 12) * 0.01;
-  const std::string text = fmt::format(
-      R"j({{"scene": {{ "gravity": [0, {}, 0],
-        "materials": {{"m": {{"young": 7e10, "poisson": 0.3, "density": 2700}}}},
-        "bodies": {{"bar": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "elements": 6,
-                            "material": "m", "frame": "chord", "angular_velocity": [{}, 0, 0],
-                            "damping": {{"stiffness": {}}},
-                            "section": {{"type": "rectangle", "width": 0.01, "height": {}}}}}{}}},
-        "joints": {{"a": {{"type": "spherical", "bodies": ["ground", "bar"], "at": [0, 0, 0]}},
-                   "l": {{"type": "point-on-line", "bodies": ["ground", "bar"], "at": [1, 0, 0],
-                         "axis": [1, 0, 0]}}{}}},
-        "loads": {{"press": {{"type": "force", "body": "bar", "at": [1, 0, 0],
-                             "direction": [-1, 0, 0], "value": {}}}}}}},
-      "effects": {{"spatial_motion": "on", "geometric_stiffening": "on"}},
-      "simulation": {{"end_time": 0.1, "step": 2e-4}},
-      "responses": {{"mass": {{"type": "mass"}}}}}})j",
-      -shaft.gravity, speed, shaft.damping, shaft.height,
-      shaft.disk > 0.0 ? disk(shaft.disk, speed) : "", shaft.disk > 0.0 ? weld : "",
-      shaft.press * wave * 7e10 * shaft.height * 1e-6 / 12);
-  return findings_of(read_scene(text), check_stability);
+  const OneBeam bar{
+      .name = "bar",
+      .material = "aluminium",
+      .section = rectangle(0.01, shaft.height),
+      .elements = 6,
+      .more = fmt::format(
+          R"("frame": "chord", "angular_velocity": [{}, 0, 0], "damping": {{"stiffness": {}}})",
+          speed, shaft.damping),
+      .materials = plain_aluminium,
+      .bodies = shaft.disk > 0.0 ? disk(shaft.disk, speed) : "",
+      .joints = on_ground("a", "spherical", "bar", "[0, 0, 0]") + ", " +
+                on_ground("l", "point-on-line", "bar", "[1, 0, 0]", R"("axis": [1, 0, 0])") +
+                (shaft.disk > 0.0 ? weld : ""),
+      .end_loads = {{shaft.press * wave * 7e10 * shaft.height * 1e-6 / 12, "[-1, 0, 0]", "",
+                     "press"}},
+      .gravity = fmt::format("[0, {}, 0]", -shaft.gravity),
+      .simulation = time_loop(0.1, 2e-4),
+      .rest = R"("effects": {"spatial_motion": "on", "geometric_stiffening": "on"})"};
+  return findings_of(bar.problem(), check_stability);
 }
 
 /// A shaft that is as stiff in both planes is held by gyroscopic forces beyond its critical speeds,

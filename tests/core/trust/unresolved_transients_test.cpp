@@ -2,9 +2,9 @@
 #include "core/integration/fast_vibration.hpp"
 #include "core/trust/check_list.hpp"
 #include "core/trust/checks.hpp"
-#include "tests/core/trust/findings_of.hpp"
+#include "tests/core/trust/trust_scenes.hpp"
+#include "tests/support/files.hpp"
 #include "tests/support/problem_runs.hpp"
-#include "tests/support/source_folder.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::unresolved_transients_test {
@@ -21,8 +21,7 @@ constexpr double stiffness = young * area;  ///< of 1 m [N/m]
 ProblemFile pulled_rod(const std::string& pull, const std::vector<std::string>& changes = {}) {
   return read_scene(fmt::format(
                         R"({{"scene": {{"bodies": {{
-                "rod": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0],
-                  "material": "steel",
+                "rod": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
                   "section": {{"type": "rectangle", "width": 0.02, "height": 0.02}},
                   "elements": 4, "frame": "tangent"}},
                 "tip": {{"type": "point-mass", "at": [1, 0, 0], "mass": {}}}}},
@@ -33,14 +32,10 @@ ProblemFile pulled_rod(const std::string& pull, const std::vector<std::string>& 
                                    "direction": [1, 0, 0], "value": {}}}}}}},
               "simulation": {{"end_time": 0.1, "step": 5e-3}},
               "responses": {{
-                "pull": {{"type": "section-force", "body": "rod", "part": "axial", "at": 0,
-                          "over_time": "max"}},
-                "press": {{"type": "section-force", "body": "rod", "part": "axial", "at": 0,
-                           "over_time": "min"}},
-                "stretch": {{"type": "position", "body": "tip", "direction": "x",
-                             "over_time": "max-abs"}},
-                "hold": {{"type": "reaction-force", "joint": "clamp", "direction": "x",
-                          "over_time": "max-abs"}},
+                "pull": {{"type": "section-force", "body": "rod", "part": "axial", "at": 0, "over_time": "max"}},
+                "press": {{"type": "section-force", "body": "rod", "part": "axial", "at": 0, "over_time": "min"}},
+                "stretch": {{"type": "position", "body": "tip", "direction": "x", "over_time": "max-abs"}},
+                "hold": {{"type": "reaction-force", "joint": "clamp", "direction": "x", "over_time": "max-abs"}},
                 "end": {{"type": "section-force", "body": "rod", "part": "axial", "at": 0,
                          "over_time": "final"}}}}}})",
                         tip, pull),
@@ -78,8 +73,7 @@ ProblemFile sprung_mass(const std::string& push, const std::vector<std::string>&
                 "push": {{"type": "force", "body": "mass", "at": [1, 0, 0],
                           "direction": [1, 0, 0], "value": {}}}}}}},
               "simulation": {{"end_time": 0.4, "step": 0.02, "spectral_radius": 0}},
-              "responses": {{
-                "hold": {{"type": "spring-force", "load": "spring", "over_time": "max"}}}}}})",
+              "responses": {{"hold": {{"type": "spring-force", "load": "spring", "over_time": "max"}}}}}})",
                         push),
                     changes);
 }
@@ -499,8 +493,7 @@ TEST(SuddenStart, OfADriveIsToldAndNotOfARunUp) {
         R"({{"scene": {{"bodies": {{"arm": {{"type": "beam", "from": [0, 0, 0], "to": [0.5, 0, 0],
             "material": "steel", "section": {{"type": "rectangle", "width": 0.01, "height": 0.004}},
             "elements": 4}}, "block": {{"type": "point-mass", "at": [0.5, 0, 0], "mass": 0.1}}}},
-            "joints": {{"shaft": {{"type": "revolute", "bodies": ["ground", "arm"], "at": [0, 0, 0],
-                                   "drive": {}}},
+            "joints": {{"shaft": {{"type": "revolute", "bodies": ["ground", "arm"], "at": [0, 0, 0], "drive": {}}},
                         "end": {{"type": "fixed", "bodies": ["arm", "block"], "at": [0.5, 0, 0]}}}}}},
             "simulation": {{"end_time": 0.4, "step": 0.0005}},
             "responses": {{"bend": {{"type": "stress", "body": "arm", "over_time": "max"}}}}}})",
