@@ -242,11 +242,6 @@ double optimum_change(DesignProblem& design, const Result& result, const Eigen::
   return change;
 }
 
-namespace {
-
-/// Why the optimum is not known to the accuracy that the file asks for, or to 10 % where it asks for
-/// none, and what would do; empty if it is. What counts is the error of the objective at the
-/// optimum, and that of each limit which the error could break.
 std::string inaccuracy(DesignProblem& design, const Result& result, const Trust& trust) {
   const std::optional<ErrorBar> bar = optimum_error(design, result, trust);
   if (!bar) return "";
@@ -263,6 +258,8 @@ std::string inaccuracy(DesignProblem& design, const Result& result, const Trust&
   }
   return "";
 }
+
+namespace {
 
 /// How well it is known: "to ± 0.3 %, the limit on "sideways" to ± 1.3 %".
 /// @pre result.error, and an objective that is not zero

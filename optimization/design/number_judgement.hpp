@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include <Eigen/Core>
 
@@ -28,6 +29,11 @@ std::optional<ErrorBar> optimum_error(DesignProblem& design, const Result& resul
 /// What changes of the responses at an optimum make of it by the same theorem.
 /// @param changes  one a response of the file [SI]
 double optimum_change(DesignProblem& design, const Result& result, const Eigen::VectorXd& changes);
+
+/// Why the optimum is not known to the accuracy that the file asks for, or to 10 % where it asks for
+/// none, and what would do; empty if it is. What counts is the error of the objective at the
+/// optimum, and that of each limit which the error could break.
+std::string inaccuracy(DesignProblem& design, const Result& result, const Trust& trust);
 
 /// Findings about the numbers of the last design, and their errors: no optimum that rests on numbers
 /// which are not to be trusted, or not known as well as the file asks for, is verified.

@@ -302,7 +302,7 @@ INSTANTIATE_TEST_SUITE_P(
     name_of);
 
 /// The slider of the 10 mm rod pulls with 22 % of the Euler load (closed form: m r Ω² (1 + r/l)
-/// against π² EI/l²); the linear rod is 18 % wrong, measured in exudyn_test.cpp.
+/// against π² EI/l²); the linear rod is 18 % wrong, measured in multibody_test.cpp.
 TEST(EstimateOfStiffening, IsTheShareOfTheEulerLoad) {
   ProblemFile file = sample_problem("slider_crank_exudyn");
   file.effects.tolerance = 1e-3;
