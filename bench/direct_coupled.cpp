@@ -6,6 +6,7 @@
 #include "core/effects/floating_frame_body.hpp"
 #include "core/effects/general_body_equations.hpp"
 #include "core/model/body_builder.hpp"
+#include "core/model/invariant_derivatives.hpp"
 
 namespace pleuel::bench {
 

@@ -13,7 +13,7 @@
 
 #include <fmt/format.h>
 
-#include "core/scene/problem_reader.hpp"
+#include "core/scene/problem_text.hpp"
 #include "include/pleuel.h"
 #include "optimization/design/design_problem.hpp"
 #include "sensitivity/gradients.hpp"

@@ -7,7 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/find_named.hpp"
-#include "core/model/imported_builder.hpp"
+#include "core/model/imported_constants.hpp"
 #include "core/response/analysis.hpp"
 #include "core/scene/visit_constants.hpp"
 #include "sensitivity/gradients.hpp"

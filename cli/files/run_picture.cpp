@@ -9,7 +9,7 @@
 #include "cli/reports/document_table.hpp"
 #include "cli/reports/limits_report.hpp"
 #include "cli/reports/scene_report.hpp"
-#include "core/model/imported_builder.hpp"
+#include "core/model/imported_constants.hpp"
 #include "core/response/history_reduction.hpp"
 #include "core/response/peak_place.hpp"
 #include "core/scene/response_kind.hpp"

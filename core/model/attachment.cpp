@@ -4,7 +4,7 @@
 #include <map>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/model/imported_builder.hpp"
+#include "core/model/imported_constants.hpp"
 #include "core/scene/beam_mesh.hpp"
 #include "core/scene/joint_kind.hpp"
 #include "core/scene/visit_numbers.hpp"

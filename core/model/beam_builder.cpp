@@ -8,7 +8,7 @@
 #include "core/beam/beam_shape.hpp"
 #include "core/beam/elastic_basis.hpp"
 #include "core/model/beam_shapes.hpp"
-#include "core/model/body_builder.hpp"
+#include "core/model/invariant_derivatives.hpp"
 #include "core/model/resolve_beam.hpp"
 #include "core/scene/beam_mesh.hpp"
 #include "core/scene/held_points.hpp"

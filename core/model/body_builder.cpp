@@ -1,7 +1,5 @@
 #include "core/model/body_builder.hpp"
 
-#include <limits>
-
 #include <fmt/format.h>
 
 #include "core/base/eager_matrices.hpp"
@@ -10,6 +8,7 @@
 #include "core/model/beam_builder.hpp"
 #include "core/model/divided_beams.hpp"
 #include "core/model/imported_builder.hpp"
+#include "core/model/invariant_derivatives.hpp"
 #include "core/scene/body_rules.hpp"
 
 namespace pleuel {
@@ -67,37 +66,6 @@ void set_rigid(const Body& body, const BuildContext& context, BodyModel& model) 
 }
 
 }  // namespace
-
-Invariants<double> difference_quotient(const Invariants<double>& a, const Invariants<double>& b,
-                                       double dx) {
-  Invariants<double> result = a;
-  result.mass = (a.mass - b.mass) / dx;
-  const auto set = [&](auto member) {
-    result.*member -= b.*member;
-    result.*member /= dx;
-  };
-  set(&Invariants<double>::first_moment);
-  set(&Invariants<double>::second_moment);
-  set(&Invariants<double>::shape);
-  set(&Invariants<double>::mixed);
-  set(&Invariants<double>::moments);
-  set(&Invariants<double>::mass_matrix);
-  set(&Invariants<double>::stiffness);
-  set(&Invariants<double>::damping);
-  return result;
-}
-
-double relative_step(const InvariantDifferentiation& differentiation) {
-  if (differentiation.step > 0.0) return differentiation.step;
-  constexpr double epsilon = std::numeric_limits<double>::epsilon();
-  return differentiation.derivatives == InvariantDerivatives::central ? std::cbrt(epsilon)
-                                                                      : std::sqrt(epsilon);
-}
-
-Invariants<double> derivative_of(const Invariants<Dual>& invariants) {
-  return transform_invariants<double>(invariants,
-                                      [](const Dual& number) { return derivative_of(number); });
-}
 
 BodyModel make_body_model(const Body& body, const BuildContext& context, int offset) {
   BodyModel model;

@@ -4,7 +4,7 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
-#include "core/model/imported_builder.hpp"
+#include "core/model/imported_constants.hpp"
 #include "core/scene/held_points.hpp"
 #include "core/scene/joint_kind.hpp"
 

@@ -8,7 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/base/find_named.hpp"
 #include "core/model/body_point.hpp"
-#include "core/model/imported_builder.hpp"
+#include "core/model/imported_constants.hpp"
 #include "core/response/stress_export.hpp"
 
 namespace pleuel {

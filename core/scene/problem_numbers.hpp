@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/scene/problem_file.hpp"
-#include "core/scene/problem_reader.hpp"
+#include "core/scene/problem_text.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/units.hpp"
 

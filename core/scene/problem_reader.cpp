@@ -1,6 +1,8 @@
 #include "core/scene/problem_reader.hpp"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 

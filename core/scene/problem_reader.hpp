@@ -9,14 +9,6 @@
 
 namespace pleuel {
 
-/// A problem as it is written. The arguments of read_problem_text().
-struct ProblemText {
-  std::string text;
-  std::string file;
-  std::vector<std::string> overrides = {};
-  std::string load_case = {};  ///< the one that is meant of a text with several
-};
-
 /// A problem as its file says it. Where the file has a tolerance of effects, simulations decide what
 /// that leaves out; nobody has asked them yet, so that it has to be said which model is meant:
 /// complete(), or decided() (core/response/effect_measurement.hpp).

@@ -6,7 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/model/imported_builder.hpp"
+#include "core/model/imported_constants.hpp"
 #include "core/model/scene_geometry.hpp"
 #include "core/scene/body_source.hpp"
 #include "core/scene/joint_kind.hpp"

@@ -10,17 +10,17 @@ namespace {
 constexpr double mass = 2.0, gravity = 9.81, stiffness = 1e6, clearance = 1e-3, rounding = 1e-6;
 
 /// A pin in the middle of a hole, which is a spring between two points that coincide.
-ProblemFile loose_pin(const std::string& spring) {
+ProblemFile loose_pin(const std::string& spring, const std::string& variables = "{}") {
   return problem_from(fmt::format(R"({{"scene": {{"gravity": [0, -9.81, 0],
           "bodies": {{"pin": {{"type": "point-mass", "at": [0, 0, 0], "mass": 2}}}}, "joints": {{}},
           "loads": {{"hole": {{"type": "spring", "bodies": ["ground", "pin"],
                                "at": [[0, 0, 0], [0, 0, 0]], {}}}}}}},
         "simulation": {{"end_time": "36 ms", "step": "2.5 us"}},
-        "variables": {{"c": {{"start": "1 mm", "lower": "0.1 mm", "upper": "2 mm"}}}},
+        "variables": {},
         "responses": {{
           "lowest": {{"type": "position", "body": "pin", "direction": "y", "over_time": "min"}},
           "blow": {{"type": "spring-force", "load": "hole", "over_time": "max"}}}}}})",
-                                  spring));
+                                  spring, variables));
 }
 
 /// It falls onto the rim, and with b = c + δ/2 for the rim and u for how far it is pressed into it
@@ -28,8 +28,10 @@ ProblemFile loose_pin(const std::string& spring) {
 /// the last being what the work in the rounding differs from that of a spring that begins in its
 /// middle. So du/dc = m g/(k u − m g).
 TEST(LoosePin, FallsOntoTheRimAsEnergySays) {
-  const ProblemFile problem = loose_pin(R"("free_length": 0, "resistance": {"type": "clearance",
-      "upper": {"variable": "c"}, "stiffness": 1e6, "rounding": "1 um"})");
+  const ProblemFile problem =
+      loose_pin(R"("free_length": 0, "resistance": {"type": "clearance",
+      "upper": {"variable": "c"}, "stiffness": 1e6, "rounding": "1 um"})",
+                R"({"c": {"start": "1 mm", "lower": "0.1 mm", "upper": "2 mm"}})");
   const double weight = mass * gravity, rim = clearance + rounding / 2.0;
   const double work = weight * rim - stiffness * rounding * rounding / 24.0;
   const double depth = (weight + std::sqrt(weight * weight + 2.0 * stiffness * work)) / stiffness;

@@ -1,17 +1,15 @@
 #pragma once
 
-/// Keys that several responses have, and a table for each kind of response (response_table.cpp says
-/// which types are of a kind).
-
 #include <string_view>
 #include <variant>
 
 #include "core/scene/grammar/keys.hpp"
-#include "core/scene/grammar/response_table.hpp"
+#include "core/scene/grammar/response_scope.hpp"
 #include "core/scene/problem_file.hpp"
 #include "core/scene/response_kind.hpp"
-#include "core/scene/scene.hpp"
 
+/// Keys that several responses have, and a table for each kind of response (response_table.cpp says
+/// which types are of a kind).
 namespace pleuel::response_tables {
 
 using R = ResponseSettings;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/scene/problem_file.hpp"
-#include "core/scene/problem_reader.hpp"
+#include "core/scene/problem_text.hpp"
 #include "core/scene/reading/case_reader.hpp"
 #include "core/scene/reading/json_node.hpp"
 #include "core/scene/reading/number_reader.hpp"

@@ -1,24 +1,11 @@
 #pragma once
 
-/// What a terminal or a page would obey instead of showing it: C0, DEL, C1, separators of lines
-/// (U+2028 …) and what turns the direction of the writing that follows, so that a name reads as
-/// another one (U+202A … U+202E, U+2066 … U+206F).
-
-/// From a text to a JSON document, stricter than the library: nothing is lost silently.
-
-#include <cstddef>
 #include <string>
-#include <string_view>
 
 #include <nlohmann/json.hpp>
 
+/// From a text to a JSON document, stricter than the library: nothing is lost silently.
 namespace pleuel {
-
-/// Bytes of the UTF-8 character that begins there; 0 if none does, or one that is not to be shown.
-std::size_t shown_character(std::string_view text);
-
-/// @param allowed  of these
-bool has_control_character(std::string_view text, std::string_view allowed = "");
 
 using Json = nlohmann::ordered_json;
 

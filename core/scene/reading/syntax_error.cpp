@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
-#include "core/scene/reading/json_text.hpp"
+#include "core/scene/reading/control_characters.hpp"
 #include "core/scene/reading/unit_scanner.hpp"
 
 namespace pleuel {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/scene/reading/time_function_reader.hpp"
+#include "core/scene/reading/law_source.hpp"
 
 namespace pleuel {
 

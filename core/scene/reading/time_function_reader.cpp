@@ -170,12 +170,6 @@ TimeFunction read_motion(const LawSource& source, NumberReader& numbers) {
 
 }  // namespace
 
-void LawSource::allow_keys(std::vector<std::string_view> keys) const {
-  keys.insert(keys.begin(), "type");
-  keys.insert(keys.end(), other_keys.begin(), other_keys.end());
-  node.allow_keys(keys);
-}
-
 TimeFunction read_drive_function(const JsonNode& node, const Quantity& value,
                                  NumberReader& numbers) {
   return read_motion({node, value, LawPurpose::drive, std::nullopt, {"coordinate"}}, numbers);

@@ -228,8 +228,8 @@ TEST(JointForce, CountsWholeTurnsInThePlane) {
 TEST(SpringDamper, SaysWhereItsEndsCoincide) {
   Marker ground, mass;
   ground.frame = ground_frame();
-  const ForceElement buffer =
-      make_spring_damper({"buffer", {ground, mass}}, {.stiffness = 1.0, .damping = 1.0}, {});
+  const ForceElement buffer = make_spring_damper(
+      {"buffer", {ground, mass}}, {.stiffness = 1.0, .damping = 1.0, .free_length = 0.1}, {});
   State state(3, 0);
   state.time = 0.25;
   const std::string from_residual =

@@ -1,8 +1,9 @@
+#include "core/model/invariant_derivatives.hpp"
+
 #include <complex>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/integration/simulate.hpp"
-#include "core/model/body_builder.hpp"
 #include "core/model/resolve_beam.hpp"
 #include "tests/support/differences.hpp"
 #include "tests/support/model_state.hpp"
