@@ -213,7 +213,8 @@ class Front {
     }
     std::ranges::stable_sort(front, {}, signed_limit);
     if (!settings_.goals.empty()) return front;
-    const auto [tight, loose] = std::minmax({sign() * settings_.from, sign() * settings_.to});
+    const auto ends = std::minmax({sign() * settings_.from, sign() * settings_.to});
+    const double tight = ends.first, loose = ends.second;
     std::erase_if(front,
                   [&](const PointSearch& one) { return !is_no_better(loose, signed_limit(one)); });
     // The best at the tight end is the last within it; none within: the front begins further on.
