@@ -137,9 +137,10 @@ TEST(InitialDeflections, HaveGradients) {
     stretch.type = ResponseType::stress;
     stretch.part = StressPart::axial;
     problem.responses.push_back(stretch);
-    const auto [x, analysis] = started(problem);
-    const Eigen::MatrixXd direct = gradients(problem, x, *analysis, GradientMethod::direct);
-    const Eigen::MatrixXd adjoint = gradients(problem, x, *analysis, GradientMethod::adjoint);
+    const Started start = started(problem);
+    const Eigen::VectorXd& x = start.x;
+    const Eigen::MatrixXd direct = gradients(problem, x, *start.analysis, GradientMethod::direct);
+    const Eigen::MatrixXd adjoint = gradients(problem, x, *start.analysis, GradientMethod::adjoint);
     const auto expect_equal = [&](const Eigen::MatrixXd& found, const Eigen::MatrixXd& expected,
                                   double tolerance) {
       EXPECT_LE(relative_difference(found.topRows(2), expected.topRows(2)), tolerance);

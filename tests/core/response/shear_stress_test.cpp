@@ -129,17 +129,18 @@ TEST(ShearStress, AddsThatOfTorsion) {
 /// Central differences of simulated designs, 1e-4 of a variable: errors of 1e-7.
 TEST(ShearStress, HasTheGradientOfDifferences) {
   for (const std::string& section : {rectangle, circle, tube, ellipse, box, i_beam}) {
-    const auto [problem, x, analysis] =
-        AtStart(cantilever(section, {.y = force, .z = 0.4 * force, .torque = torque}));
-    const Eigen::VectorXd found = gradients(problem, x, *analysis, GradientMethod::direct).row(0);
+    const AtStart start(cantilever(section, {.y = force, .z = 0.4 * force, .torque = torque}));
+    const Eigen::VectorXd& x = start.x;
+    const Eigen::VectorXd found =
+        gradients(start.problem, x, *start.analysis, GradientMethod::direct).row(0);
     for (Eigen::Index i = 0; i < x.size(); ++i) {
       const auto at = [&](double factor) {
         Eigen::VectorXd moved = x;
         moved(i) *= factor;
-        return analyze(problem, moved)->reductions[0].value;
+        return analyze(start.problem, moved)->reductions[0].value;
       };
       const double expected = (at(1.0 + 1e-4) - at(1.0 - 1e-4)) / (2e-4 * x(i));
-      EXPECT_NEAR(found(i), expected, 1e-6 * analysis->reductions[0].value / x(i)) << section;
+      EXPECT_NEAR(found(i), expected, 1e-6 * start.analysis->reductions[0].value / x(i)) << section;
     }
   }
 }
