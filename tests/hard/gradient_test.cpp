@@ -43,7 +43,7 @@ TEST_P(HardGradient, IsThatOfCentralDifferencesAtTheBestStep) {
   const Eigen::VectorXd direct = direct_gradients(*analysis) * x;
   // Against a thousandth of the value where it hardly depends on the design.
   Eigen::VectorXd best = Eigen::VectorXd::Ones(direct.size());
-  const auto compare = [&](const Eigen::VectorXd& differences) {
+  const auto compare = [&, &analysis = analysis](const Eigen::VectorXd& differences) {
     for (Eigen::Index i = 0; i < direct.size(); ++i) {
       const double value = std::abs(analysis->reductions[i].value);
       const double size = std::max(std::abs(direct(i)), 1e-3 * value);

@@ -291,7 +291,8 @@ TEST(ExpressionOfResponses, HasTheGradientOfTheStroke) {
 TEST(ExpressionOfResponses, HasOneGradientByAllMethods) {
   const auto [problem, x, analysis] = AtStart(problem_of(slider_crank()));
   const Eigen::Index cost = response_index(problem, "cost");
-  const auto by = [&](GradientMethod method) -> Eigen::RowVectorXd {
+  const auto by = [&, &problem = problem, &x = x,
+                   &analysis = analysis](GradientMethod method) -> Eigen::RowVectorXd {
     return gradients(problem, x, *analysis, method).row(cost);
   };
   const Eigen::RowVectorXd direct = by(GradientMethod::direct);
@@ -306,7 +307,7 @@ TEST(ExpressionOfResponses, FollowsTheChainRuleThroughOtherExpressions) {
   document["responses"]["twice"] = {{"type", "expression"}, {"value", "2*stroke*mass - rod*mass"}};
   const auto [problem, x, analysis] = AtStart(problem_of(document));
   const Eigen::MatrixXd g = direct_gradients(*analysis);
-  const auto row = [&](const char* name) -> Eigen::RowVectorXd {
+  const auto row = [&, &problem = problem](const char* name) -> Eigen::RowVectorXd {
     return g.row(response_index(problem, name));
   };
   const double mass = value_of(problem, *analysis, "mass"),

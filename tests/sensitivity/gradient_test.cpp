@@ -270,7 +270,7 @@ TEST_P(MovingPlaces, HaveTheDerivativesOfDifferences) {
   const Eigen::MatrixXd adjoint = sampled_gradients(*analysis, values, ExactMethod::adjoint);
   for (Eigen::Index k = 0; k < x.size(); ++k) {
     const double step = 3e-4 * x(k);
-    const auto at = [&](double factor) {
+    const auto at = [&, &problem = problem, &x = x](double factor) {
       Eigen::VectorXd moved = x;
       moved(k) += factor * step;
       return values_of(*analyze(problem, moved));

@@ -260,7 +260,8 @@ TEST(SteadyMachine, HasGradientsOfAVariableThatChangesForcesOnly) {
     "responses": {
       "torque": {"type": "drive-torque", "joint": "bearing", "over_time": "max-abs"},
       "weight": {"type": "reaction-force", "joint": "bearing", "direction": "y", "over_time": "mean"}}})"));
-  const auto gradients_by = [&](GradientMethod method) {
+  const auto gradients_by = [&problem = problem, &x = x,
+                             &analysis = analysis](GradientMethod method) {
     return gradients(problem, x, *analysis, method);
   };
   const Eigen::MatrixXd direct = gradients_by(GradientMethod::direct),

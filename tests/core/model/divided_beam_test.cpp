@@ -179,7 +179,7 @@ TEST(DividedBeam, HasExactGradients) {
       std::get<BeamBody>(problem.scene.bodies[1].shape).reduction = CraigBampton{2, {}};
     }
     const auto [x, analysis] = started(problem);
-    const auto gradients_by = [&](GradientMethod method) {
+    const auto gradients_by = [&, &x = x, &analysis = analysis](GradientMethod method) {
       return Eigen::MatrixXd(gradients(problem, x, *analysis, method) * x.asDiagonal());
     };
     const Eigen::MatrixXd direct = gradients_by(GradientMethod::direct),

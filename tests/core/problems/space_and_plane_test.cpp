@@ -290,7 +290,7 @@ TEST(ElasticRotation, HasTheGradientsOfDifferencesAndOfBothMethods) {
   const Eigen::VectorXd values = values_of(*analysis);
   for (Eigen::Index j = 0; j < x.size(); ++j) {
     const Eigen::VectorXd differences = derivative_at_zero(
-        [&](double s) {
+        [&, &problem = problem, &x = x](double s) {
           Eigen::VectorXd moved = x;
           moved(j) *= 1.0 + s;
           return values_of(*analyze(problem, moved));

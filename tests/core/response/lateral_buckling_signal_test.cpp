@@ -353,7 +353,7 @@ TEST(GradientsOfFittings, OfBothMethodsAndOfDifferencesAgree) {
   for (const Bar& bar : {strut, mast}) {
     const auto [problem, x, analysis] = AtStart(problem_of(bar));
     EXPECT_GT(analysis->reductions[0].value, 0.1);
-    const auto scaled = [&](const Eigen::MatrixXd& slopes) {
+    const auto scaled = [&x = x](const Eigen::MatrixXd& slopes) {
       return Eigen::MatrixXd(slopes * x.asDiagonal());
     };
     const Eigen::MatrixXd direct = scaled(gradients(problem, x, *analysis, GradientMethod::direct));

@@ -171,8 +171,9 @@ TEST(NotFinite, IsAFailedSimulationThatNamesTheFirstResponseAndItsTime) {
 TEST(NotFinite, IsAFailureOfTheMonitorsToo) {
   const auto [problem, x, analysis] = AtStart(short_crank("7850"));
   analysis->trajectory.columns().v()(0, 7) = 1e200;
-  EXPECT_THAT(failure_of([&] { monitor(analysis->model, analysis->trajectory); }),
-              HasSubstr("energy of the mechanism is not finite at t = 0.000175 s"));
+  EXPECT_THAT(
+      failure_of([&analysis = analysis] { monitor(analysis->model, analysis->trajectory); }),
+      HasSubstr("energy of the mechanism is not finite at t = 0.000175 s"));
 }
 
 /// The shortest beam of the slider-crank is 120 mm long: 0.12 mm are allowed.
