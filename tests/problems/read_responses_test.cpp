@@ -325,7 +325,9 @@ TEST(ExpressionOfResponses, HasAnErrorBarFromItsParts) {
   const auto [problem, x, analysis] = AtStart(problem_of(document));
   const Monitors monitors = monitor(analysis->model, analysis->trajectory);
   const Trust trust = judge_run({problem, x, *analysis, monitors});
-  const auto bar = [&](const char* name) { return *trust.errors[response_index(problem, name)]; };
+  const auto bar = [&, &problem = problem](const char* name) {
+    return *trust.errors[response_index(problem, name)];
+  };
   EXPECT_TRUE(bar("sum").is_resolved());
   EXPECT_GT(bar("sum").bound(), 0.0);
   EXPECT_LE(bar("sum").bound(), 3 * bar("effort").bound() + 2 * bar("right").bound() + 1e-12);

@@ -326,10 +326,10 @@ TEST(SteadyMachineErrors, TellAMotionThatGrows) {
 
 /// The motion of this design repeats itself; those of others do not with its period.
 TEST(SteadyMachineErrors, NameAVariableThatSetsThePeriod) {
-  const auto [file, x, analysis] =
-      AtStart(Oscillator::with(R"("damping": 8)", R"({"variable": "speed"})"));
+  const AtStart start(Oscillator::with(R"("damping": 8)", R"({"variable": "speed"})"));
   for (const GradientMethod method : {GradientMethod::direct, GradientMethod::adjoint}) {
-    EXPECT_THAT(thrown<SimulationError>([&] { gradients(file, x, *analysis, method); }),
+    EXPECT_THAT(thrown<SimulationError>(
+                    [&] { gradients(start.problem, start.x, *start.analysis, method); }),
                 HasSubstr("push no longer repeats itself"))
         << "no complaint";
   }

@@ -193,26 +193,27 @@ TEST(PulledApartJoint, FailsBeyondAThousandthOfTheShortestBeam) {
 
 /// Index 1 promises accelerations only; Newton's method with a loose tolerance promises little.
 TEST(PulledApartJoint, IsJudgedByWhatTheFormulationPromises) {
-  const auto [problem, x, analysis] = AtStart(short_crank("7850"));
-  State state = state_of(analysis->trajectory, 0);
-  state.q(analysis->model.body("crank").frame.offset) += 0.2e-3;
+  const AtStart start(short_crank("7850"));
+  const Model& model = start.analysis->model;
+  State state = state_of(start.analysis->trajectory, 0);
+  state.q(model.body("crank").frame.offset) += 0.2e-3;
   SimulationOptions options{1e-3, 2.5e-5};
   options.newton_tolerance = 1e-4;
-  EXPECT_EQ(failure_of([&] { ConstraintGuard(analysis->model, options).see(0, state); }), "");
+  EXPECT_EQ(failure_of([&] { ConstraintGuard(model, options).see(0, state); }), "");
   // A hundred tolerances, of the crank's 120 mm: 1.2 mm.
-  const double placed = state.q(analysis->model.body("crank").frame.offset) - 0.2e-3;
+  const double placed = state.q(model.body("crank").frame.offset) - 0.2e-3;
   const auto fails_at = [&](double apart) {
-    state.q(analysis->model.body("crank").frame.offset) = placed + apart;
-    return !failure_of([&] { ConstraintGuard(analysis->model, options).see(0, state); }).empty();
+    state.q(model.body("crank").frame.offset) = placed + apart;
+    return !failure_of([&] { ConstraintGuard(model, options).see(0, state); }).empty();
   };
   EXPECT_FALSE(fails_at(1.18e-3));
   EXPECT_TRUE(fails_at(1.22e-3));
   EXPECT_FALSE(fails_at(0.2e-3));
   options.newton_tolerance = 1e-10;
   options.formulation.constraints = ConstraintForm::index_1;
-  EXPECT_EQ(failure_of([&] { ConstraintGuard(analysis->model, options).see(0, state); }), "");
+  EXPECT_EQ(failure_of([&] { ConstraintGuard(model, options).see(0, state); }), "");
   options.formulation.is_projected = true;
-  EXPECT_NE(failure_of([&] { ConstraintGuard(analysis->model, options).see(0, state); }), "");
+  EXPECT_NE(failure_of([&] { ConstraintGuard(model, options).see(0, state); }), "");
 }
 
 // Linear maps from what is observed to histories.

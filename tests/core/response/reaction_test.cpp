@@ -315,7 +315,7 @@ TEST_P(GradientOfLeastNorm, IsThatOfDifferencesAndOfTheAdjoint) {
   const auto [x, analysis] = started(problem);
   ASSERT_EQ(analysis->model.mechanism.system->left_out().size(), 5u);
   const auto values = response_values(*analysis);
-  const auto scaled = [&](const Eigen::MatrixXd& gradient) -> Eigen::MatrixXd {
+  const auto scaled = [&x = x](const Eigen::MatrixXd& gradient) -> Eigen::MatrixXd {
     return gradient * x.cwiseAbs().asDiagonal();
   };
   const Eigen::MatrixXd direct = scaled(sampled_gradients(*analysis, values, ExactMethod::direct)),

@@ -189,7 +189,7 @@ TEST(BrokenInstants, AreThereButForRoundOff) {
 TEST(PeakPlace, CountsElementsThroughAllFrames) {
   for (const char* more : {R"("frame": "tangent")", R"("frames": 2)"}) {
     const auto [problem, x, analysis] = AtStart(turning_arm(more));
-    const auto share = [&](const std::string& place) {
+    const auto share = [&analysis = analysis](const std::string& place) {
       return share_of_place(analysis->model, "arm", place);
     };
     EXPECT_EQ(share("node 0, y = 0.01 m, z = 0.005 m"), 0.0) << more;
