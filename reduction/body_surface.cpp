@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/base/int_size.hpp"
 

@@ -5,6 +5,7 @@
 
 #include <Eigen/LU>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
 
 namespace pleuel {

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/find_named.hpp"
 #include "core/base/int_size.hpp"
 #include "core/scene/reading/number_reader.hpp"

@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "core/base/disjoint_sets.hpp"
+#include "core/base/eager_matrices.hpp"
 #include "reduction/element_shape.hpp"
 
 namespace pleuel {

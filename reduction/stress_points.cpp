@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/dense_solvers.hpp"
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/base/int_size.hpp"
 #include "reduction/element_shape.hpp"

@@ -6,6 +6,7 @@
 #include <dmumps_c.h>
 #include <fmt/format.h>
 
+#include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 
 namespace pleuel {
