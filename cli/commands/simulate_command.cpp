@@ -129,12 +129,16 @@ std::string simulation_text(const ProblemFile& problem, const std::string& desig
                             trajectory.factorizations, duration(run.check_seconds));
 }
 
-/// Numbers out of proportion are a frequent reason why a simulation fails.
+/// Of a simulation that fails, what speaks against its numbers and against the motion before is shown.
 std::unique_ptr<Analysis> analyze_or_doubt(const ProblemInput& input) {
   try {
     return analyze(input.problem, input.design);
-  } catch (const SimulationError&) {
-    show(stderr, warnings_text(texts_of(check_proportions_before(input.problem, input.design))));
+  } catch (const SimulationError& error) {
+    std::vector<Finding> findings = check_proportions_before(input.problem, input.design);
+    if (findings.empty() && error.time()) {
+      findings = check_motion_before(input.problem, input.design, *error.time());
+    }
+    show(stderr, warnings_text(texts_of(findings)));
     throw;
   }
 }

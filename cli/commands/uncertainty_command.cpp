@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "cli/commands/commands.hpp"
+#include "cli/text/wrapped_text.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "core/trust/checks.hpp"
 #include "studies/missing_settings.hpp"
@@ -169,9 +170,10 @@ std::string answer_text(const ProblemFile& problem, const UncertaintyStudy& stud
   const auto name = [&](const LimitScatter& limit) {
     return problem.constraints[limit.constraint].name;
   };
+  const bool is_beyond = nearest->distance < 0.0;
   const std::string distance = fmt::format(
-      "nearest: {}, {} deviations {} its limit", name(*nearest),
-      significant(std::abs(nearest->distance), 2), nearest->distance < 0.0 ? "beyond" : "from");
+      "{}: {}, {} deviations {} its limit", is_beyond ? "worst" : "nearest", name(*nearest),
+      significant(std::abs(nearest->distance), 2), is_beyond ? "beyond" : "from");
   if (study.samples == 0) return fmt::format("To first order, {}.\n\n", distance);
   if (most->broken == 0) {
     return fmt::format("Every limit holds in all {} samples; {}.\n\n", study.samples, distance);
@@ -208,7 +210,7 @@ std::string study_text(const ProblemFile& problem, const UncertaintyStudy& study
   text += fmt::format(
       "{}: what uncertain parameters make of the responses, to first order\n\n{}{}{}\n{}\n"
       "Time: gradients {}",
-      problem.name, answer_text(problem, study), scatter_text(problem, document),
+      problem.name, wrapped(answer_text(problem, study)), scatter_text(problem, document),
       parameters_text(problem, document["parameters"]), responses_text(problem, document),
       duration(study.gradient_seconds));
   if (samples > 0) {

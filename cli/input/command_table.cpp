@@ -39,10 +39,11 @@ const OptionKind overwrite{"--overwrite", &Arguments::overwrites,
                            "replace an older run of this command in the same place"};
 const OptionKind no_report{"--no-report", &Arguments::leaves_out_report,
                            "write no report.html; the command report makes it later"};
-const OptionKind resume{
-    "--resume", &Arguments::resumes,
-    "go on with the run in the folder that was killed or interrupted: no evaluation is made twice",
-    "", [](CLI::Option& option) { option.excludes("--overwrite"); }};
+const OptionKind resume{"--resume", &Arguments::resumes,
+                        "go on with the run in the folder that was killed or interrupted: its "
+                        "search makes no evaluation "
+                        "twice",
+                        "", [](CLI::Option& option) { option.excludes("--overwrite"); }};
 const OptionKind design{
     "--design", &Arguments::design,
     "at the design of a result.json or failed_design.json of an optimization, or of a file "

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -17,6 +18,14 @@ class InputError : public std::runtime_error {
 class SimulationError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+  SimulationError(const std::string& text, std::optional<double> time)
+      : std::runtime_error(text), time_(time) {}
+
+  /// Up to which it came [s], where it began and its steps are what failed.
+  std::optional<double> time() const { return time_; }
+
+ private:
+  std::optional<double> time_;
 };
 
 }  // namespace pleuel

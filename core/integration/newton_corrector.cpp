@@ -92,14 +92,6 @@ void NewtonCorrector::record_condition() {
   worst_condition_ = std::max(worst_condition_, solver_.condition());
 }
 
-namespace {
-
-std::string place_text(const StepPlace& place) {
-  return fmt::format("t = {:.6g} s (step {} of {}", place.time, place.step, place.steps);
-}
-
-}  // namespace
-
 std::string equation_text(Eigen::Index equation, const std::vector<std::string>& names) {
   return equation < std::ssize(names) ? " of " + names[equation] : "";
 }
@@ -111,37 +103,43 @@ std::string worst_equation(const Eigen::Ref<const Eigen::VectorXd>& residual,
   return equation_text(worst, names);
 }
 
+namespace {
+
+[[noreturn]] void stop(const StepPlace& place, const std::string& why) {
+  throw SimulationError(fmt::format("simulation stopped at t = {:.6g} s (step {} of {}{}",
+                                    place.time, place.step, place.steps, why),
+                        place.time);
+}
+
+}  // namespace
+
 void throw_failed(const StepPlace& place, const StepFailure& failure, double step,
                   double largest_residual, const std::string& equation, double regular_step) {
-  throw SimulationError(fmt::format(
-      "simulation stopped at {}, Newton iteration {}): {}, nor with a step of {:.3g} s; largest "
-      "residual {:.3g}{}. Try a smaller /simulation/step (now {:.3g} s), or look for a position in "
-      "which the mechanism locks",
-      place_text(place), failure.iteration, failure.what, step, largest_residual, equation,
-      regular_step));
+  stop(place, fmt::format(
+                  ", Newton iteration {}): {}, nor with a step of {:.3g} s; largest residual "
+                  "{:.3g}{}. Try a smaller /simulation/step (now {:.3g} s), or look for a position "
+                  "in which the mechanism locks",
+                  failure.iteration, failure.what, step, largest_residual, equation, regular_step));
 }
 
 void throw_inaccurate(const StepPlace& place, double step, double error,
                       const std::string& equation) {
-  throw SimulationError(fmt::format(
-      "simulation stopped at {}): with a step of {:.3g} s the local error{} is still {:.3g} times "
-      "what /simulation/local_error allows. Allow more, or a smaller /simulation/smallest_step; or "
-      "look for something that jumps there",
-      place_text(place), step, equation, error));
+  stop(place, fmt::format("): with a step of {:.3g} s the local error{} is still {:.3g} times what "
+                          "/simulation/local_error allows. Allow more, or a smaller "
+                          "/simulation/smallest_step; or look for something that jumps there",
+                          step, equation, error));
 }
 
 void throw_not_finite(const StepPlace& place, const std::string& equation) {
-  throw SimulationError(fmt::format(
-      "simulation stopped at {}): the state{} is not finite. Look for numbers of the file that are "
-      "out of proportion (sizes, densities, stiffness, units)",
-      place_text(place), equation));
+  stop(place, fmt::format("): the state{} is not finite. Look for numbers of the file that are out "
+                          "of proportion (sizes, densities, stiffness, units)",
+                          equation));
 }
 
 void throw_drifted(const StepPlace& place, double drift, const std::string& equation) {
-  throw SimulationError(fmt::format(
-      "simulation stopped at {}): constraints have drifted, those{} by {:.3g} m or rad. Try "
-      "another /simulation/formulation, or /simulation/projection",
-      place_text(place), equation, drift));
+  stop(place, fmt::format("): constraints have drifted, those{} by {:.3g} m or rad. Try another "
+                          "/simulation/formulation, or /simulation/projection",
+                          equation, drift));
 }
 
 }  // namespace pleuel

@@ -59,7 +59,7 @@ std::string lock_text(const Model& model, const RigidPath& path) {
     names.resize(most_names);
   }
   if (!names.empty()) {
-    members = fmt::format(", where {}{} are in line (a dead centre)", quoted(names), members);
+    members = fmt::format(", in a dead centre of {}{}", quoted(names), members);
   }
   const std::string gap =
       path.gap > 0.0 ? fmt::format(" Beyond it joints of rigid bodies are about {:.2g} mm apart.",
@@ -83,7 +83,7 @@ std::string names_of_drives(const Model& model) {
 std::string bending_text(const Model& model) {
   return fmt::format(
       "rigid bodies cannot follow the drive of {} from the start: what moves does so only because "
-      "bodies bend. If that is not meant, look at the axes of the joints",
+      "bodies bend. If that is not meant, look at the places and axes of the joints",
       names_of_drives(model));
 }
 

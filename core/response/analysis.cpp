@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
@@ -130,15 +132,17 @@ SimulationOptions options_of(const ProblemFile& problem) {
   return options;
 }
 
-/// @throws the error, with the joints that may be its cause
+/// @throws the error, after what of the joints may be its cause
 [[noreturn]] void explain(const SimulationError& error, const Model& model, const RigidPath& path) {
   constexpr double largest = 3e-2;
-  std::string text = error.what();
-  if (path.end == RigidPath::End::bends) text += ". Look at this first: " + bending_text(model);
+  std::vector<std::string> causes;
+  if (path.end == RigidPath::End::bends) causes.push_back(bending_text(model));
   for (const Misalignment& found : find_misalignments(model, model.mechanism.guess, largest)) {
-    text += ". Look at this first: " + found.text();
+    causes.push_back(found.text());
   }
-  throw SimulationError(text);
+  if (causes.empty()) throw error;
+  throw SimulationError(
+      fmt::format("{}. That may be why: {}", fmt::join(causes, ". "), error.what()), error.time());
 }
 
 void require_memory(const std::vector<Response>& responses, const TimeIntegration& options) {
@@ -172,8 +176,11 @@ Eigen::MatrixXd against_rigid(const Response& response, Eigen::MatrixXd history,
 }
 
 /// The number of a response; its history becomes that which is reduced.
-Reduction reduce_response(std::size_t i, Analysis& analysis) {
+Reduction reduce_response(std::size_t i, ShortWindow short_window, Analysis& analysis) {
   const Response& response = analysis.responses[i];
+  if (short_window == ShortWindow::unknown && !response.holds_steps(analysis.trajectory.time)) {
+    return {std::numeric_limits<double>::quiet_NaN(), {}, {}};
+  }
   if (response.history()) {
     Eigen::MatrixXd& history = analysis.histories[i];
     history = against_rigid(response, std::move(history), analysis);
@@ -198,12 +205,13 @@ Reduction reduce_response(std::size_t i, Analysis& analysis) {
 }
 
 /// Expressions come last, in the order of the file: they may name expressions before them.
-void reduce_responses(Analysis& analysis) {
+void reduce_responses(ShortWindow short_window, Analysis& analysis) {
   analysis.reductions.resize(analysis.responses.size());
   for (const bool of_expressions : {false, true}) {
     for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
       const bool is_expression = analysis.responses[i].expression() != nullptr;
-      if (is_expression == of_expressions) analysis.reductions[i] = reduce_response(i, analysis);
+      if (is_expression != of_expressions) continue;
+      analysis.reductions[i] = reduce_response(i, short_window, analysis);
     }
   }
 }
@@ -245,7 +253,7 @@ Eigen::VectorXd values_of(const Analysis& analysis) {
 }
 
 std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::VectorXd& x,
-                                  const Trajectory* similar) {
+                                  const Trajectory* similar, ShortWindow short_window) {
   if (problem.has_cases()) throw std::logic_error("load cases are simulated one by one");
   const Eigen::VectorXd start = start_design(problem);
   const Design<double> design(x.begin(), x.end()), start_values(start.begin(), start.end());
@@ -284,9 +292,11 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
   }
   set_modes(*analysis);
   set_rigid_mechanism(problem, x, *analysis);
-  reduce_responses(*analysis);
-  require_finite(analysis->responses, analysis->reductions, analysis->histories,
-                 analysis->trajectory);
+  reduce_responses(short_window, *analysis);
+  require_finite(analysis->responses, analysis->histories, analysis->trajectory);
+  if (short_window == ShortWindow::refused) {
+    require_finite(analysis->responses, analysis->reductions);
+  }
   return analysis;
 }
 

@@ -52,14 +52,22 @@ Eigen::VectorXd values_of(const Analysis& analysis);
 /// @throws InputError if the machine cannot hold them
 void require_memory(const ProblemFile& problem);
 
+/// What a response is whose window of time holds less than two steps.
+enum class ShortWindow {
+  refused,
+  unknown  ///< not a number: of runs in larger steps than those of the file, which judge it
+};
+
 /// Builds and simulates the mechanism of a problem at a design, and reduces its responses.
 /// @param problem  with what its tolerance of effects leaves out (effect_measurement.hpp)
 /// @param x        design variables [SI]
 /// @param similar  a motion of another division, beside which one that repeats itself is looked for
 /// @throws SimulationError
+/// @throws InputError for a window with less than two steps, where it is refused
 /// @throws std::logic_error for a problem with load cases, which are simulated one by one
 std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::VectorXd& x,
-                                  const Trajectory* similar = nullptr);
+                                  const Trajectory* similar = nullptr,
+                                  ShortWindow short_window = ShortWindow::refused);
 
 /// The problem with the steps of a trajectory in place of those that the control of the local error
 /// or the windows of responses would ask for: so that values at neighbouring designs differ smoothly.

@@ -7,10 +7,13 @@
 
 namespace pleuel {
 
+bool Response::holds_steps(const Eigen::VectorXd& time) const {
+  return !history() || steps_between(time, history()->from, history()->to).steps() >= 2;
+}
+
 StepRange Response::steps(const Eigen::VectorXd& time) const {
   if (!history()) return whole_range(time);
-  const StepRange range = steps_between(time, history()->from, history()->to);
-  if (range.steps() >= 2) return range;
+  if (holds_steps(time)) return steps_between(time, history()->from, history()->to);
   throw InputError(
       fmt::format("/responses/{} is reduced over a window of time with less than two steps; widen "
                   "it or shorten the steps",

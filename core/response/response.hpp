@@ -67,6 +67,8 @@ struct Response {
   bool is_reduced_by(OverTime kind) const { return history() && history()->over_time == kind; }
   bool is_peak_over_time() const { return history() && is_peak(history()->over_time); }
 
+  /// Whether its window holds two steps or more, from which it can be reduced.
+  bool holds_steps(const Eigen::VectorXd& time) const;
   /// The steps of a simulation that are reduced: all of them where the response has no history.
   /// @throws InputError if the window holds less than two
   StepRange steps(const Eigen::VectorXd& time) const;

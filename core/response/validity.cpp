@@ -78,7 +78,6 @@ void ConstraintGuard::see(int step, const State& state) {
 }
 
 void require_finite(const std::vector<Response>& responses,
-                    const std::vector<Reduction>& reductions,
                     const std::vector<Eigen::MatrixXd>& histories, const Trajectory& trajectory) {
   std::optional<Eigen::Index> first;
   std::size_t which = 0;
@@ -92,6 +91,10 @@ void require_finite(const std::vector<Response>& responses,
     throw SimulationError(fmt::format("the response \"{}\" is not finite at t = {:.6g} s. {}",
                                       responses[which].name, trajectory.time(*first), advice));
   }
+}
+
+void require_finite(const std::vector<Response>& responses,
+                    const std::vector<Reduction>& reductions) {
   for (std::size_t i = 0; i < reductions.size(); ++i) {
     if (std::isfinite(reductions[i].value)) continue;
     throw SimulationError(

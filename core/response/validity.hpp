@@ -34,10 +34,12 @@ class ConstraintGuard {
   Eigen::VectorXd residual_;
 };
 
-/// @throws SimulationError naming the response and the time, where a history or a value is not
-///         finite: of several, the first in time
+/// @throws SimulationError naming the response and the time, where a history is not finite: of
+///         several, the first in time
 void require_finite(const std::vector<Response>& responses,
-                    const std::vector<Reduction>& reductions,
                     const std::vector<Eigen::MatrixXd>& histories, const Trajectory& trajectory);
+/// @throws SimulationError naming the response whose value is not finite
+void require_finite(const std::vector<Response>& responses,
+                    const std::vector<Reduction>& reductions);
 
 }  // namespace pleuel

@@ -103,11 +103,12 @@ void leave_unmodelled(const TrustedRun& run, const std::vector<Finding>& finding
   }
 }
 
-/// To the bars of all responses that have one.
+/// To the bars of all responses that have one, where it is known.
 void add_left_out(const LeftOut& left_out, std::vector<std::optional<ErrorBar>>& errors) {
   for (const VariantChange& variant : left_out.changes) {
     for (std::size_t i = 0; i < errors.size(); ++i) {
-      if (errors[i]) errors[i]->left_out[variant.name] = variant.change(static_cast<int>(i));
+      const double change = variant.change(static_cast<int>(i));
+      if (errors[i] && std::isfinite(change)) errors[i]->left_out[variant.name] = change;
     }
   }
 }
@@ -198,6 +199,26 @@ Trust judge_run(const TrustedRun& run) {
   if (complete) add_neglected_effects(run, *complete, trust.errors);
   rank_findings(findings);
   return trust;
+}
+
+std::vector<Finding> check_motion_before(ProblemFile problem, const Eigen::VectorXd& x,
+                                         double time) {
+  // Beside the failure states may be none of the mechanism.
+  constexpr double share = 0.75;
+  if (problem.simulation.period > 0.0) return {};
+  problem.simulation.end_time = share * time;
+  problem.responses.clear();
+  problem.constraints.clear();
+  try {
+    const auto analysis = analyze(problem, x);
+    std::vector<Finding> findings = check_run(problem, x, *analysis);
+    std::erase_if(findings, [](const Finding& finding) { return !finding.is_serious; });
+    if (findings.size() > 1) findings.resize(1);  // the others follow from the first
+    return findings;
+  } catch (const SimulationError&) {  // in shorter steps than what failed
+  } catch (const InputError&) {       // of what cannot be asked of a shorter motion
+  }
+  return {};
 }
 
 std::vector<Finding> check_run(const TrustedRun& run) {

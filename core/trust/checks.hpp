@@ -14,6 +14,12 @@ namespace pleuel {
 /// run, and found again after it.
 std::vector<Finding> check_before(const ProblemFile& problem);
 
+/// What speaks most against the motion of a simulation that failed, up to some steps before it did;
+/// nothing of a search for a motion that repeats itself.
+/// @param time  of the failure [s]
+std::vector<Finding> check_motion_before(ProblemFile problem, const Eigen::VectorXd& x,
+                                         double time);
+
 /// How far the numbers of a simulated design can be trusted.
 struct Trust {
   std::vector<Finding> findings;  ///< the serious ones first

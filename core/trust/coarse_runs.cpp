@@ -124,8 +124,17 @@ constexpr double same_values = 0.005;
 /// Runs of fewer steps may agree on having seen nothing.
 constexpr int fewest_coarse_steps = 64;
 
+/// Windows of time may hold too few of the larger steps.
+bool knows_what_is_asked(const TrustedRun& run, const NestedRun& coarse) {
+  return coarse.analysis && std::ranges::all_of(asked_parts(run.problem), [&](std::size_t i) {
+           return std::isfinite(coarse.analysis->reductions[i].value);
+         });
+}
+
 bool says_the_same(const TrustedRun& run, const NestedRun& coarse) {
-  if (!coarse.analysis || coarse.analysis->trajectory.steps() < fewest_coarse_steps) return false;
+  if (!knows_what_is_asked(run, coarse) ||
+      coarse.analysis->trajectory.steps() < fewest_coarse_steps)
+    return false;
   const std::vector<ResponseChange> changes =
       response_changes(run.problem, run.analysis, *coarse.analysis);
   return std::ranges::all_of(asked_parts(run.problem),
@@ -160,7 +169,7 @@ namespace {
 const NestedRun* basis_of(const TrustedRun& run) {
   const CoarseRuns& coarse = coarse_runs(run);
   if (coarse.is_four_enough) return &coarse.four;
-  return coarse.twice.analysis ? &coarse.twice : nullptr;
+  return knows_what_is_asked(run, coarse.twice) ? &coarse.twice : nullptr;
 }
 
 }  // namespace
@@ -187,7 +196,7 @@ std::unique_ptr<Analysis> analyze_variant(const TrustedRun& run,
   change(variant);
   try {
     return analyze(with_steps_of(basis_of_variants(run).trajectory, variant), run.x,
-                   &run.analysis.trajectory);
+                   &run.analysis.trajectory, ShortWindow::unknown);
   } catch (const SimulationError&) {
     if (!run.shared->coarse->is_four_enough) throw;
   }

@@ -150,12 +150,21 @@ class VariantRun {
       return;
     }
     measure({problem, run_.x, *changed, run_.monitors});
-    const Eigen::VectorXd change = values_of(*changed) - values_of(basis_of_variants(run_));
-    found.changes.push_back({std::string(variant_.name), variant_.missing * change});
-    for (const bool is_serious : {true, false}) add_finding(is_serious, found.findings);
+    found.changes.push_back({std::string(variant_.name), missing_values()});
+    // One advice at a time: what helps against the large changes helps against the others.
+    if (!add_finding(true, found.findings)) add_finding(false, found.findings);
   }
 
  private:
+  /// What is missing of each response, nothing of round-off; not a number where it is unknown.
+  Eigen::VectorXd missing_values() const {
+    Eigen::VectorXd missing = variant_.missing * differences_;
+    for (Eigen::Index i = 0; i < missing.size(); ++i) {
+      if (changes_[i].of_value == 0.0 && std::isfinite(missing(i))) missing(i) = 0.0;
+    }
+    return missing;
+  }
+
   Finding failed(const std::string& why) const {
     return {fmt::format("{} {} might change anything: this design cannot be simulated then: {}",
                         quoted(beams_), words(beams_), why),
@@ -178,6 +187,7 @@ class VariantRun {
 
   void measure(const TrustedRun& changed) {
     changes_ = changes_of(changed.analysis);
+    differences_ = differences_of(changed.analysis);
     std::vector<std::size_t> told;
     for (std::size_t i = 0; i < changes_.size(); ++i) {
       if (changes_[i].of_value > tolerable_change) told.push_back(i);
@@ -196,37 +206,46 @@ class VariantRun {
   }
 
   /// Which beams the changes are due to: by a simulation with each alone, until one makes all of them;
-  /// of very many those whose own indicator is not far below the largest.
+  /// to first order the last makes what the others leave. Of very many those whose own indicator is not
+  /// far below the largest.
   void share_out() {
-    by_beam_.assign(beams_.size(), changes_);
-    if (beams_.size() == 1 || !variant_.is_by_beam) return;
-    const std::vector<ResponseChange> none(changes_.size());
-    for (std::size_t k = 0; k < beams_.size(); ++k) {
-      if (beams_.size() > most_told_apart) {
+    const std::size_t count = beams_.size();
+    by_beam_.assign(count, differences_);
+    if (count == 1 || !variant_.is_by_beam) return;
+    const Eigen::VectorXd none = Eigen::VectorXd::Zero(differences_.size());
+    if (count > most_told_apart) {
+      for (std::size_t k = 0; k < count; ++k) {
         if (indicators_[k] <= told_part * indicators_.front()) by_beam_[k] = none;
-        continue;
       }
+      return;
+    }
+    for (std::size_t k = 0; k + 1 < count; ++k) {
       try {
-        by_beam_[k] = changes_of(*analyze_variant(
+        by_beam_[k] = differences_of(*analyze_variant(
             run_, [&](ProblemFile& variant) { variant_.put_in(variant, beams_[k]); }));
       } catch (const SimulationError&) {  // this one has a part in all
         continue;
       }
+      by_beam_.back() -= by_beam_[k];
       if (!makes_all(by_beam_[k])) continue;
-      for (std::size_t other = 0; other < beams_.size(); ++other) {
+      for (std::size_t other = 0; other < count; ++other) {
         if (other != k) by_beam_[other] = none;
       }
       return;
     }
   }
 
-  bool makes_all(const std::vector<ResponseChange>& alone) const {
+  bool makes_all(const Eigen::VectorXd& alone) const {
     for (std::size_t i = 0; i < changes_.size(); ++i) {
-      const double change = changes_[i].of_value;
-      if (change <= tolerable_change) continue;
-      if (std::abs(alone[i].of_value - change) > told_part * change) return false;
+      if (changes_[i].of_value <= tolerable_change) continue;
+      const double by_others = std::abs(differences_(i) - alone(i));
+      if (by_others > told_part * std::abs(differences_(i))) return false;
     }
     return true;
+  }
+
+  Eigen::VectorXd differences_of(const Analysis& changed) const {
+    return values_of(changed) - values_of(basis_of_variants(run_));
   }
 
   /// What is missing of each response.
@@ -241,7 +260,8 @@ class VariantRun {
   }
 
   /// Of the responses whose change is alarming, or of the others that are worth a word.
-  void add_finding(bool is_serious, std::vector<Finding>& findings) const {
+  /// @returns whether there are any
+  bool add_finding(bool is_serious, std::vector<Finding>& findings) const {
     Names names, changed;
     std::vector<bool> has_part(beams_.size(), false);
     double largest = 0.0;
@@ -254,11 +274,11 @@ class VariantRun {
       changed.push_back(fmt::format("\"{}\" by {}", response.name, rough_percent(change)));
       largest = std::max(largest, change);
       for (std::size_t k = 0; k < beams_.size(); ++k) {
-        const bool is_told = by_beam_[k][i].of_value > told_part * change;
+        const bool is_told = std::abs(by_beam_[k](i)) > told_part * std::abs(differences_(i));
         if (is_told && depends_on(response, beams_[k])) has_part[k] = true;
       }
     }
-    if (names.empty()) return;
+    if (names.empty()) return false;
     Names beams;
     for (std::size_t k = 0; k < beams_.size(); ++k) {
       if (has_part[k]) beams.push_back(beams_[k]);
@@ -273,6 +293,7 @@ class VariantRun {
                         names,
                         {},
                         variant_.cause});
+    return true;
   }
 
   /// Whether a beam is tied to what a response is about.
@@ -291,8 +312,9 @@ class VariantRun {
   Names beams_;                     ///< that get what they leave out
   std::vector<double> indicators_;  ///< of each
   BodyGroups groups_;
-  std::vector<ResponseChange> changes_;               ///< one a response
-  std::vector<std::vector<ResponseChange>> by_beam_;  ///< by each beam alone
+  std::vector<ResponseChange> changes_;   ///< one a response
+  Eigen::VectorXd differences_;           ///< of the values [SI]
+  std::vector<Eigen::VectorXd> by_beam_;  ///< the same by each beam alone
 };
 
 }  // namespace

@@ -99,10 +99,10 @@ NestedRun simulate_refined(const ProblemFile& problem, const Eigen::VectorXd& x,
   try {
     run.problem = refined(problem, refinement);
     run.problem.simulation.moves_by_bending = true;  // whether it moves at all was asked before
-    run.analysis = analyze(run.problem, x, similar);
+    run.analysis = analyze(run.problem, x, similar, ShortWindow::unknown);
   } catch (const SimulationError& error) {
     run.failure = error.what();
-  } catch (const InputError& error) {  // a window without steps, more modes than coordinates …
+  } catch (const InputError& error) {  // more modes than coordinates …
     run.failure = error.what();
   }
   return run;

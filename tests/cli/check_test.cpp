@@ -259,18 +259,20 @@ TEST_F(Show, SaysWhatJointsLeaveFreeAndHowLongItTakes) {
   EXPECT_THAT(run.out, HasSubstr("Time: one simulation takes about "));
 }
 
-/// Some seven periods in place of one: more than the least of some times of the same work ever differ.
+/// Some seven periods in place of one: more than the least of some times of the same work ever differ,
+/// which are taken in turns.
 TEST_F(Show, ExpectsTheSearchForAMotionThatRepeatsItself) {
   const auto expected = [&](const std::string& start) {
-    double least = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < 4; ++i) {
-      const ProgramRun run = folder_.run({"show", problem("running_press"), "-o", start + ".html",
-                                          "--json", "--set", "/simulation/initial_state=" + start});
-      least = std::min(least, run.document().at("seconds").at("simulate").get<double>());
-    }
-    return least;
+    const ProgramRun run = folder_.run({"show", problem("running_press"), "-o", start + ".html",
+                                        "--json", "--set", "/simulation/initial_state=" + start});
+    return run.document().at("seconds").at("simulate").get<double>();
   };
-  EXPECT_GT(expected("periodic"), 2.0 * expected("consistent"));
+  double periodic = std::numeric_limits<double>::infinity(), consistent = periodic;
+  for (int i = 0; i < 5; ++i) {
+    periodic = std::min(periodic, expected("periodic"));
+    consistent = std::min(consistent, expected("consistent"));
+  }
+  EXPECT_GT(periodic, 2.0 * consistent);
 }
 
 /// A link that nothing drives, holds or pulls, on the end of a driven crank.

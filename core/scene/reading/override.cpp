@@ -175,13 +175,14 @@ void require_unit(const Json& document, const std::string& assignment, const std
   }
   const std::string unit = written.is_string() ? unit_of_text(written) : "";
   if (unit.empty()) return;
-  const double number = value.get<double>();
-  throw InputError(
-      fmt::format("{}: --set {}: the file has \"{}\" there: write \"{} {}\", or \"{} {}\" if the "
-                  "number is in SI "
-                  "units",
-                  file, assignment, written.get<std::string>(), shortest(number), unit,
-                  shortest(number / UnitSystem().measure(unit).scale), unit));
+  const double number = value.get<double>(), in_unit = number / UnitSystem().measure(unit).scale;
+  const std::string of_si =
+      in_unit == number
+          ? ""
+          : fmt::format(", or \"{} {}\" if the number is in SI units", shortest(in_unit), unit);
+  throw InputError(fmt::format("{}: --set {}: the file has \"{}\" there: write \"{} {}\"{}", file,
+                               assignment, written.get<std::string>(), shortest(number), unit,
+                               of_si));
 }
 
 void replace_at(Json& document, const std::string& pointer, const Json& value,

@@ -87,12 +87,12 @@ TEST(Lock, IsNoneWhereARodPasses) {
   }
 }
 
-TEST(Lock, NamesWhatIsInLine) {
+TEST(Lock, NamesTheDeadCentre) {
   const ProblemFile problem = slider_crank(0.055);
   const std::string said =
       thrown<LockedMechanism>([&] { analyze(problem, start_design(problem)); });
   EXPECT_THAT(said, HasSubstr("\"shaft\" at 66.44°"));
-  EXPECT_THAT(said, HasSubstr("\"rod\", \"slider\" are in line"));
+  EXPECT_THAT(said, HasSubstr("a dead centre of \"rod\", \"slider\""));
   EXPECT_THAT(said, HasSubstr("about 5 mm apart"));
 }
 

@@ -1,6 +1,7 @@
 #include <utility>
 
 #include "core/trust/check_list.hpp"
+#include "core/trust/checks.hpp"
 #include "tests/core/trust/trust_scenes.hpp"
 #include "tests/support/test.hpp"
 
@@ -29,7 +30,7 @@ struct FollowedColumn {
   std::vector<std::string> overrides = {};
 };
 
-std::vector<Finding> findings_of_followed(const FollowedColumn& column) {
+ProblemFile followed(const FollowedColumn& column) {
   constexpr double bending = 7e10 * 0.03 * 1e-6 / 12;
   const std::string value =
       fmt::format(fmt::runtime(column.value), column.press * bending, column.press * bending);
@@ -44,7 +45,11 @@ std::vector<Finding> findings_of_followed(const FollowedColumn& column) {
                      .end_loads = {{value, "[-1, 0, 0]", R"("follows": true)", "P"}},
                      .loads = column.loads,
                      .simulation = time_loop(column.end_time, 1e-3)};
-  return findings_of(beam.problem(column.overrides), check_stability);
+  return beam.problem(column.overrides);
+}
+
+std::vector<Finding> findings_of_followed(const FollowedColumn& column) {
+  return findings_of(followed(column), check_stability);
 }
 
 TEST(MotionStability, OfBecksColumnIsLostByFlutterOnly) {
@@ -53,6 +58,18 @@ TEST(MotionStability, OfBecksColumnIsLostByFlutterOnly) {
   const Finding beyond = only(findings_of_followed({22.0}));
   EXPECT_TRUE(beyond.is_serious);
   EXPECT_NE(beyond.text.find("flutter"), std::string::npos) << beyond.text;
+}
+
+/// A simulation that failed is judged up to three quarters of its time.
+TEST(MotionBefore, IsJudgedByWhatMakesASimulationFail) {
+  const auto before = [](const ProblemFile& problem) {
+    return check_motion_before(problem, start_design(problem), 0.4);
+  };
+  EXPECT_THAT(before(followed({5.0})), IsEmpty());
+  EXPECT_THAT(only(before(followed({22.0}))).text, HasSubstr("flutter"));
+  const ProblemFile coarse = followed(
+      {.press = 5.0, .value = R"({{"type": "harmonic", "amplitude": {}, "frequency": 300}})"});
+  EXPECT_THAT(only(before(coarse)).text, HasSubstr("changes faster than the steps can follow"));
 }
 
 /// Beside it a rigid pendulum that a dead force presses, and a soft spring holds too weakly: it turns away as

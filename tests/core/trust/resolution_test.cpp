@@ -76,6 +76,19 @@ TEST(Resolution, AdvisesDampingWhereNothingDamps) {
   EXPECT_THAT(advice("1e-4"), Not(HasSubstr("damping")));
 }
 
+/// A window of half a step, in which runs with four times the step have one instant.
+TEST(Resolution, LeavesUnknownOnlyWhatLargerStepsCannotTell) {
+  const ProblemFile problem = problem_from(
+      cantilever, {R"(/responses/jerk={"type": "stress", "body": "b", "over_time": "max",
+                                       "from": 0.05, "to": 0.05005})"});
+  const auto bars = judge_resolution(StartRun(problem).run()).bars;
+  EXPECT_FALSE(bars.at(response_index(problem, "jerk"))->is_resolved());
+  EXPECT_EQ(bars.at(response_index(problem, "mass"))->bound(), 0.0);
+  for (const char* seen : {"mass", "stress", "tip"}) {
+    EXPECT_TRUE(bars.at(response_index(problem, seen))->is_resolved()) << seen;
+  }
+}
+
 /// A minimized mass rests on nothing that moves; what nobody limits may be as wrong as it is.
 TEST(Resolution, IsSeriousForWhatIsMinimizedOrLimited) {
   const auto seriousness = [&](const char* limited) {
