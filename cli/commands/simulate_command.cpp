@@ -136,7 +136,7 @@ std::unique_ptr<Analysis> analyze_or_doubt(const ProblemInput& input) {
   } catch (const SimulationError& error) {
     std::vector<Finding> findings = check_proportions_before(input.problem, input.design);
     if (findings.empty() && error.time()) {
-      findings = check_motion_before(input.problem, input.design, *error.time());
+      findings = findings_before_failure(input.problem, input.design, *error.time());
     }
     show(stderr, warnings_text(texts_of(findings)));
     throw;

@@ -201,12 +201,13 @@ Trust judge_run(const TrustedRun& run) {
   return trust;
 }
 
-std::vector<Finding> check_motion_before(ProblemFile problem, const Eigen::VectorXd& x,
-                                         double time) {
+std::vector<Finding> findings_before_failure(ProblemFile problem, const Eigen::VectorXd& x,
+                                             double time) {
   // Beside the failure states may be none of the mechanism.
   constexpr double share = 0.75;
-  if (problem.simulation.period > 0.0) return {};
-  problem.simulation.end_time = share * time;
+  SimulationSettings& settings = problem.simulation;
+  if (settings.period > 0.0 || share * time < settings.step) return {};
+  settings.end_time = share * time;
   problem.responses.clear();
   problem.constraints.clear();
   try {

@@ -15,10 +15,10 @@ namespace pleuel {
 std::vector<Finding> check_before(const ProblemFile& problem);
 
 /// What speaks most against the motion of a simulation that failed, up to some steps before it did;
-/// nothing of a search for a motion that repeats itself.
+/// nothing of a search for a motion that repeats itself, or of less than a step.
 /// @param time  of the failure [s]
-std::vector<Finding> check_motion_before(ProblemFile problem, const Eigen::VectorXd& x,
-                                         double time);
+std::vector<Finding> findings_before_failure(ProblemFile problem, const Eigen::VectorXd& x,
+                                             double time);
 
 /// How far the numbers of a simulated design can be trusted.
 struct Trust {

@@ -63,7 +63,7 @@ TEST(MotionStability, OfBecksColumnIsLostByFlutterOnly) {
 /// A simulation that failed is judged up to three quarters of its time.
 TEST(MotionBefore, IsJudgedByWhatMakesASimulationFail) {
   const auto before = [](const ProblemFile& problem) {
-    return check_motion_before(problem, start_design(problem), 0.4);
+    return findings_before_failure(problem, start_design(problem), 0.4);
   };
   EXPECT_THAT(before(followed({5.0})), IsEmpty());
   EXPECT_THAT(only(before(followed({22.0}))).text, HasSubstr("flutter"));
