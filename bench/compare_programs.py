@@ -4,7 +4,8 @@ ratios B/A with their quartiles.
 
     bench/compare_programs.py OLD NEW [--commands simulate,gradient,optimize] [--pairs 9] [FILE …]
 
-OLD, NEW: programs in builds of their own, as build/release/bin/pleuel: a program finds its library by the path that it was linked with. FILE: problems; without, those that come with Pleuel.
+OLD, NEW: programs, as build/release/bin/pleuel, each in the build that made it: a copy still loads the library of that build. Both
+with the page of reports or both without. FILE: problems; without, those that come with Pleuel.
 """
 
 import argparse

@@ -135,8 +135,11 @@ std::unique_ptr<Analysis> analyze_or_doubt(const ProblemInput& input) {
     return analyze(input.problem, input.design);
   } catch (const SimulationError& error) {
     std::vector<Finding> findings = check_proportions_before(input.problem, input.design);
-    if (findings.empty() && error.time()) {
-      findings = findings_before_failure(input.problem, input.design, *error.time());
+    try {
+      if (findings.empty() && error.time()) {
+        findings = findings_before_failure(input.problem, input.design, *error.time());
+      }
+    } catch (const Stopped&) {  // who does not wait for it sees the error
     }
     show(stderr, warnings_text(texts_of(findings)));
     throw;

@@ -41,8 +41,7 @@ const OptionKind no_report{"--no-report", &Arguments::leaves_out_report,
                            "write no report.html; the command report makes it later"};
 const OptionKind resume{"--resume", &Arguments::resumes,
                         "go on with the run in the folder that was killed or interrupted: its "
-                        "search makes no evaluation "
-                        "twice",
+                        "search makes no evaluation twice",
                         "", [](CLI::Option& option) { option.excludes("--overwrite"); }};
 const OptionKind design{
     "--design", &Arguments::design,

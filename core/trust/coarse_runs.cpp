@@ -124,7 +124,7 @@ constexpr double same_values = 0.005;
 /// Runs of fewer steps may agree on having seen nothing.
 constexpr int fewest_coarse_steps = 64;
 
-/// Windows of time may hold too few of the larger steps.
+/// Not where it failed, or where windows of time hold too few of its larger steps.
 bool knows_what_is_asked(const TrustedRun& run, const NestedRun& coarse) {
   return coarse.analysis && std::ranges::all_of(asked_parts(run.problem), [&](std::size_t i) {
            return std::isfinite(coarse.analysis->reductions[i].value);
@@ -132,9 +132,8 @@ bool knows_what_is_asked(const TrustedRun& run, const NestedRun& coarse) {
 }
 
 bool says_the_same(const TrustedRun& run, const NestedRun& coarse) {
-  if (!knows_what_is_asked(run, coarse) ||
-      coarse.analysis->trajectory.steps() < fewest_coarse_steps)
-    return false;
+  if (!knows_what_is_asked(run, coarse)) return false;
+  if (coarse.analysis->trajectory.steps() < fewest_coarse_steps) return false;
   const std::vector<ResponseChange> changes =
       response_changes(run.problem, run.analysis, *coarse.analysis);
   return std::ranges::all_of(asked_parts(run.problem),
