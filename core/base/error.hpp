@@ -21,7 +21,7 @@ class SimulationError : public std::runtime_error {
   SimulationError(const std::string& text, std::optional<double> time)
       : std::runtime_error(text), time_(time) {}
 
-  /// Up to which it came [s], where it began and its steps are what failed.
+  /// Of the step that failed [s]; none where something else than a step did.
   std::optional<double> time() const { return time_; }
 
  private:
