@@ -55,6 +55,9 @@ Object.assign(runs, {
   "broken-start": ["optimize", problem("slider_crank"), ...quick, "--set", "/variables/rod_height/start=8 mm", "--set", "/variables/rod_width/start=5 mm"],
   front: ["pareto", problem("slider_crank_round"), ...quicker, "--set", '/pareto={"responses": ["crank_and_rod", "rod_bow"], "points": 4}'],
 });
+// Without a "used": that of a limit that is not positive has no meaning.
+const negative = '{"stays_left": {"response": "slider_end", "upper": "-1 mm"}, "rod_strength": {"response": "rod_stress", "upper": "500 MPa"}}';
+runs.negative = ["simulate", problem("slider_crank_round"), ...quick, "--set", '/pareto={"responses": ["crank_and_rod", "rod_bow"]}', "--set", `/constraints=${negative}`];
 // What novices meet: a search that fails at its start, a wrong unit, bounds far away, stiff and rigid members.
 Object.assign(runs, {
   failed: ["optimize", problem("hard/impossible_designs"), "--set", "/variables/crank_length/start=140 mm", "--set", "/variables/crank_length/lower=120 mm"],
@@ -552,6 +555,16 @@ describe("pages", { concurrency: 3 }, () => {
     await of("damage").locator("svg").waitFor();
     assert.doesNotMatch(await of("damage").locator("svg").innerHTML(), /≤/);
     assert.match(await tab.locator(".hero").innerText(), /the limit is exceeded/);
+    await tab.close();
+  });
+
+  test("a limit that is not positive is told when it is broken", async () => {
+    const { tab } = await open("negative");
+    const { constraints } = result("negative");
+    assert.deepEqual([constraints.stays_left.kept, constraints.stays_left.utilisation], [false, undefined]);
+    assert.match(await tab.locator(".hero").innerText(), /1 of 2 limits exceeded\s+stays left/);
+    const row = tab.locator("tbody tr", { hasText: "stays left" });
+    assert.match(await row.innerText(), /≤ −1(\.0*)? mm\s+broken/);
     await tab.close();
   });
 

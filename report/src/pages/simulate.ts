@@ -38,9 +38,9 @@ export function simulatePage(data: ReportData): HTMLElement[] {
 }
 
 function limitsSentence(result: Document): HTMLElement | null {
-  const limits = Object.values((result.constraints ?? {}) as Record<string, Document>);
+  const limits = Object.entries((result.constraints ?? {}) as Record<string, Document>);
   if (!limits.length) return null;
-  const broken = Object.entries(result.constraints as Record<string, Document>).filter(([, one]) => one.holds === false || one.utilisation > 1 + 1e-6);
+  const broken = limits.filter(([, one]) => !one.kept);
   const of = limits.length === 1 ? "the limit is" : `${broken.length} of ${limits.length} limits`;
   return broken.length
     ? h("p.verdict", {}, h("span.badge.warn", {}, `! ${of} exceeded`), ` ${broken.map(([name]) => words(name)).join(", ")}`)
@@ -65,7 +65,7 @@ function limitsTable(data: ReportData): HTMLElement | null {
           words(name),
           withUnit(withoutRoundOff(data.picture, data.picture?.limits[name]?.response ?? "", one.value, one.unit), unit),
           `${one.side === "lower" ? "≥" : "≤"} ${withUnit(one.limit, unit)}`,
-          used === undefined ? "–" : h(used > 1 + 1e-6 ? "span.bad" : "span", {}, share(used)),
+          h(one.kept ? "span" : "span.bad", {}, used !== undefined ? share(used) : one.kept ? "–" : "broken"),
         ];
       }),
     ),
