@@ -66,6 +66,7 @@ Object.assign(runs, {
   stars: ["prices", problem("robot_arm"), "--set", "/simulation/step=2 ms"],
   stiff: ["simulate", problem("hard/stiff_rod")],
   rigid: ["simulate", problem("hard/squeezer")],
+  effects: ["simulate", problem("slider_crank_round"), ...quick, "--effects"],
   sliding: ["simulate", problem("spatial_slider_crank")],
   solid: ["simulate", problem("conrod/stored"), "--no-checks"],
 });
@@ -324,6 +325,21 @@ describe("pages", { concurrency: 3 }, () => {
     if (small) assert.match(await shown.innerText(), new RegExp(`${small} further effects?`));
     await shown.getByText(`All ${effects.length} effects`).click();
     assert.equal(await shown.locator("tbody tr:visible").count(), important + effects.length);
+    await tab.close();
+  });
+
+  test("what an effect changes of the time of a simulation is told as in the terminal", async () => {
+    const { tab } = await open("effects");
+    const timed = result("effects").effects.filter((effect) => effect.time);
+    assert.ok(timed.length > 1);
+    const all = tab.locator("section", { has: tab.getByRole("heading", { name: "What is simulated" }) }).locator("details");
+    await all.locator("summary").click();
+    for (const { name, body } of timed) {
+      const words = terminal.effects.split("\n").find((line) => line.trim().split(/\s+/).slice(0, 2).join() === `${name},${body}`);
+      const said = words.match(/the same|not measurable|[+−]\d+( ± \d+)? %/)[0];
+      const row = all.locator("tbody tr", { hasText: name.replace(/_/g, " ") }).filter({ hasText: body });
+      assert.equal(await row.locator("td").nth(4).innerText(), said, `${name} of ${body}`);
+    }
     await tab.close();
   });
 

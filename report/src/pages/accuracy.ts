@@ -3,7 +3,7 @@ import type { Document, ReportData } from "../data";
 import { lineChart } from "../charts";
 import { h, section, table } from "../dom";
 import { count, number, percent, seconds, words } from "../format";
-import { filesSection } from "./parts";
+import { filesSection, timeChange } from "./parts";
 import { hero } from "./studies";
 
 interface Largest {
@@ -161,11 +161,6 @@ function allRuns(result: Document, counted: string[]): HTMLElement {
   );
 }
 
-function changeOfTime(one: Document): string {
-  if (Number.isFinite(one.time_change)) return one.time_change === 0 ? "the same work" : percent(one.time_change, 2);
-  return one.time ? "not measurable" : "–";
-}
-
 function knobs(result: Document, counted: string[]): HTMLElement | null {
   if (!(result.knobs ?? []).length) return null;
   return section(
@@ -186,7 +181,7 @@ function knobs(result: Document, counted: string[]): HTMLElement | null {
           words(knob.knob),
           String(knob.value),
           knob.simulation_seconds ? seconds(knob.simulation_seconds) : "–",
-          changeOfTime(knob),
+          timeChange(knob.time),
           errorCell(largest, result.reference?.errors),
           nameCell(largest),
         ];
@@ -220,7 +215,7 @@ function savedEffects(result: Document, counted: string[]): HTMLElement | null {
         words(one.effect),
         String(one.value),
         one.seconds ? seconds(one.seconds) : "–",
-        changeOfTime(one),
+        timeChange(one.time),
         one.failure ? "the simulation fails" : effectChange(one, values, counted),
       ]),
     ),

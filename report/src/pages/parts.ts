@@ -120,6 +120,7 @@ export function effectsSection(data: ReportData): HTMLElement | null {
   const { picture } = data;
   const objective = picture?.objective;
   const hasInfluence = effects.some((effect) => effect.influence);
+  const hasTimes = effects.some((effect) => effect.time);
   const objectiveUnit = objective ? unitOf(picture, objective, "kg") : null;
   const constraints: Record<string, Document> = data.result.constraints ?? {};
   /** Δf + Σ μ Δc: what leaving the effect out makes of the optimum. */
@@ -155,7 +156,7 @@ export function effectsSection(data: ReportData): HTMLElement | null {
     ...(hasWorth
       ? [effect.influence && worth(effect.influence) !== null ? smallMass(worth(effect.influence)!, objectiveUnit!) : "–"]
       : []),
-    ...(hasInfluence ? [effect.seconds !== undefined ? signedMs(effect.seconds) : "–"] : []),
+    ...(hasTimes ? [timeChange(effect.time)] : []),
     h("span.soft", {}, effect.reason ?? ""),
   ];
   const tableOf = (shown: Document[]) =>
@@ -167,7 +168,7 @@ export function effectsSection(data: ReportData): HTMLElement | null {
         { title: "", left: true, short: true },
         ...(hasInfluence ? [{ title: "changes most", left: true }] : []),
         ...(hasWorth ? [{ title: "worth" }] : []),
-        ...(hasInfluence ? [{ title: "time" }] : []),
+        ...(hasTimes ? [{ title: "time" }] : []),
         { title: "because", left: true },
       ],
       shown.map(rowOf),
@@ -179,7 +180,7 @@ export function effectsSection(data: ReportData): HTMLElement | null {
   const rest = restText(effects, important, data.result.responses ?? {});
   return section(
     "What is simulated",
-    hasInfluence ? "Effects that matter: what each changes of the numbers, and the time that it takes in one simulation." : "What is built for this scene, and why.",
+    hasInfluence ? `Effects that matter: how the numbers${hasTimes ? " and the time of a simulation" : ""} change without each.` : "What is built for this scene, and why.",
     important.length ? tableOf(important) : null,
     hasInfluence || important.length ? h("p.note", {}, rest) : null,
     h("details.inner", { open: data.card.command === "show" }, h("summary", {}, `All ${effects.length} effects, and why`), tableOf(effects)),
@@ -220,8 +221,13 @@ function smallMass(value: number, unit: Unit): string {
   return `${sign}${withUnit(size, unit, 2)}`;
 }
 
-function signedMs(value: number): string {
-  return `${value < 0 ? "−" : "+"}${number(Math.abs(1000 * value), 2)} ms`;
+/** "−15 ± 3 %", relative to the time of the same simulation without the change. */
+export function timeChange(time: Document): string {
+  if (!time) return "–";
+  if (time.change === 0 && time.spread === 0) return "the same";
+  if (!time.is_measurable) return "not measurable";
+  const spread = time.spread ? ` ± ${Math.ceil(100 * time.spread)}` : "";
+  return `${time.change < 0 ? "−" : "+"}${Math.abs(100 * time.change).toFixed(0)}${spread} %`;
 }
 
 /** A chip with a number and what it is. */
