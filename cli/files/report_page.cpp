@@ -20,9 +20,8 @@ constexpr std::string_view opening = R"(<script type="application/json" id="pleu
 constexpr std::string_view closing = "</script>";
 
 /// What pages show besides result.json.
-constexpr std::array<const char*, 7> shown_files = {
-    "history.csv",  "uncertainty.csv", "stability.csv",         "accuracy.csv",
-    "accuracy.svg", "gradients.csv",   "accuracy-gradients.svg"};
+constexpr std::array<const char*, 3> shown_files = {"history.csv", "uncertainty.csv",
+                                                    "gradients.csv"};
 constexpr std::uintmax_t largest_file = 3'000'000;  ///< [byte]
 
 /// A document inside a script element: "</script>" or "<!--" in a name must not end it.
