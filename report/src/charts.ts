@@ -40,7 +40,6 @@ export interface Series {
   dots?: boolean;
   line?: boolean;
   dashed?: boolean;
-  step?: boolean;
   silent?: boolean; // lets the mouse through to what lies below
   hollow?: boolean[]; // points that are drawn as rings
   labels?: string[]; // one a point, for the tooltip
@@ -123,7 +122,6 @@ function seriesOption(options: ChartOptions, s: Series, i: number) {
     symbol: "circle",
     silent: s.silent,
     symbolSize: isDots || (s.dots && options.onPick) ? 11 : s.dots ? 7 : 0,
-    step: s.step ? ("end" as const) : undefined,
     lineStyle: { color: paint, width: s.width ?? 1.6, type: s.dashed ? ("dashed" as const) : ("solid" as const) },
     itemStyle: { color: paint, borderColor: color("card"), borderWidth: s.dots ? 1 : 0 },
     emphasis: { disabled: !options.onPick && !s.dots },

@@ -28,7 +28,7 @@ import { SurfaceMember } from "./surface";
 export interface Member {
   object: Object3D;
   body: number;
-  update(pose: BodyPose, poses: BodyPose[], limit: number | null): void;
+  update(pose: BodyPose, limit: number | null): void;
   setLook(look: Look, isSelected: boolean): void;
   /** How far it leaves what the places do that joints hold [m]; of beams the motion tells. */
   deviation?(pose: BodyPose): number;
@@ -199,7 +199,7 @@ export class BeamMember implements Member {
     }
   }
 
-  update(pose: BodyPose, _poses: BodyPose[], limit: number | null): void {
+  update(pose: BodyPose, limit: number | null): void {
     const shownLimit = this.look.isGhost ? null : limit;
     for (const segment of this.segments) segment.update(pose, shownLimit, this.look.color);
   }
@@ -334,8 +334,8 @@ export function makeMember(
     const range = last - first || 1;
     const member = new BeamMember(body, [plainSegment(size)], stations.map((s) => (s - first) / range));
     const update = member.update.bind(member);
-    member.update = (pose, poses, limit) =>
-      update({ ...pose, stations: pose.stations.map((s) => (s - first) / range) }, poses, limit);
+    member.update = (pose, limit) =>
+      update({ ...pose, stations: pose.stations.map((s) => (s - first) / range) }, limit);
     return member;
   }
   return new LumpMember(body, motion, size);

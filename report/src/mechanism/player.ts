@@ -26,11 +26,9 @@ export interface Player {
   goTo(time: number): void;
   select(body: number | null): void;
   onTime(listener: (time: number) => void): void;
-  /** Design that is coloured. */
-  setMain?(design: number): void;
   /** Ends it: another one takes its place. */
   dispose(): void;
-  state(): { time: number; isPlaying: boolean; scale: number; hasDrawing: boolean };
+  state(): { time: number; isPlaying: boolean; scale: number };
   stage: Stage | null;
 }
 
@@ -298,7 +296,7 @@ export function makePlayer(options: PlayerOptions): Player {
       stopTheme();
       stage?.dispose();
     },
-    state: () => ({ time, isPlaying, scale, hasDrawing: !!stage }),
+    state: () => ({ time, isPlaying, scale }),
   };
 }
 

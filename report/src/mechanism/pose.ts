@@ -39,14 +39,6 @@ export class Motion {
     this.held = scene.bodies.map((_, i) => this.heldShares(i));
   }
 
-  get isMoving(): boolean {
-    return this.time.length > 1;
-  }
-
-  get end(): number {
-    return this.time[this.time.length - 1];
-  }
-
   poses(time: number, scale: number): BodyPose[] {
     const { index, part } = this.find(time);
     return this.bodies.map((_, i) => this.pose(i, index, part, scale));

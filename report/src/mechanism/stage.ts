@@ -152,7 +152,7 @@ export class Stage {
       if (!this.visible[i]) return;
       for (const member of actor.members) {
         const limit = this.isStressShown ? this.options.limits[member.body] : null;
-        member.update(this.poses[i][member.body], this.poses[i], limit);
+        member.update(this.poses[i][member.body], limit);
       }
       for (const symbol of actor.symbols) symbol.update(time, this.poses[i]);
     });
@@ -388,7 +388,7 @@ export class Stage {
         member.setLook(look, this.selected === member.body);
       }
       if (this.poses[i]) for (const member of actor.members) {
-        member.update(this.poses[i][member.body], this.poses[i], this.isStressShown ? this.options.limits[member.body] : null);
+        member.update(this.poses[i][member.body], this.isStressShown ? this.options.limits[member.body] : null);
       }
     });
     this.render();

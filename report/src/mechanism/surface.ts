@@ -134,7 +134,7 @@ export class SurfaceMember implements Member {
     this.object.add(this.mesh, this.edges);
   }
 
-  update(pose: BodyPose, _poses: BodyPose[], limit: number | null): void {
+  update(pose: BodyPose, limit: number | null): void {
     this.deform(pose);
     this.paint(this.look.isGhost ? null : limit);
     const positions = this.mesh.geometry.getAttribute("position");

@@ -2,12 +2,11 @@
 import type { Picture } from "../data";
 import { h } from "../dom";
 import { makePlayer, type Pick as Picked, type Player } from "../mechanism/player";
-import { type Inspector, makeInspector } from "./inspector";
+import { makeInspector } from "./inspector";
 
 export interface Viewing {
   element: HTMLElement;
   player: Player;
-  inspector: Inspector;
   pickBody(name: string | undefined): void;
   /** Calls with the name of each body that is clicked. */
   onBody(listener: (body: string) => void): void;
@@ -37,7 +36,6 @@ export function viewing(picture: Picture, main: number, showsNames = false, show
   return {
     element: h("section.card.viewing", { "aria-label": "mechanism" }, made.element, inspector.element),
     player: made,
-    inspector,
     onBody: (listener) => listeners.push(listener),
     pickBody(name) {
       const body = picture.scene.bodies.findIndex((one) => one.name === name);
