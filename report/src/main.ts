@@ -10,7 +10,7 @@ import { optimizePage } from "./pages/optimize";
 import { pricesPage } from "./pages/prices";
 import { showPage, simulatePage } from "./pages/simulate";
 import { stabilityPage } from "./pages/stability";
-import { genericPage, paretoPage } from "./pages/studies";
+import { hero, paretoPage } from "./pages/studies";
 import { uncertaintyPage } from "./pages/uncertainty";
 import { paperChoice } from "./paper";
 import { startTheme, themeButton } from "./theme";
@@ -40,7 +40,7 @@ function pageOf(data: ReportData): HTMLElement[] {
     case "check":
       return checkPage(data);
     default:
-      return genericPage(data);
+      return [hero(data, ""), filesSection(data)]; // of invariants, which are written for other programs
   }
 }
 

@@ -2,9 +2,9 @@
 import { lineChart, type Series } from "../charts";
 import { type Document, parseCsv, type Picture, type ReportData, type Unit } from "../data";
 import { h, section, table } from "../dom";
-import { engineering, number, sentence, sentenceCase, timeUnit, withUnit, words } from "../format";
+import { engineering, number, sentence, timeUnit, withUnit, words } from "../format";
 import { makePlayer } from "../mechanism/player";
-import { effectsSection, filesSection, responsesTable, verdict } from "./parts";
+import { filesSection, verdict } from "./parts";
 import { profiles } from "./inspector";
 import { sharedWarnings, warningsBox } from "./warnings";
 
@@ -162,88 +162,6 @@ function sectionsOf(picture: Picture): HTMLElement {
       return drawn ? h("div", {}, h("b", {}, words(body.name)), drawn) : null;
     }),
   );
-}
-
-/** Any other result: what it says, table by table. */
-export function genericPage(data: ReportData): HTMLElement[] {
-  const { picture } = data;
-  const parts: (HTMLElement | null)[] = [hero(data, picture?.description ?? "")];
-  if (picture?.designs.length && picture.designs[0].motion) parts.push(genericDrawing(picture));
-  parts.push(...csvCharts(data), ...genericSections(data), effectsSection(data), filesSection(data));
-  return parts.filter((part): part is HTMLElement => !!part);
-}
-
-function genericDrawing(picture: Picture): HTMLElement {
-  return h("section.card", {}, makePlayer({ picture, main: 0, onPick: () => undefined }).element);
-}
-
-const shownElsewhere = new Set(["status", "message", "warnings", "effects", "responses", "monitors", "seconds"]);
-
-function genericSections(data: ReportData): HTMLElement[] {
-  const { result } = data;
-  const sections: HTMLElement[] = [];
-  if (result.responses && Object.values(result.responses).some((one) => typeof (one as Document)?.value === "number")) {
-    const simple = Object.values(result.responses as Record<string, Document>).every((one) => one.error !== undefined || Object.keys(one).length <= 3);
-    if (simple) {
-      const shown = responsesTable(data);
-      if (shown) sections.push(section("Responses", "", shown));
-    } else sections.push(section("Responses", "", objectsTable(result.responses)));
-  }
-  const plain: [string, string][] = [];
-  for (const [key, value] of Object.entries(result)) {
-    if (shownElsewhere.has(key) || value === null) continue;
-    if (typeof value === "number" || typeof value === "string" || typeof value === "boolean") {
-      plain.push([words(key), typeof value === "number" ? number(value, 5) : String(value)]);
-    } else if (Array.isArray(value) && value.length && typeof value[0] === "object") {
-      sections.push(section(sentenceCase(words(key)), "", rowsTable(value)));
-    } else if (!Array.isArray(value) && isTableOfObjects(value as Document)) {
-      sections.push(section(sentenceCase(words(key)), "", objectsTable(value as Document)));
-    } else if (!Array.isArray(value)) {
-      sections.push(section(sentenceCase(words(key)), "", rowsTable([value as Document])));
-    }
-  }
-  if (plain.length) {
-    sections.push(section("In short", "", table([{ title: "", left: true }, { title: "", left: true }], plain)));
-  }
-  return sections;
-}
-
-function isTableOfObjects(value: Document): boolean {
-  const entries = Object.values(value);
-  return entries.length > 0 && entries.every((one) => one && typeof one === "object" && !Array.isArray(one));
-}
-
-function cellText(value: unknown, key = ""): string {
-  if (value === null || value === undefined) return "–";
-  if (typeof value === "number") return number(value, 4);
-  if (typeof value === "boolean") return value ? "yes" : "no";
-  if (Array.isArray(value)) return value.length > 8 ? `${value.length} entries` : value.map((one) => cellText(one)).join(", ");
-  if (typeof value === "object") {
-    const numbers = Object.entries(value as Document).filter((entry): entry is [string, number] => typeof entry[1] === "number");
-    if (key.endsWith("errors") && numbers.length > 2 && numbers.length === Object.keys(value).length) {
-      // Of many numbers, as errors of responses, the one that decides.
-      const [key, largest] = numbers.reduce((a, b) => (Math.abs(b[1]) > Math.abs(a[1]) ? b : a));
-      return `at most ${number(largest, 3)} (${words(key)})`;
-    }
-    return Object.entries(value as Document)
-      .map(([key, one]) => `${words(key)} ${cellText(one)}`)
-      .join("; ");
-  }
-  return String(value);
-}
-
-function rowsTable(rows: Document[]): HTMLElement {
-  const isPlain = (value: unknown) => !(Array.isArray(value) && value.some((one) => typeof one === "string" && one.length > 40));
-  const all = [...new Set(rows.flatMap((row) => Object.keys(row ?? {})))];
-  const keys = all.filter((key) => key !== "warnings" && rows.every((row) => isPlain(row?.[key])) && rows.some((row) => row?.[key] !== null && row?.[key] !== undefined));
-  return table(
-    keys.map((key) => ({ title: words(key), left: rows.some((row) => typeof row?.[key] !== "number") })),
-    rows.map((row) => keys.map((key) => cellText(row?.[key], key))),
-  );
-}
-
-function objectsTable(objects: Record<string, Document>): HTMLElement {
-  return rowsTable(Object.entries(objects).map(([name, one]) => ({ name: words(name), ...one })));
 }
 
 /** Histories with bands, derivatives over time: a chart for each column of a CSV file. */
