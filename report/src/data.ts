@@ -232,24 +232,27 @@ export function curveOf(packed: Packed, xFactor = 1, yFactor = 1): Curve {
   return curve;
 }
 
+/** Between which of rising numbers x is: behind which, and how far on the way to the next. */
+export function intervalOf(x: number, numbers: ArrayLike<number>, stride = 1): { index: number; part: number } {
+  let [low, high] = [0, numbers.length / stride - 1];
+  if (!(x > numbers[0])) return { index: 0, part: 0 };
+  if (x >= numbers[stride * high]) return { index: high, part: 0 };
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (numbers[stride * middle] <= x) low = middle;
+    else high = middle;
+  }
+  const [before, behind] = [numbers[stride * low], numbers[stride * high]];
+  return { index: low, part: (x - before) / (behind - before) };
+}
+
 /** Linear between the points of a curve; constant beyond. */
 export function valueAt(packed: Packed, time: number): number {
   const numbers = unpack(packed);
-  const rows = packed.rows;
-  const last = numbers.length / rows - 1;
-  if (last < 0) return 0;
-  let low = 0;
-  let high = last;
-  if (time <= numbers[0]) return numbers[1];
-  if (time >= numbers[rows * last]) return numbers[rows * last + 1];
-  while (high - low > 1) {
-    const middle = (low + high) >> 1;
-    if (numbers[rows * middle] <= time) low = middle;
-    else high = middle;
-  }
-  const [t0, t1] = [numbers[rows * low], numbers[rows * high]];
-  const [y0, y1] = [numbers[rows * low + 1], numbers[rows * high + 1]];
-  return t1 > t0 ? y0 + ((y1 - y0) * (time - t0)) / (t1 - t0) : y1;
+  if (!numbers.length) return 0;
+  const { index, part } = intervalOf(time, numbers, packed.rows);
+  const at = (i: number) => numbers[packed.rows * i + 1];
+  return part > 0 ? at(index) + part * (at(index + 1) - at(index)) : at(index);
 }
 
 /** RFC 4180, as the program writes it. */

@@ -1,6 +1,6 @@
 // Where everything is at an instant: positions of stations, frames, places; with deformation scaled.
-import { Quaternion, Vector3 } from "three";
-import { type Design, type Place, type Scene, unpack } from "../data";
+import { Matrix4, Quaternion, Vector3 } from "three";
+import { type Design, intervalOf, type Place, type Scene, unpack } from "../data";
 
 /** One body at an instant. */
 export interface BodyPose {
@@ -40,7 +40,7 @@ export class Motion {
   }
 
   poses(time: number, scale: number): BodyPose[] {
-    const { index, part } = this.find(time);
+    const { index, part } = intervalOf(time, this.time);
     return this.bodies.map((_, i) => this.pose(i, index, part, scale));
   }
 
@@ -50,7 +50,8 @@ export class Motion {
     const pose = poses[place.body];
     if (place.share !== undefined) return pointAlong(pose, place.share);
     const type = this.scene.bodies[place.body].type;
-    if (type === "invariants") return nearest(pose, place, this.bodies[place.body]);
+    // Of an imported body the place of its file that lies there.
+    if (type === "invariants") return pose.points[nearestStation(pose, place.point?.[0] ?? 0)].clone();
     const point = new Vector3(...(place.point ?? [0, 0, 0]));
     return point.applyQuaternion(pose.frames[0]).add(pose.origin);
   }
@@ -74,19 +75,6 @@ export class Motion {
       });
     }
     return largest;
-  }
-
-  private find(time: number): { index: number; part: number } {
-    let low = 0;
-    let high = this.time.length - 1;
-    if (high === 0 || time <= this.time[0]) return { index: 0, part: 0 };
-    if (time >= this.time[high]) return { index: high, part: 0 };
-    while (high - low > 1) {
-      const middle = (low + high) >> 1;
-      if (this.time[middle] <= time) low = middle;
-      else high = middle;
-    }
-    return { index: low, part: (time - this.time[low]) / (this.time[high] - this.time[low] || 1) };
   }
 
   private rawPoints(body: MovingBody, index: number, part: number): Vector3[] {
@@ -164,7 +152,7 @@ export class Motion {
   private standing(i: number): MovingBody {
     const geometry = this.design.geometry.bodies[i];
     const axes = geometry.axes;
-    const q = quaternionOf(axes);
+    const [x, y, z] = axes.map((axis) => new Vector3(...axis));
     const isLong = geometry.length !== undefined;
     const stations = isLong ? [0, 0.25, 0.5, 0.75, 1] : [0];
     const positions = stations.flatMap((s) =>
@@ -174,7 +162,7 @@ export class Motion {
       stations,
       parts: stations.map(() => 0),
       positions: new Float32Array(positions),
-      rotations: new Float32Array([q.x, q.y, q.z, q.w]),
+      rotations: new Float32Array(turnTo(x, y, z).toArray()),
       frameCount: 1,
       stress: null,
       elastic: null,
@@ -207,24 +195,9 @@ function elasticPose(body: MovingBody, index: number, next: number, part: number
   return { coordinates: between(coordinates, size), origin: new Vector3(x, y, z), scale };
 }
 
-function quaternionOf(axes: [number, number, number][]): Quaternion {
-  const [x, y, z] = axes;
-  // The matrix has the axes as columns.
-  const trace = x[0] + y[1] + z[2];
-  if (trace > 0) {
-    const s = 2 * Math.sqrt(trace + 1);
-    return new Quaternion((y[2] - z[1]) / s, (z[0] - x[2]) / s, (x[1] - y[0]) / s, s / 4).normalize();
-  }
-  if (x[0] > y[1] && x[0] > z[2]) {
-    const s = 2 * Math.sqrt(1 + x[0] - y[1] - z[2]);
-    return new Quaternion(s / 4, (y[0] + x[1]) / s, (z[0] + x[2]) / s, (y[2] - z[1]) / s).normalize();
-  }
-  if (y[1] > z[2]) {
-    const s = 2 * Math.sqrt(1 + y[1] - x[0] - z[2]);
-    return new Quaternion((y[0] + x[1]) / s, s / 4, (z[1] + y[2]) / s, (z[0] - x[2]) / s).normalize();
-  }
-  const s = 2 * Math.sqrt(1 + z[2] - x[0] - y[1]);
-  return new Quaternion((z[0] + x[2]) / s, (z[1] + y[2]) / s, s / 4, (x[1] - y[0]) / s).normalize();
+/** Turns the axes of space into x, y, z. */
+export function turnTo(x: Vector3, y: Vector3, z: Vector3): Quaternion {
+  return new Quaternion().setFromRotationMatrix(new Matrix4().makeBasis(x, y, z));
 }
 
 function scaledFrom(straight: Vector3[], points: Vector3[], scale: number): Vector3[] {
@@ -252,12 +225,7 @@ export function stressAlong(pose: BodyPose, share: number): number | null {
 
 /** dx/ds by three points: exact for a parabola. */
 function tangentAt(pose: BodyPose, share: number): Vector3 {
-  const n = pose.stations.length;
-  const nearestStation = pose.stations.reduce(
-    (best, s, k) => (Math.abs(s - share) < Math.abs(pose.stations[best] - share) ? k : best),
-    0,
-  );
-  const m = Math.min(Math.max(nearestStation, 1), n - 2);
+  const m = Math.min(Math.max(nearestStation(pose, share), 1), pose.stations.length - 2);
   const [s0, s1, s2] = [pose.stations[m - 1], pose.stations[m], pose.stations[m + 1]];
   const w0 = (2 * share - s1 - s2) / ((s0 - s1) * (s0 - s2));
   const w1 = (2 * share - s0 - s2) / ((s1 - s0) * (s1 - s2));
@@ -268,12 +236,7 @@ function tangentAt(pose: BodyPose, share: number): Vector3 {
     .addScaledVector(pose.points[m + 1], w2);
 }
 
-/** Of an imported body the place of its file that lies there. */
-function nearest(pose: BodyPose, place: Place, body: MovingBody): Vector3 {
-  const x = place.point ? place.point[0] : 0;
-  let best = 0;
-  body.stations.forEach((s, k) => {
-    if (Math.abs(s - x) < Math.abs(body.stations[best] - x)) best = k;
-  });
-  return pose.points[best].clone();
+export function nearestStation(pose: BodyPose, x: number): number {
+  const distances = pose.stations.map((s) => Math.abs(s - x));
+  return distances.indexOf(Math.min(...distances));
 }

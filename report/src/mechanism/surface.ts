@@ -9,14 +9,13 @@ import {
   LineSegments,
   Mesh,
   MeshLambertMaterial,
-  Quaternion,
   Vector3,
 } from "three";
 import { type Surface, unpack } from "../data";
 import { stressColor } from "../theme";
 import { type Look, showLook } from "./look";
 import type { Member } from "./members";
-import type { BodyPose } from "./pose";
+import { type BodyPose, nearestStation } from "./pose";
 
 /** Of a triangle: rows that make xx, yy and xy of its strain from the displacements of its corners. */
 interface StrainRows {
@@ -185,7 +184,9 @@ export class SurfaceMember implements Member {
   private fromHeld(pose: BodyPose): Vector3[] {
     const origin = pose.elastic?.origin ?? pose.origin;
     const back = pose.frames[0].clone().invert();
-    const moved = this.held.places.map((place) => nearestPoint(pose, place, origin, back).sub(place));
+    // The station nearest to a place tells where it is, in the axes of the body.
+    const pointOf = (place: Vector3) => pose.points[nearestStation(pose, place.x)].clone().sub(origin).applyQuaternion(back);
+    const moved = this.held.places.map((place) => pointOf(place).sub(place));
     return this.points.map((point, i) => this.displacements[i].clone().sub(this.held.at(point, moved)));
   }
 
@@ -218,13 +219,4 @@ export class SurfaceMember implements Member {
     const ends = new EdgesGeometry(geometry, 35).getAttribute("position");
     return Array.from({ length: ends.count }, (_, i) => index.get(key(ends.getX(i), ends.getY(i), ends.getZ(i)))!);
   }
-}
-
-/** Where a place of the body is, in its axes: the station nearest to it tells. */
-function nearestPoint(pose: BodyPose, place: Vector3, origin: Vector3, back: Quaternion): Vector3 {
-  let best = 0;
-  pose.stations.forEach((x, k) => {
-    if (Math.abs(x - place.x) < Math.abs(pose.stations[best] - place.x)) best = k;
-  });
-  return pose.points[best].clone().sub(origin).applyQuaternion(back);
 }

@@ -21,7 +21,7 @@ import {
 import { valueAt } from "../data";
 import { color } from "../theme";
 import { placeBetween } from "./members";
-import type { BodyPose, Motion } from "./pose";
+import { type BodyPose, type Motion, turnTo } from "./pose";
 
 export interface View {
   size: number; // of the mechanism [m]
@@ -116,9 +116,7 @@ function facing(axis: Vector3, upwards: Vector3): Quaternion {
   const y = upwards.clone().addScaledVector(z, -upwards.dot(z));
   if (y.length() < 1e-6) return new Quaternion().setFromUnitVectors(zAxis, z);
   y.normalize();
-  const helper = new Object3D();
-  helper.matrix.makeBasis(new Vector3().crossVectors(y, z), y, z);
-  return new Quaternion().setFromRotationMatrix(helper.matrix);
+  return turnTo(new Vector3().crossVectors(y, z), y, z);
 }
 
 /** How far a sliding joint travels along its axis from where it starts [m]. */
@@ -158,9 +156,7 @@ export function jointSymbol(motion: Motion, j: number, view: View): Symbol3 {
     const track = rails(r, low - 3 * r, high + 3 * r);
     track.position.set(...places[1].at);
     const y = new Vector3().crossVectors(side, axis).normalize();
-    const helper = new Object3D();
-    helper.matrix.makeBasis(axis, y, new Vector3().crossVectors(axis, y));
-    track.quaternion.setFromRotationMatrix(helper.matrix);
+    track.quaternion.copy(turnTo(axis, y, new Vector3().crossVectors(axis, y)));
     object.add(track);
     if (joint.is_guide) {
       front.add(square(0.8 * r, !!joint.drive));
