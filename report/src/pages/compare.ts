@@ -1,11 +1,10 @@
 // Two runs beside each other: which to build, how both move, what differs.
-import { lineChart } from "../charts";
-import { curveOf, type Design, type Document, type Picture, type ReportData } from "../data";
+import { type Design, type Document, type Picture, type ReportData } from "../data";
 import { h, section, table } from "../dom";
-import { count, engineering, errorText, number, percent, timeUnit, withUnit, words } from "../format";
+import { count, engineering, errorText, number, percent, withUnit, words } from "../format";
 import { makePlayer } from "../mechanism/player";
 import { buildSection } from "./build_table";
-import { curveMeaning, limitsOn } from "./inspector";
+import { historyChart } from "./history";
 import { filesSection, unitOf, unitOfLimit, verdict } from "./parts";
 import { type Viewing, viewing } from "./viewing";
 
@@ -124,24 +123,16 @@ function tables(data: ReportData): HTMLElement[] {
 }
 
 function historiesSection(both: Picture, shown: Viewing): HTMLElement | null {
-  const unit = timeUnit(both.scene.end_time);
   const [a, b] = both.designs;
   const charts = (b.responses ?? []).flatMap((one) => {
     const before = a.responses?.find((response) => response.name === one.name);
     if (!one.history || !before?.history) return [];
-    const meaning = curveMeaning(both.responses[one.name], Math.max(Math.abs(one.value), Math.abs(before.value)));
-    const chart = lineChart({
-      title: words(one.name),
-      yTitle: meaning.unit.name,
-      xTitle: `time [${unit.name}]`,
-      height: 180,
-      series: [
-        { name: "first", color: "start", ...curveOf(before.history, unit.factor, meaning.unit.factor) },
-        { name: "second", color: "accent", ...curveOf(one.history, unit.factor, meaning.unit.factor) },
-      ],
-      limits: limitsOn(both, one.name).map((limit) => ({ value: limit.value / meaning.unit.factor, label: `${limit.side} ${withUnit(limit.value, meaning.unit, 3)}` })),
-    });
-    shown.player.onTime((time) => chart.setCursor(time / unit.factor));
+    const curves = [
+      { name: "first", color: "start", shown: before },
+      { name: "second", color: "accent", shown: one },
+    ];
+    const chart = historyChart({ picture: both, name: one.name, meaning: both.responses[one.name], curves, height: 180 });
+    shown.player.onTime(chart.setTime);
     return [chart.element];
   });
   return charts.length ? section("Histories", "Limits are those of the second.", h("div.grid", {}, charts)) : null;

@@ -1,9 +1,9 @@
 // What is known of the member or joint that was clicked: its histories with limits and peaks.
-import { type Chart, lineChart } from "../charts";
-import { type Companion, curveOf, type Meaning, type Picture, type Shown, valueAt } from "../data";
+import type { Companion, Meaning, Picture, Shown } from "../data";
 import { h } from "../dom";
-import { inThousands, number, percent, placeText, seconds, timeUnit, withUnit, words } from "../format";
+import { number, percent, placeText, seconds, withUnit, words } from "../format";
 import type { Pick } from "../mechanism/player";
+import { type HistoryChart, historyChart, limitsOn } from "./history";
 
 export interface Inspector {
   element: HTMLElement;
@@ -22,56 +22,27 @@ export function makeInspector(picture: Picture, main: number, goTo: (time: numbe
   const known = h("div", { "aria-live": "polite" });
   const chooser = makeChooser(picture, onChoose);
   const element = h("aside.inspector", { "aria-label": "one member or joint" }, chooser.element, known);
-  let charts: Chart[] = [];
-  const unit = timeUnit(picture.scene.end_time);
+  let charts: HistoryChart[] = [];
   let now = 0;
 
-  const chartOf = (quantity: Quantity): HTMLElement | null => {
-    const largest = Math.max(...quantity.shown.map((one) => Math.abs(one.value.value)));
-    const meaning = curveMeaning(quantity.meaning, largest);
-    const curves = quantity.shown.filter((one) => one.value.history);
-    if (!curves.length) return null;
-    const limits = limitsOn(picture, quantity.name);
-    const top = curves.find((one) => one.isMain) ?? curves[0];
-    const peak = top.value;
-    const chart = lineChart({
-      title: words(quantity.name),
-      yTitle: meaning.unit.name,
-      xTitle: `time [${unit.name}]`,
-      height: 150,
-      series: curves.map((one) => ({
-        name: one.design,
-        color: one.isMain ? "accent" : "start",
-        width: one.isMain ? 1.8 : 1.2,
-        ...curveOf(one.value.history!, unit.factor, meaning.unit.factor),
-      })),
-      limits: limits.map((limit) => ({
-        value: limit.value / meaning.unit.factor,
-        label: `${limit.side} ${withUnit(limit.value, meaning.unit, 3)}`,
-      })),
-      peaks:
-        peak.peak_time === undefined || quantity.meaning.limits_history === false
-          ? []
-          : [
-              {
-                x: peak.peak_time / unit.factor,
-                y: valueAt(peak.history!, peak.peak_time) / meaning.unit.factor,
-                label: signed(peak, meaning.unit.factor),
-                color: "accent",
-              },
-            ],
-    });
-    chart.setCursor(now / unit.factor);
+  const chartOf = (quantity: Quantity): HTMLElement => {
+    const peak = (quantity.shown.find((one) => one.isMain) ?? quantity.shown[0]).value;
+    const curves = quantity.shown.map(({ design, isMain, value }) => ({
+      name: design,
+      color: isMain ? "accent" : "start",
+      width: isMain ? 1.8 : 1.2,
+      shown: value,
+    }));
+    const chart = historyChart({ picture, name: quantity.name, meaning: quantity.meaning, curves, peak, height: 150 });
+    chart.setTime(now);
     charts.push(chart);
-    chart.element.append(peakLine(quantity, top.value, goTo));
+    chart.element.append(peakLine(quantity, peak, goTo));
     return chart.element;
   };
 
   const show = (pick: Pick) => {
     charts = [];
-    const drawn = quantitiesOf(picture, pick, main)
-      .map(chartOf)
-      .filter((one): one is HTMLElement => !!one);
+    const drawn = quantitiesOf(picture, pick, main).map(chartOf);
     chooser.set(pick);
     known.replaceChildren(...heading(picture, pick, main), ...drawn.slice(0, 3));
     if (drawn.length > 3) {
@@ -85,17 +56,9 @@ export function makeInspector(picture: Picture, main: number, goTo: (time: numbe
     show,
     setTime(time) {
       now = time;
-      for (const chart of charts) chart.setCursor(time / unit.factor);
+      for (const chart of charts) chart.setTime(time);
     },
   };
-}
-
-/** What a history shows: in the unit of its instants, not in that of the number made from it. */
-export function curveMeaning(meaning: Meaning, largest: number): Meaning {
-  const unit = meaning.history_unit ?? meaning.unit;
-  // What cycles are counted in, whatever they add up to.
-  if (meaning.type.startsWith("fatigue")) return { ...meaning, unit: { ...unit, name: "stress / strength" } };
-  return { ...meaning, unit: inThousands(unit, largest / unit.factor) };
 }
 
 /** The list of members and joints, for the keyboard and for readers of screens. */
@@ -120,12 +83,6 @@ function makeChooser(picture: Picture, onChoose: (pick: Pick) => void): { elemen
   };
 }
 
-/** The result with the sign that the curve has there: magnitudes have none. */
-export function signed(peak: Shown, factor: number): string {
-  const there = valueAt(peak.history!, peak.peak_time!);
-  return number((there < 0 ? -Math.abs(peak.value) : peak.value) / factor);
-}
-
 function peakLine(quantity: Quantity, peak: Shown, goTo: (time: number) => void): HTMLElement {
   const several = quantity.shown.length > 1;
   const parts = quantity.shown.map((one) => `${several ? `${one.design} ` : ""}${withUnit(one.value.value, quantity.meaning.unit)}`);
@@ -138,22 +95,6 @@ function peakLine(quantity: Quantity, peak: Shown, goTo: (time: number) => void)
     );
   }
   return line;
-}
-
-export function limitsOn(picture: Picture, response: string): { value: number; side: string }[] {
-  const limits: { value: number; side: string }[] = [];
-  if (picture.responses[response]?.limits_history === false) return limits;
-  for (const limit of Object.values(picture.limits)) {
-    if (limit.response !== response) continue;
-    if (limit.upper !== undefined) {
-      limits.push({ value: limit.upper, side: "≤" });
-      const meaning = picture.responses[response];
-      const hasSign = meaning.over_time === "max-abs" && meaning.type !== "stress";
-      if (hasSign) limits.push({ value: -limit.upper, side: "≥" });
-    }
-    if (limit.lower !== undefined) limits.push({ value: limit.lower, side: "≥" });
-  }
-  return limits;
 }
 
 function heading(picture: Picture, pick: Pick, main: number): HTMLElement[] {

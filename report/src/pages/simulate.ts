@@ -1,9 +1,10 @@
 // Of one simulation, and of a mechanism that is only drawn.
 import { lineChart } from "../charts";
-import { curveOf, type Document, type Packed, type Picture, type ReportData, type SceneBody, valueAt } from "../data";
+import { curveOf, type Document, type Packed, type Picture, type ReportData, type SceneBody } from "../data";
 import { h, section, table } from "../dom";
 import { count, engineering, number, seconds, share, timeUnit, withUnit, words } from "../format";
-import { curveMeaning, limitsOn, profiles, signed } from "./inspector";
+import { historyChart } from "./history";
+import { profiles } from "./inspector";
 import { type Viewing, viewing } from "./viewing";
 import { effectsSection, fact, filesSection, monitorsText, responsesTable, unitOfLimit, withoutRoundOff } from "./parts";
 import { warningsBox } from "./warnings";
@@ -76,7 +77,6 @@ function limitsTable(data: ReportData): HTMLElement | null {
 const mostCharts = 24;
 
 export function historiesSection(picture: Picture, shown: Viewing | null): HTMLElement | null {
-  const unit = timeUnit(picture.scene.end_time);
   const design = picture.designs[0];
   const all = [
     ...(design.responses ?? []).map((one) => ({ one, meaning: picture.responses[one.name] })),
@@ -85,24 +85,10 @@ export function historiesSection(picture: Picture, shown: Viewing | null): HTMLE
   if (!all.length) return null;
   const hasMany = all.length > mostCharts;
   const drawn = hasMany ? all.filter(({ meaning }) => meaning.type !== "reaction-force") : all;
-  const charts = drawn.map(({ one, meaning: given }) => {
-    const meaning = curveMeaning(given, Math.abs(one.value));
-    const chart = lineChart({
-      title: words(one.name),
-      yTitle: meaning.unit.name,
-      xTitle: `time [${unit.name}]`,
-      height: 180,
-      series: [{ name: words(one.name), color: "accent", ...curveOf(one.history!, unit.factor, meaning.unit.factor) }],
-      limits: limitsOn(picture, one.name).map((limit) => ({
-        value: limit.value / meaning.unit.factor,
-        label: `${limit.side} ${withUnit(limit.value, meaning.unit, 3)}`,
-      })),
-      peaks:
-        one.peak_time === undefined || given.limits_history === false
-          ? []
-          : [{ x: one.peak_time / unit.factor, y: valueAt(one.history!, one.peak_time) / meaning.unit.factor, label: signed(one, meaning.unit.factor), color: "accent" }],
-    });
-    shown?.player.onTime((time) => chart.setCursor(time / unit.factor));
+  const charts = drawn.map(({ one, meaning }) => {
+    const curves = [{ name: words(one.name), color: "accent", shown: one }];
+    const chart = historyChart({ picture, name: one.name, meaning, curves, peak: one, height: 180 });
+    shown?.player.onTime(chart.setTime);
     return chart.element;
   });
   const note = hasMany
