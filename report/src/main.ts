@@ -1,6 +1,6 @@
 import "./style.css";
 import { readData, type ReportData } from "./data";
-import { h } from "./dom";
+import { h, heroOf, type Page } from "./dom";
 import { accuracyPage } from "./pages/accuracy";
 import { checkPage } from "./pages/check";
 import { comparePage } from "./pages/compare";
@@ -15,7 +15,7 @@ import { uncertaintyPage } from "./pages/uncertainty";
 import { paperChoice } from "./paper";
 import { startTheme, themeButton } from "./theme";
 
-function pageOf(data: ReportData): HTMLElement[] {
+function pageOf(data: ReportData): Page {
   switch (data.card.command) {
     case "optimize":
       return optimizePage(data);
@@ -45,13 +45,13 @@ function pageOf(data: ReportData): HTMLElement[] {
 }
 
 /** A document that is not whole shows what can be read of it. */
-function wholePage(data: ReportData): HTMLElement[] {
+function wholePage(data: ReportData): Page {
   try {
     return pageOf(data);
   } catch (error) {
     console.warn(error);
     const text = `The result of this run is not whole, or of another version: its page cannot be made (${String(error)}).`;
-    return [h("section.hero", {}, h("div", {}, h("h1", {}, data.card.command ?? ""), h("p.verdict", {}, h("span.badge.warn", {}, "! damaged"), ` ${text}`))), filesSection(data)];
+    return [heroOf([h("h1", {}, data.card.command ?? ""), h("p.verdict", {}, h("span.badge.warn", {}, "! damaged"), ` ${text}`)]), filesSection(data)];
   }
 }
 
@@ -76,7 +76,7 @@ function start(): void {
       h("button.quiet", { onclick: () => window.print(), title: "print" }, "Print"),
       themeButton(),
     ),
-    ...wholePage(data),
+    ...wholePage(data).filter((part) => part !== null),
     h("footer.soft", {}, `Pleuel ${data.card.versions?.pleuel ?? ""} · space plays, arrows go from instant to instant, Ctrl and wheel zoom`),
   );
 }

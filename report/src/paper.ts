@@ -1,5 +1,5 @@
 // Pictures for a paper: as wide as one column or two, on white, at 300 dots an inch.
-import { download, h } from "./dom";
+import { choice, download } from "./dom";
 
 const pixelsPerMillimetre = 96 / 25.4; // as style sheets count
 const dotsPerPixel = 300 / 96;
@@ -11,14 +11,9 @@ export function paperWidth(): number {
 }
 
 export function paperChoice(): HTMLElement {
-  const names: [number, string][] = [[170, "170 mm"], [85, "85 mm"]];
-  const select = h(
-    "select",
-    { "aria-label": "width of saved pictures", title: "width of saved pictures: two columns of a paper, or one" },
-    names.map(([value, name]) => h("option", { value }, name)),
-  ) as HTMLSelectElement;
-  select.addEventListener("change", () => (millimetres = Number(select.value)));
-  return h("label.choice", {}, h("span.soft", {}, "save pictures at"), select);
+  const widths = [["170", "170 mm"], ["85", "85 mm"]];
+  const hint = "width of saved pictures: two columns of a paper, or one";
+  return choice("save pictures at", widths, "170", (value) => (millimetres = Number(value)), hint);
 }
 
 /** What is drawn meanwhile has the colours of paper. */

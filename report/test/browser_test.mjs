@@ -258,7 +258,7 @@ describe("pages", { concurrency: 3 }, () => {
     for (const text of ["crank stress", "[MPa]", "time [ms]"]) assert.ok(wide.includes(text), text);
     assert.match(wide, /fill="#ffffff"|fill="#fff"|fill="white"|rgb\(255/);
     assert.match((await save(chart, "CSV")).toString(), /^series,time \[ms\],crank stress \[MPa\]/);
-    await tab.selectOption('[aria-label="width of saved pictures"]', "85");
+    await tab.selectOption('[aria-label^="width of saved pictures"]', "85");
     assert.match((await save(chart, "SVG")).toString(), /width="84\.\d|width="85\.\d/);
     const png = await save(chart, "PNG");
     assert.ok(Math.abs(png.readUInt32BE(16) - (300 / 25.4) * 85) < 4);

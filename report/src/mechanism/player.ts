@@ -1,6 +1,6 @@
 // The moving drawing with its controls, and the clock that charts follow.
 import type { Design, Picture } from "../data";
-import { h } from "../dom";
+import { choice, h } from "../dom";
 import { number, seconds, words } from "../format";
 import { onTheme, stressGradient } from "../theme";
 import { saveDrawing } from "./drawing_file";
@@ -298,16 +298,6 @@ export function makePlayer(options: PlayerOptions): Player {
     },
     state: () => ({ time, isPlaying, scale }),
   };
-}
-
-function choice(label: string, values: string[][], chosen: string, onChange: (value: string) => void): HTMLElement {
-  const select = h(
-    "select",
-    { "aria-label": label, title: label },
-    values.map(([value, text]) => h("option", { value, selected: value === chosen }, text)),
-  ) as HTMLSelectElement;
-  select.addEventListener("change", () => onChange(select.value));
-  return h("label.choice", {}, h("span.soft", {}, label), select);
 }
 
 /** "1/70 of real time". */

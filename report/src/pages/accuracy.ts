@@ -1,7 +1,7 @@
 // What accuracy costs: the cheapest setting for each error, and all that was tried.
 import type { Document, ReportData } from "../data";
 import { lineChart } from "../charts";
-import { h, section, table } from "../dom";
+import { h, type Page, section, table } from "../dom";
 import { count, number, percent, seconds, words } from "../format";
 import { filesSection, timeChange } from "./parts";
 import { hero } from "./studies";
@@ -245,7 +245,7 @@ function wholeOptimizations(data: ReportData): HTMLElement | null {
   );
 }
 
-export function accuracyPage(data: ReportData): HTMLElement[] {
+export function accuracyPage(data: ReportData): Page {
   const { result } = data;
   const counted: string[] = result.counted ?? [];
   const wanted = `${number(100 * (result.error ?? 0.01), 3)} %`;
@@ -261,5 +261,5 @@ export function accuracyPage(data: ReportData): HTMLElement[] {
     savedEffects(result, counted),
     wholeOptimizations(data),
     filesSection(data),
-  ].filter((part): part is HTMLElement => !!part);
+  ];
 }

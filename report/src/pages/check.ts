@@ -1,7 +1,7 @@
 // Of a check: what will be built, whether the derivatives can be trusted, how long things take.
 import { lineChart } from "../charts";
 import type { Document, ReportData } from "../data";
-import { h, section, table } from "../dom";
+import { chosenView, h, type Page, section, table } from "../dom";
 import { count, number, seconds, withUnit, words } from "../format";
 import { influenceSection } from "./influence";
 import { viewing } from "./viewing";
@@ -59,32 +59,31 @@ function curvesSection(data: ReportData): HTMLElement | null {
   const responses = Object.entries((data.result.responses ?? {}) as Record<string, Document>).filter(([, one]) => one.derivatives?.directions);
   const withCurves = responses.filter(([, one]) => (one.derivatives.directions as Document[]).some((v) => v.curve?.length > 1));
   if (!withCurves.length) return null;
-  const place = h("div", {});
-  const show = (name: string) => {
+  const draw = (name: string) => {
     const directions = (withCurves.find(([one]) => one === name)![1].derivatives.directions as Document[]).slice(0, colors.length);
-    place.replaceChildren(
-      lineChart({
-        title: `differences of ${words(name)}`,
-        xTitle: "relative step",
-        yTitle: "relative error",
-        height: 280,
-        logX: true,
-        logY: true,
-        legend: true,
-        series: directions.map((one, i) => {
-          const curve = [...one.curve].sort((a: Document, b: Document) => a.step - b.step);
-          return { name: variablesOf(data, i), x: curve.map((p: Document) => p.step), y: curve.map((p: Document) => Math.max(p.error, smallest)), color: colors[i], dots: true };
-        }),
-      }).element,
-    );
+    const chart = lineChart({
+      title: `differences of ${words(name)}`,
+      xTitle: "relative step",
+      yTitle: "relative error",
+      height: 280,
+      logX: true,
+      logY: true,
+      legend: true,
+      series: directions.map((one, i) => {
+        const curve = [...one.curve].sort((a: Document, b: Document) => a.step - b.step);
+        return { name: variablesOf(data, i), x: curve.map((p: Document) => p.step), y: curve.map((p: Document) => Math.max(p.error, smallest)), color: colors[i], dots: true };
+      }),
+    });
+    return [chart.element];
   };
-  const select = h("select", { "aria-label": "response" }, withCurves.map(([name]) => h("option", { value: name }, words(name)))) as HTMLSelectElement;
-  select.addEventListener("change", () => show(select.value));
-  show(withCurves[0][0]);
-  return section("Differences over their step", "Where differences agree with the gradient at some step, the gradient is right: to the right of it curvature is seen, to the left noise.", h("label.choice.bordered", {}, h("span.soft", {}, "response"), select), place);
+  return section(
+    "Differences over their step",
+    "Where differences agree with the gradient at some step, the gradient is right: to the right of it curvature is seen, to the left noise.",
+    chosenView("response", withCurves.map(([name]) => [name, words(name)]), draw),
+  );
 }
 
-export function checkPage(data: ReportData): HTMLElement[] {
+export function checkPage(data: ReportData): Page {
   const { result, picture } = data;
   const derivatives = Object.values((result.responses ?? {}) as Record<string, Document>).map((one) => one.derivatives).filter(Boolean);
   const differs = derivatives.filter((one) => one.verdict === "differs").length;
@@ -112,5 +111,5 @@ export function checkPage(data: ReportData): HTMLElement[] {
     picture ? variablesTable(picture) : null,
     effectsSection(data),
     filesSection(data),
-  ].filter((part): part is HTMLElement => !!part);
+  ];
 }

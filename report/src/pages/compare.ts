@@ -1,6 +1,6 @@
 // Two runs beside each other: which to build, how both move, what differs.
 import { type Design, type Document, type Picture, type ReportData } from "../data";
-import { h, section, table } from "../dom";
+import { h, heroOf, type Page, section, table } from "../dom";
 import { count, engineering, errorText, number, percent, withUnit, words } from "../format";
 import { makePlayer } from "../mechanism/player";
 import { buildSection } from "./build_table";
@@ -21,11 +21,11 @@ function overlaid(a: Picture, b: Picture): Picture {
   return { ...b, scene: { ...b.scene, end_time: Math.max(a.scene.end_time, b.scene.end_time) }, designs: [{ ...last(a), name: "first" }, { ...last(b), name: "second" }] };
 }
 
-export function comparePage(data: ReportData): HTMLElement[] {
+export function comparePage(data: ReportData): Page {
   const { picture, result } = data;
   const other = picture?.compared;
   const both = picture && other && isAlike(picture, other) ? overlaid(picture, other) : null;
-  const parts: (HTMLElement | null)[] = [headline(data)];
+  const parts: Page = [headline(data)];
   if (both) {
     const shown = viewing(both, 1);
     shown.pickBody(both.scene.bodies[0]?.name);
@@ -35,7 +35,7 @@ export function comparePage(data: ReportData): HTMLElement[] {
     parts.push(...tables(data));
   }
   parts.push(inputSection(result), filesSection(data));
-  return parts.filter((part): part is HTMLElement => !!part);
+  return parts;
 }
 
 /** Whether only the search differs: its start, bounds of variables, optimizer, method. */
@@ -55,28 +55,22 @@ function headline(data: ReportData): HTMLElement {
   const better = isOneQuestion && a.value !== b.value ? (b.value < a.value !== isMax ? 1 : 0) : -1;
   const answer =
     verified[0] !== verified[1] ? `Only the ${verified[0] ? "first" : "second"} is verified` : better < 0 ? "Neither is better" : `The ${better ? "second" : "first"} is better${verified[0] ? "" : "; neither is verified"}`;
-  return h(
-    "section.hero",
-    {},
-    h(
-      "div",
-      {},
-      h("p.eyebrow", {}, "two runs"),
-      h("h1", {}, answer, isOneProblem(result) ? null : h("span.what", {}, " for another problem")),
-      isOneQuestion
-        ? h(
-            "p.numbers",
-            {},
-            h("span.soft", {}, `${words(a.name)}: `),
-            h(better === 0 ? "b" : "span", {}, withUnit(a.value, unit!)),
-            h("span.soft", {}, ` ${errorText(a.error, unit!)} → `),
-            h(better === 1 ? "b" : "span", {}, withUnit(b.value, unit!)),
-            h("span.soft", {}, ` ${errorText(b.error, unit!)} (${percent(b.value / a.value - 1)})`),
-          )
-        : null,
-      runs.map((run, i) => h("p.verdict", {}, h("b", {}, i ? "Second: " : "First: "), `${run.folder}, ${run.command} of ${run.problem} `, verdict(run.status))),
-    ),
-  );
+  return heroOf([
+    h("p.eyebrow", {}, "two runs"),
+    h("h1", {}, answer, isOneProblem(result) ? null : h("span.what", {}, " for another problem")),
+    isOneQuestion
+      ? h(
+          "p.numbers",
+          {},
+          h("span.soft", {}, `${words(a.name)}: `),
+          h(better === 0 ? "b" : "span", {}, withUnit(a.value, unit!)),
+          h("span.soft", {}, ` ${errorText(a.error, unit!)} → `),
+          h(better === 1 ? "b" : "span", {}, withUnit(b.value, unit!)),
+          h("span.soft", {}, ` ${errorText(b.error, unit!)} (${percent(b.value / a.value - 1)})`),
+        )
+      : null,
+    runs.map((run, i) => h("p.verdict", {}, h("b", {}, i ? "Second: " : "First: "), `${run.folder}, ${run.command} of ${run.problem} `, verdict(run.status))),
+  ]);
 }
 
 /** Mechanisms that differ move together, each in a drawing of its own. */

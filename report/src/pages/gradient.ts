@@ -1,7 +1,7 @@
 // Gradients of one design: what each variable changes, and what the methods cost.
 import { lineChart, type Series } from "../charts";
 import type { Document, Picture, ReportData } from "../data";
-import { h, section, table } from "../dom";
+import { chosenView, h, type Page, section, table } from "../dom";
 import { number, seconds, words } from "../format";
 import { influenceNotes, influenceOf, influenceTable } from "./influence";
 import { viewing } from "./viewing";
@@ -60,8 +60,7 @@ function effortSection(all: Compared[]): HTMLElement {
 function stepsSection(all: Compared[], responses: string[]): HTMLElement {
   const differences = [...new Set(all.filter((one) => one.step !== null).map((one) => one.method))];
   const exact = all.find((one) => one.step === null);
-  const place = h("div", {});
-  const show = (name: string) => {
+  const draw = (name: string) => {
     const error = (one: Compared) => Math.max(name === "" ? worst(one).value : (one.errors[name] ?? 0), smallest);
     const series: Series[] = differences.map((method) => {
       const own = all.filter((one) => one.method === method).sort((a, b) => a.step! - b.step!);
@@ -69,20 +68,16 @@ function stepsSection(all: Compared[], responses: string[]): HTMLElement {
     });
     const steps = all.filter((one) => one.step !== null).map((one) => one.step!);
     if (exact) series.push({ name: "direct against adjoint", x: [Math.min(...steps), Math.max(...steps)], y: [error(exact), error(exact)], color: "accent", dashed: true });
-    place.replaceChildren(lineChart({ title: "error of differences over their step", xTitle: "relative step", yTitle: "relative error", height: 300, logX: true, logY: true, legend: true, series }).element);
+    return [lineChart({ title: "error of differences over their step", xTitle: "relative step", yTitle: "relative error", height: 300, logX: true, logY: true, legend: true, series }).element];
   };
-  const select = h("select", { "aria-label": "response" }, h("option", { value: "" }, "the worst of all"), responses.map((name) => h("option", { value: name }, words(name)))) as HTMLSelectElement;
-  select.addEventListener("change", () => show(select.value));
-  show("");
   return section(
     "Which step differences need",
     "To the right the curvature of the response is seen, to the left the noise of the simulation. The exact methods need no step.",
-    h("label.choice.bordered", {}, h("span.soft", {}, "response"), select),
-    place,
+    chosenView("response", [["", "the worst of all"], ...responses.map((name) => [name, words(name)])], draw),
   );
 }
 
-export function gradientPage(data: ReportData): HTMLElement[] {
+export function gradientPage(data: ReportData): Page {
   const { result, picture } = data;
   const responses: Record<string, Document> = result.responses ?? {};
   const methods = [...new Set(Object.values(responses).flatMap((one) => Object.keys(one.gradients ?? {})))];
@@ -106,7 +101,7 @@ export function gradientPage(data: ReportData): HTMLElement[] {
     ...csvCharts(data),
     gradientsTable(responses, methods, picture),
     filesSection(data),
-  ].filter((part): part is HTMLElement => !!part);
+  ];
 }
 
 /** In the units of the file. */

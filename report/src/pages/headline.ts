@@ -1,6 +1,6 @@
 // The answer of an optimization in one view: what was won, whether it holds, what decides.
 import type { Document, ReportData } from "../data";
-import { h } from "../dom";
+import { h, heroOf } from "../dom";
 import { errorText, listed, number, percent, seconds, sentence, share, withUnit, words } from "../format";
 import { leastShare, limitRows } from "./limits";
 import { fact, unitOf, verdict } from "./parts";
@@ -15,26 +15,20 @@ export function hasDesign(result: Document): boolean {
 export function headline(data: ReportData): HTMLElement {
   const { result, picture } = data;
   const isVerified = result.status === "verified";
-  return h(
-    "section.hero",
-    {},
-    h(
-      "div",
-      {},
+  return heroOf(
+    [
       h("p.eyebrow", {}, picture?.name ?? data.card.problem?.name ?? ""),
       title(data),
       numbersLine(data),
       h("p.verdict", {}, verdict(result.status, result.choices), isVerified ? plainWords(data) : h("span", {}, ` ${sentence(result.message ?? "")}`)),
       startLine(data),
       warningsBox(result.warnings),
-    ),
-    h(
-      "div.facts",
-      {},
+    ],
+    [
       ...motorFacts(data),
       fact(String(result.evaluations ?? "–"), "simulations of designs"),
       fact(seconds(data.card.seconds?.total ?? result.seconds ?? 0), `the whole run, with ${result.backend ?? ""}`),
-    ),
+    ],
   );
 }
 

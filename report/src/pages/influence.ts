@@ -1,9 +1,8 @@
 // What the variables change of the responses: a matrix, and derivatives over time.
 import { type Chart, lineChart } from "../charts";
 import { curveOf, type Picture, type Shown, type Unit } from "../data";
-import { h, section } from "../dom";
+import { choice, h, type PaintedCell, paintedMatrix, section } from "../dom";
 import { inThousands, number, timeUnit, words } from "../format";
-import { color, onTheme } from "../theme";
 import type { Viewing } from "./viewing";
 
 /** A row of the matrix: percent of a response per percent of each variable. */
@@ -55,10 +54,10 @@ function percentText(value: number | null): string {
   return `${value > 0 ? "+" : "−"}${number(Math.abs(value), Math.abs(value) < 0.1 ? 2 : 3)}`;
 }
 
-function paint(cell: HTMLElement, value: number | null, largest: number): void {
-  const strength = value === null ? 0 : Math.sqrt(Math.min(1, Math.abs(value) / largest));
-  const tone = (value ?? 0) < 0 ? "accent" : "more";
-  cell.style.background = strength > 0.02 ? `color-mix(in srgb, ${color(tone)} ${Math.round(52 * strength)}%, transparent)` : "";
+/** Blue what grows smaller, orange what grows larger. */
+function cellOf(value: number | null, largest: number): PaintedCell {
+  const strength = Math.sqrt(Math.min(1, Math.abs(value ?? 0) / largest));
+  return { content: percentText(value), tone: (value ?? 0) < 0 ? "accent" : "more", percent: strength > 0.02 ? Math.round(52 * strength) : 0 };
 }
 
 /** @param onPick  called with the response whose name is clicked */
@@ -66,32 +65,12 @@ export function influenceTable(influence: Influence, onPick?: (response: string)
   const sizes = influence.rows.flatMap((row) => row.percents.map((one) => Math.abs(one ?? 0))).sort((a, b) => a - b);
   // One response that cancels to nearly nothing does not pale all others.
   const largest = Math.max(sizes[Math.floor(0.95 * (sizes.length - 1))], 1e-9);
-  const cells: [HTMLElement, number | null][] = [];
-  const body = influence.rows.map((row) =>
-    h(
-      "tr",
-      {},
-      h("th.left", { scope: "row" }, onPick ? h("button.link", { onclick: () => onPick(row.name) }, words(row.name)) : words(row.name)),
-      row.percents.map((one) => {
-        const cell = h("td", {}, percentText(one));
-        cells.push([cell, one]);
-        return cell;
-      }),
-    ),
-  );
-  const repaint = () => cells.forEach(([cell, one]) => paint(cell, one, largest));
-  repaint();
-  onTheme(repaint);
-  return h(
-    "div.scroll",
-    { tabindex: 0, role: "region", "aria-label": "influence of variables on responses" },
-    h(
-      "table.matrix",
-      {},
-      h("caption.hidden", {}, "Percent of each response per percent of each variable"),
-      h("thead", {}, h("tr", {}, h("th.left", { scope: "col" }, "response"), influence.variables.map((name, j) => h("th", { scope: "col" }, words(name), influence.ofRange[j] ? " *" : "")))),
-      h("tbody", {}, body),
-    ),
+  const headOf = (name: string) => (onPick ? h("button.link", { onclick: () => onPick(name) }, words(name)) : words(name));
+  return paintedMatrix(
+    "percent of each response per percent of each variable",
+    "response",
+    influence.variables.map((name, j) => [words(name), influence.ofRange[j] ? " *" : ""]),
+    influence.rows.map((row) => ({ head: headOf(row.name), cells: row.percents.map((one) => cellOf(one, largest)) })),
   );
 }
 
@@ -107,7 +86,7 @@ const colors = ["accent", "more", "good", "drive", "limit", "soft", "load", "sta
 /** Derivatives over time of one response after another. */
 class Slopes {
   readonly element: HTMLElement;
-  private readonly select: HTMLSelectElement;
+  private readonly list: HTMLElement;
   private readonly place = h("div", {});
   private chart: Chart | null = null;
   private now = 0;
@@ -117,9 +96,9 @@ class Slopes {
     private readonly x: number[],
     private readonly known: Shown[],
   ) {
-    this.select = h("select", { "aria-label": "response" }, known.map((one) => h("option", { value: one.name }, words(one.name)))) as HTMLSelectElement;
-    this.select.addEventListener("change", () => this.show(this.select.value));
-    this.element = h("div.slopes", {}, h("h3", {}, "Over time: what one percent of each variable changes"), h("label.choice.bordered", {}, h("span.soft", {}, "response"), this.select), this.place);
+    this.list = choice("response", known.map((one) => [one.name, words(one.name)]), known[0].name, (name) => this.show(name));
+    this.list.classList.add("bordered");
+    this.element = h("div.slopes", {}, h("h3", {}, "Over time: what one percent of each variable changes"), this.list, this.place);
     this.show(known[0].name);
   }
 
@@ -130,7 +109,7 @@ class Slopes {
   show(name: string): void {
     const response = this.known.find((one) => one.name === name);
     if (!response?.slopes) return;
-    this.select.value = name;
+    this.list.querySelector("select")!.value = name;
     const time = timeUnit(this.picture.scene.end_time);
     const names = Object.keys(this.picture.variables);
     const raw = Object.entries(response.slopes).map(([variable, packed]) => {

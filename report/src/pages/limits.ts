@@ -1,6 +1,6 @@
 // How far each limit is used, where and when; numbered in the drawing; what it costs.
 import type { Document, Picture, ReportData, Shown, Unit } from "../data";
-import { h, section } from "../dom";
+import { bar, h, section } from "../dom";
 import { percent, placeText, seconds, share, withUnit, words } from "../format";
 import { addMarks, type Mark } from "../mechanism/marks";
 import { unitOfLimit } from "./parts";
@@ -171,19 +171,6 @@ export function pricesSection(data: ReportData): HTMLElement | null {
   return section(
     "What a limit costs",
     `What ${words(data.result.objective.name)} would gain by one percent more of a limit, the design optimal again.`,
-    h(
-      "ul.bars",
-      {},
-      prices.map((one) =>
-        h(
-          "li",
-          {},
-          h("span.bar-name", {}, words(one.name)),
-          h("span.bar-numbers", {}),
-          h("span.bar-track", {}, h("span.bar.is-less", { style: `width:${(100 * Math.abs(one.gain)) / largest}%` })),
-          h("span.bar-value", {}, percent(one.gain, 2)),
-        ),
-      ),
-    ),
+    h("ul.bars", {}, prices.map((one) => bar(words(one.name), [], one.gain, largest, percent(one.gain, 2)))),
   );
 }

@@ -1,6 +1,6 @@
 // Of an optimization: what was won, what to build, whether to believe it, how it moves, where its limits bite.
 import type { Document, ReportData } from "../data";
-import { h, section, table } from "../dom";
+import { choice, h, type Page, section, table } from "../dom";
 import { engineering, listed, number, seconds, sentence, withUnit, words } from "../format";
 import { buildSection } from "./build_table";
 import { convergenceSection } from "./convergence";
@@ -13,7 +13,7 @@ import { conflictSection, partsNote, startsSection } from "./search";
 import { type Viewing, viewing } from "./viewing";
 
 /** Of several load cases one is shown at a time: a choice changes all that is of a case. */
-export function optimizePage(data: ReportData): HTMLElement[] {
+export function optimizePage(data: ReportData): Page {
   const pictures = [data.picture, ...(data.picture?.other_cases ?? [])];
   if (pictures.length === 1) return contentsOf(data).elements;
   const units = data.picture!.units;
@@ -42,7 +42,7 @@ export function optimizePage(data: ReportData): HTMLElement[] {
 
 function contentsOf(data: ReportData, chooseCase?: ChooseCase): { elements: HTMLElement[]; shown: Viewing | null } {
   const { picture } = data;
-  const parts: (HTMLElement | null)[] = [headline(data), conflictSection(data), buildSection(data)];
+  const parts: Page = [headline(data), conflictSection(data), buildSection(data)];
   let shown: Viewing | null = null;
   if (picture && picture.designs.length) {
     const main = picture.designs.length - 1;
@@ -83,12 +83,9 @@ function caseChoice(data: ReportData, choose: ChooseCase): HTMLElement {
   const { cases } = data.result;
   const names = cases.names as string[];
   const deciding = decidingCases(data.result);
-  const select = h(
-    "select",
-    { "aria-label": "load case" },
-    names.map((name) => h("option", { value: name, selected: name === data.picture!.case }, words(name), deciding.includes(name) ? " (decides)" : "")),
-  ) as HTMLSelectElement;
-  select.addEventListener("change", () => choose(select.value));
+  const nameOf = (name: string) => `${words(name)}${deciding.includes(name) ? " (decides)" : ""}`;
+  const list = choice("load case", names.map((name) => [name, nameOf(name)]), data.picture!.case!, choose);
+  list.classList.add("bordered");
   const sentence =
     deciding.length === 1
       ? `The case ${words(deciding[0])} decides it.`
@@ -98,7 +95,7 @@ function caseChoice(data: ReportData, choose: ChooseCase): HTMLElement {
   return h(
     "div.case-choice",
     {},
-    h("label.choice.bordered", {}, h("span.soft", {}, "load case"), select),
+    list,
     h("p.note", {}, `One design for ${names.length} load cases. ${sentence} Motion, histories and numbers in the drawing are those of the case that is chosen.`),
   );
 }

@@ -1,6 +1,6 @@
 // What the optimum would gain by each number of the file.
 import type { Document, ReportData, Unit } from "../data";
-import { h, section } from "../dom";
+import { bar, h, type Page, section } from "../dom";
 import { count, engineering, number, sentence, withUnit, words } from "../format";
 import { filesSection, unitOf } from "./parts";
 import { hero } from "./studies";
@@ -29,14 +29,8 @@ function barOf(price: Price, goal: Unit, gain: number, largest: number): HTMLEle
   const [, one] = price;
   const unit: Unit = one.shown_unit ? { si: one.unit, ...one.shown_unit } : engineering(one.unit);
   const perUnit = signedNumber((one.per_unit * unit.factor) / goal.factor);
-  return h(
-    "li",
-    {},
-    h("span.bar-name", {}, nameOf(price)),
-    h("span.bar-numbers", {}, withUnit(one.value, unit), h("span.soft", {}, ` · ${perUnit} ${goal.name}/${inBrackets(unit.name)}`)),
-    h("span.bar-track", {}, gain === 0 ? null : h(gain < 0 ? "span.bar.is-less" : "span.bar.is-more", { style: `width:${(100 * Math.abs(gain)) / largest}%` })),
-    h("span.bar-value", {}, one.value === 0 ? "–" : `${signedNumber(100 * gain, 2)} %`),
-  );
+  const numbers = [withUnit(one.value, unit), h("span.soft", {}, ` · ${perUnit} ${goal.name}/${inBrackets(unit.name)}`)];
+  return bar(nameOf(price), numbers, gain, largest, one.value === 0 ? "–" : `${signedNumber(100 * gain, 2)} %`);
 }
 
 /** What decides beyond the prices with a star, what the brackets mean and what is not shown. */
@@ -58,7 +52,7 @@ function withVerdict(data: ReportData): ReportData {
   return { ...data, result: { ...result, ...(result.status === "done" ? { status, message } : { message: result.verdict }) } };
 }
 
-export function pricesPage(data: ReportData): HTMLElement[] {
+export function pricesPage(data: ReportData): Page {
   const { result } = data;
   const value = result.objective?.value || 1;
   const goal = unitOf(data.picture, result.objective?.name ?? "", result.objective?.unit ?? "");

@@ -1,6 +1,6 @@
 // What changed beside the objective and the limits.
 import type { Companion, ReportData } from "../data";
-import { h, section } from "../dom";
+import { bar, h, section } from "../dom";
 import { pair, words } from "../format";
 import { change, endName } from "./parts";
 
@@ -42,21 +42,6 @@ export function savingsSection(data: ReportData): HTMLElement | null {
   return section(
     "What else changed",
     `Nobody asked for it: the largest values over time, start → ${endName(data.result)}${data.result.cases ? `, in the load case ${words(data.picture!.case ?? "")}` : ""}.`,
-    h(
-      "ul.bars",
-      {},
-      all.map((one) => {
-        const gain = one.after / one.before - 1;
-        const width = (100 * Math.min(Math.abs(gain), largest)) / largest;
-        return h(
-          "li",
-          {},
-          h("span.bar-name", {}, one.name),
-          h("span.bar-numbers", {}, pair(one.before, one.after, one.unit)),
-          h("span.bar-track", {}, h(gain <= 0 ? "span.bar.is-less" : "span.bar.is-more", { style: `width:${width}%` })),
-          h("span.bar-value", {}, change(one.before, one.after)),
-        );
-      }),
-    ),
+    h("ul.bars", {}, all.map((one) => bar(one.name, [pair(one.before, one.after, one.unit)], one.after / one.before - 1, largest, change(one.before, one.after)))),
   );
 }

@@ -1,7 +1,7 @@
 // Of one simulation, and of a mechanism that is only drawn.
 import { lineChart } from "../charts";
 import { curveOf, type Document, type Packed, type Picture, type ReportData, type SceneBody } from "../data";
-import { h, section, table } from "../dom";
+import { h, heroOf, type Page, section, table } from "../dom";
 import { count, engineering, number, seconds, share, timeUnit, withUnit, words } from "../format";
 import { historyChart } from "./history";
 import { profiles } from "./inspector";
@@ -9,21 +9,17 @@ import { type Viewing, viewing } from "./viewing";
 import { effectsSection, fact, filesSection, monitorsText, responsesTable, unitOfLimit, withoutRoundOff } from "./parts";
 import { warningsBox } from "./warnings";
 
-export function simulatePage(data: ReportData): HTMLElement[] {
+export function simulatePage(data: ReportData): Page {
   const { picture, result } = data;
-  const parts: (HTMLElement | null)[] = [
-    h(
-      "section.hero",
-      {},
-      h("div", {}, h("p.eyebrow", {}, "simulation"), h("h1", {}, picture?.name ?? ""), h("p.lead", {}, picture?.description ?? ""), limitsSentence(result), warningsBox(result.warnings)),
-      h(
-        "div.facts",
-        {},
+  const parts: Page = [
+    heroOf(
+      [h("p.eyebrow", {}, "simulation"), h("h1", {}, picture?.name ?? ""), h("p.lead", {}, picture?.description ?? ""), limitsSentence(result), warningsBox(result.warnings)],
+      [
         fact(seconds(picture?.scene.end_time ?? 0), "simulated time"),
         fact(count(result.steps), "steps"),
         fact(count(result.coordinates), "coordinates"),
         fact(seconds(result.seconds), "to simulate"),
-      ),
+      ],
     ),
   ];
   let shown: Viewing | null = null;
@@ -35,7 +31,7 @@ export function simulatePage(data: ReportData): HTMLElement[] {
   parts.push(section("Numbers", monitorsText(result), responsesTable(data), limitsTable(data)));
   if (picture?.designs[0]?.responses) parts.push(historiesSection(picture, shown));
   parts.push(effectsSection(data), filesSection(data));
-  return parts.filter((part): part is HTMLElement => !!part);
+  return parts;
 }
 
 function limitsSentence(result: Document): HTMLElement | null {
@@ -98,22 +94,16 @@ export function historiesSection(picture: Picture, shown: Viewing | null): HTMLE
 }
 
 /** `pleuel show`: as the file places it. */
-export function showPage(data: ReportData): HTMLElement[] {
+export function showPage(data: ReportData): Page {
   const { picture, result } = data;
   if (!picture) return [];
   const { scene } = picture;
-  const free = result.rigid_motion?.free as number | undefined;
-  const blocked: number = result.rigid_motion?.blocked_drives ?? 0;
   const unheld: string[] = result.unheld_bodies ?? [];
   const shown = viewing(picture, 0, true, true, unheld);
   const time: number | undefined = result.seconds?.simulate;
-  const parts: (HTMLElement | null)[] = [
-    h(
-      "section.hero",
-      {},
-      h(
-        "div",
-        {},
+  const parts: Page = [
+    heroOf(
+      [
         h("p.eyebrow", {}, "drawn before anything is simulated"),
         h("h1", {}, picture.name),
         h("p.lead", {}, picture.description),
@@ -121,28 +111,16 @@ export function showPage(data: ReportData): HTMLElement[] {
         result.failure ? h("p.verdict", {}, h("span.badge.warn", {}, "! cannot be assembled")) : null,
         result.lock
           ? h("p.verdict", {}, h("span.badge.warn", {}, `locks at ${seconds(result.lock.time)}`), " Rigid bodies follow the drives as far as that; the drawing stops there.")
-          : null,
-        free !== undefined && !result.lock
-          ? h(
-              "p.verdict",
-              {},
-              h(`span.badge.${free > 0 || blocked > 0 ? "warn" : "good"}`, {}, blocked > 0 ? "blocked" : free > 0 ? `${free} free` : "no freedom left"),
-              ` ${result.rigid_motion.coordinates} coordinates of rigid motion, ${result.rigid_motion.constraints} independent constraints, ${result.rigid_motion.drives} of them of drives: ${
-                blocked > 0 ? "no rigid motion follows the drives." : free > 0 ? `${free} freedom${free > 1 ? "s are" : " is"} left to the forces. Is that meant?` : result.rigid_motion.drives > 0 ? "the drives prescribe the motion." : "nothing can move."
-              }`,
-            )
-          : null,
+          : freedomSentence(result),
         warningsBox(result.warnings),
-      ),
-      h(
-        "div.facts",
-        {},
+      ],
+      [
         fact(String(scene.bodies.length), "bodies"),
         fact(String(scene.joints.length), "joints"),
         fact(count(result.steps), "steps"),
         fact(count(result.coordinates), "coordinates"),
         time !== undefined ? fact(`≈ ${roughly(time)}`, "a simulation will take", "measured with its first steps") : null,
-      ),
+      ],
     ),
     shown.element,
     h("div.columns", {}, asked(picture), variablesTable(picture)),
@@ -168,7 +146,28 @@ export function showPage(data: ReportData): HTMLElement[] {
     filesSection(data),
   ];
   shown.pickBody(undefined);
-  return parts.filter((part): part is HTMLElement => !!part);
+  return parts;
+}
+
+/** Whether the drives prescribe the motion. */
+function freedomSentence(result: Document): HTMLElement | null {
+  if (result.rigid_motion?.free === undefined) return null;
+  const { free, coordinates, constraints, drives, blocked_drives: blocked = 0 } = result.rigid_motion;
+  const badge = blocked > 0 ? "blocked" : free > 0 ? `${free} free` : "no freedom left";
+  const meaning =
+    blocked > 0
+      ? "no rigid motion follows the drives."
+      : free > 0
+        ? `${free} freedom${free > 1 ? "s are" : " is"} left to the forces. Is that meant?`
+        : drives > 0
+          ? "the drives prescribe the motion."
+          : "nothing can move.";
+  return h(
+    "p.verdict",
+    {},
+    h(`span.badge.${free > 0 || blocked > 0 ? "warn" : "good"}`, {}, badge),
+    ` ${coordinates} coordinates of rigid motion, ${constraints} independent constraints, ${drives} of them of drives: ${meaning}`,
+  );
 }
 
 /** What the file asks for, in a sentence. */

@@ -1,8 +1,7 @@
 // Formulations and schemes side by side: a heat map of what they drift, lose and cost.
 import type { Document, ReportData } from "../data";
-import { h, section, table } from "../dom";
-import { count, number, seconds } from "../format";
-import { color, onTheme } from "../theme";
+import { chosenView, h, type Page, type PaintedCell, paintedMatrix, section, table } from "../dom";
+import { count, number, seconds, sentenceCase } from "../format";
 import { fact, filesSection } from "./parts";
 import { hero } from "./studies";
 import { sharedWarnings } from "./warnings";
@@ -36,33 +35,18 @@ function heatMap(runs: Document[], files: string[], formulations: string[], meas
   const of = (file: string, formulation: string) => runs.find((run) => run.file === file && run.formulation === formulation);
   const known = runs.map((run) => valueOf(run, measure.key)).filter((v): v is number => v !== null && v > 0);
   const [low, high] = [Math.log10(Math.min(...known)), Math.log10(Math.max(...known))];
-  const cells: [HTMLElement, number | null][] = [];
-  const paint = () => {
-    for (const [cell, value] of cells) {
-      const share = value === null || !(value > 0) ? 0 : (Math.log10(value) - low) / Math.max(high - low, 0.3);
-      cell.style.background = value === null ? "" : `color-mix(in srgb, ${color("more")} ${Math.round(42 * Math.max(0, share))}%, transparent)`;
-    }
+  const shareOf = (value: number | null) => (value === null || !(value > 0) ? 0 : Math.max(0, (Math.log10(value) - low) / Math.max(high - low, 0.3)));
+  const cellOf = (file: string, formulation: string): PaintedCell => {
+    const run = of(file, formulation);
+    const value = valueOf(run, measure.key);
+    const content = run?.failure ? h("span.bad", {}, "failed") : value === null ? "–" : measure.text(value);
+    return { content, title: run?.failure, tone: "more", percent: Math.round(42 * shareOf(value)) };
   };
-  const body = formulations.map((formulation) =>
-    h(
-      "tr",
-      {},
-      h("th.left", { scope: "row" }, formulation),
-      files.map((file) => {
-        const run = of(file, formulation);
-        const value = valueOf(run, measure.key);
-        const cell = h("td", { title: run?.failure ?? "" }, run?.failure ? h("span.bad", {}, "failed") : value === null ? "–" : measure.text(value));
-        cells.push([cell, value]);
-        return cell;
-      }),
-    ),
-  );
-  paint();
-  onTheme(paint);
-  return h(
-    "div.scroll",
-    { tabindex: 0, role: "region", "aria-label": measure.name },
-    h("table.matrix", {}, h("thead", {}, h("tr", {}, h("th.left", { scope: "col" }, "formulation"), files.map((file) => h("th", { scope: "col" }, nameOf(file))))), h("tbody", {}, body)),
+  return paintedMatrix(
+    measure.name,
+    "formulation",
+    files.map((file) => [nameOf(file)]),
+    formulations.map((formulation) => ({ head: formulation, cells: files.map((file) => cellOf(file, formulation)) })),
   );
 }
 
@@ -78,30 +62,24 @@ function whose(concerned: Document[], runs: Document[], files: string[]): string
   return parts.join("; ");
 }
 
-export function stabilityPage(data: ReportData): HTMLElement[] {
+export function stabilityPage(data: ReportData): Page {
   const { result } = data;
   const runs: Document[] = result.runs ?? [];
   const files = [...new Set(runs.map((run) => String(run.file)))];
   const formulations = [...new Set([...(result.formulations ?? []), ...runs.map((run) => String(run.formulation))])].filter((name) => runs.some((run) => run.formulation === name));
   const failed = runs.filter((run) => run.failure);
   const shown = measures.filter((measure) => runs.some((run) => valueOf(run, measure.key) !== null));
-  const place = h("div.stack", {});
-  const note = h("p.note", {});
-  const show = (key: string) => {
-    const measure = shown.find((one) => one.key === key);
-    if (!measure) return;
-    note.textContent = `${measure.note ? `${measure.note[0].toUpperCase()}${measure.note.slice(1)}. ` : ""}The darker, the larger: colours follow the logarithm.`;
-    place.replaceChildren(heatMap(runs, files, formulations, measure));
+  const draw = (key: string) => {
+    const measure = shown.find((one) => one.key === key)!;
+    const note = `${measure.note ? `${sentenceCase(measure.note)}. ` : ""}The darker, the larger: colours follow the logarithm.`;
+    return [h("p.note", {}, note), heatMap(runs, files, formulations, measure)];
   };
-  const select = h("select", { "aria-label": "measure" }, shown.map((one) => h("option", { value: one.key }, one.name))) as HTMLSelectElement;
-  select.addEventListener("change", () => show(select.value));
-  if (shown.length) show(shown[0].key);
   return [
     hero(data, failed.length ? `${failed.length} of ${runs.length} runs failed.` : `All ${runs.length} runs came to their ends.`, [
       fact(count(files.length), files.length === 1 ? "file" : "files"),
       fact(count(formulations.length), "formulations and schemes"),
     ], [...sharedWarnings(runs)].map(([text, of]) => `${text} (${whose(of, runs, files)})`)),
-    section("Formulations side by side", "", h("label.choice.bordered", {}, h("span.soft", {}, "measure"), select), note, place),
+    section("Formulations side by side", "", shown.length ? chosenView("measure", shown.map((one) => [one.key, one.name]), draw) : null),
     failed.length
       ? section("What failed", "", table([{ title: "file", left: true }, { title: "formulation", left: true }, { title: "because", left: true }], failed.map((run) => [nameOf(run.file), run.formulation, run.failure])))
       : null,
@@ -114,5 +92,5 @@ export function stabilityPage(data: ReportData): HTMLElement[] {
       ),
     ),
     filesSection(data),
-  ].filter((part): part is HTMLElement => !!part);
+  ];
 }

@@ -1,7 +1,7 @@
 // Of fronts, accuracy and the other studies.
 import { lineChart, type Series } from "../charts";
 import { type Document, parseCsv, type Picture, type ReportData, type Unit } from "../data";
-import { h, section, table } from "../dom";
+import { h, heroOf, type Page, section, table } from "../dom";
 import { engineering, number, sentence, timeUnit, withUnit, words } from "../format";
 import { makePlayer } from "../mechanism/player";
 import { filesSection, verdict } from "./parts";
@@ -14,19 +14,15 @@ import { sharedWarnings, warningsBox } from "./warnings";
  */
 export function hero(data: ReportData, lead: string, facts: HTMLElement[] = [], warnings: string[] = data.result.warnings): HTMLElement {
   const { result, card, picture } = data;
-  return h(
-    "section.hero",
-    {},
-    h(
-      "div",
-      {},
+  return heroOf(
+    [
       h("p.eyebrow", {}, card.command),
       h("h1", {}, picture?.name ?? filesOf(card.inputs ?? [])),
       lead ? h("p.lead", {}, lead) : null,
       result.status ? h("p.verdict", {}, verdict(result.status), ` ${sentence(result.message ?? "")}`) : null,
       warningsBox(warnings),
-    ),
-    facts.length ? h("div.facts", {}, facts) : null,
+    ],
+    facts,
   );
 }
 
@@ -36,7 +32,7 @@ function filesOf(inputs: Document[]): string {
   return inputs.length ? `${inputs.length} files` : "";
 }
 
-export function paretoPage(data: ReportData): HTMLElement[] {
+export function paretoPage(data: ReportData): Page {
   const { result, picture } = data;
   const points: Document[] = result.points ?? [];
   const [objective, limited] = Object.keys(result.units ?? {});

@@ -1,6 +1,6 @@
 // Deviations and bounds of the responses, and which parameters they come from.
 import type { Document, ReportData } from "../data";
-import { h, section, table } from "../dom";
+import { h, type Page, section, table } from "../dom";
 import { count, engineering, number, share, withUnit, words } from "../format";
 import { fact, filesSection, unitOfLimit } from "./parts";
 import { csvCharts, hero } from "./studies";
@@ -12,7 +12,7 @@ function boundsText(low: number, high: number): string {
   return [low, high].map((one) => number(one, Math.min(Math.max(digits, 4), 9))).join(" … ");
 }
 
-export function uncertaintyPage(data: ReportData): HTMLElement[] {
+export function uncertaintyPage(data: ReportData): Page {
   const { result, picture } = data;
   const rows = Object.entries((result.responses ?? {}) as Record<string, Document>).map(([name, one]) => {
     const unit = picture?.responses[name]?.unit ?? engineering(one.unit);
@@ -53,7 +53,7 @@ export function uncertaintyPage(data: ReportData): HTMLElement[] {
     sharesSection(result),
     ...csvCharts(data),
     filesSection(data),
-  ].filter((part): part is HTMLElement => !!part);
+  ];
 }
 
 /** Does it still hold? A row a limit, the nearest first. */
