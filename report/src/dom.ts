@@ -54,23 +54,25 @@ export function bar(name: string, numbers: Child[], change: number, largest: num
 /** Parts of a page; those of which a run knows nothing are null. */
 export type Page = (HTMLElement | null)[];
 
-export interface Column {
+export interface Column<Row> {
   title: string;
+  cell(row: Row, index: number): Child | Child[];
   left?: boolean;
   short?: boolean; // a word or two: no broader than that on a narrow page
 }
 
-export function table(columns: Column[], rows: (Child | Child[])[][]): HTMLElement {
-  const cell = (tag: string, i: number, ...content: (Child | Child[])[]) =>
-    h(`${tag}${columns[i].left ? ".left" : ""}${columns[i].short ? ".short" : ""}`, {}, ...content);
+/** @param columns  those that are false are left out */
+export function tableOf<Row>(rows: Row[], columns: (Column<Row> | false)[]): HTMLElement {
+  const shown = columns.filter((column) => column !== false);
+  const tag = (name: string, { left, short }: Column<Row>) => `${name}${left ? ".left" : ""}${short ? ".short" : ""}`;
   return h(
     "div.scroll",
     { tabindex: 0 },
     h(
       "table",
       {},
-      h("thead", {}, h("tr", {}, columns.map((c, i) => cell("th", i, c.title)))),
-      h("tbody", {}, rows.map((row) => h("tr", {}, row.map((content, i) => cell("td", i, content))))),
+      h("thead", {}, h("tr", {}, shown.map((column) => h(tag("th", column), {}, column.title)))),
+      h("tbody", {}, rows.map((row, i) => h("tr", {}, shown.map((column) => h(tag("td", column), {}, column.cell(row, i)))))),
     ),
   );
 }

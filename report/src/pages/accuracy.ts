@@ -1,7 +1,7 @@
 // What accuracy costs: the cheapest setting for each error, and all that was tried.
 import type { Document, ReportData } from "../data";
 import { lineChart } from "../charts";
-import { h, type Page, section, table } from "../dom";
+import { h, type Page, section, tableOf } from "../dom";
 import { count, number, percent, seconds, words } from "../format";
 import { filesSection, timeChange } from "./parts";
 import { hero } from "./studies";
@@ -107,22 +107,13 @@ function pricesOfAccuracy(result: Document): HTMLElement | null {
   return section(
     "What an accuracy costs",
     "The cheapest setting for each; gradients may need finer steps than values.",
-    table(
-      [
-        { title: "accuracy" },
-        { title: "values by", left: true },
-        { title: "time" },
-        { title: "with gradients by", left: true },
-        { title: "time" },
-      ],
-      known.map((one) => [
-        `${number(100 * one.error, 2)} %`,
-        settingText(one.values),
-        seconds(one.values.seconds),
-        one.gradients ? settingText(one.gradients) : "–",
-        one.gradients ? seconds(one.gradients.seconds) : "–",
-      ]),
-    ),
+    tableOf(known, [
+      { title: "accuracy", cell: (one) => `${number(100 * one.error, 2)} %` },
+      { title: "values by", left: true, cell: (one) => settingText(one.values) },
+      { title: "time", cell: (one) => seconds(one.values.seconds) },
+      { title: "with gradients by", left: true, cell: (one) => (one.gradients ? settingText(one.gradients) : "–") },
+      { title: "time", cell: (one) => (one.gradients ? seconds(one.gradients.seconds) : "–") },
+    ]),
   );
 }
 
@@ -132,32 +123,16 @@ function allRuns(result: Document, counted: string[]): HTMLElement {
   return section(
     "All runs",
     `Errors of ${countedText(result, counted)}, against the reference: the largest, and whose it is (≤: below the error of the reference).`,
-    table(
-      [
-        { title: "step" },
-        { title: "elements" },
-        { title: "simulation" },
-        { title: "gradients" },
-        { title: "error" },
-        { title: "of", left: true },
-        { title: "error of gradients" },
-        { title: "of", left: true },
-      ],
-      (result.runs ?? []).map((run: Document) => {
-        const [value, gradient] = [largestError(run.errors, counted), largestError(run.gradient_errors, counted)];
-        const step = seconds(run.settings.step);
-        return [
-          isBest(run.settings) ? h("b", {}, `✓ ${step}`) : step,
-          run.settings.elements ? count(run.settings.elements) : `× ${number(run.settings.element_factor ?? 1, 2).replace(/\.0$/, "")}`,
-          seconds(run.simulation_seconds ?? run.seconds),
-          run.gradient_seconds ? seconds(run.gradient_seconds) : "–",
-          errorCell(value, result.reference?.errors),
-          nameCell(value),
-          errorCell(gradient, result.reference?.gradient_errors),
-          nameCell(gradient),
-        ];
-      }),
-    ),
+    tableOf((result.runs ?? []) as Document[], [
+      { title: "step", cell: (run) => (isBest(run.settings) ? h("b", {}, `✓ ${seconds(run.settings.step)}`) : seconds(run.settings.step)) },
+      { title: "elements", cell: (run) => (run.settings.elements ? count(run.settings.elements) : `× ${number(run.settings.element_factor ?? 1, 2).replace(/\.0$/, "")}`) },
+      { title: "simulation", cell: (run) => seconds(run.simulation_seconds ?? run.seconds) },
+      { title: "gradients", cell: (run) => (run.gradient_seconds ? seconds(run.gradient_seconds) : "–") },
+      { title: "error", cell: (run) => errorCell(largestError(run.errors, counted), result.reference?.errors) },
+      { title: "of", left: true, cell: (run) => nameCell(largestError(run.errors, counted)) },
+      { title: "error of gradients", cell: (run) => errorCell(largestError(run.gradient_errors, counted), result.reference?.gradient_errors) },
+      { title: "of", left: true, cell: (run) => nameCell(largestError(run.gradient_errors, counted)) },
+    ]),
   );
 }
 
@@ -166,27 +141,14 @@ function knobs(result: Document, counted: string[]): HTMLElement | null {
   return section(
     "Other knobs",
     "At the setting that is recommended: a simulation, its time against one without the change beside it.",
-    table(
-      [
-        { title: "knob", left: true },
-        { title: "value", left: true },
-        { title: "time" },
-        { title: "change of time" },
-        { title: "error" },
-        { title: "of", left: true },
-      ],
-      result.knobs.map((knob: Document) => {
-        const largest = largestError(knob.errors, counted);
-        return [
-          words(knob.knob),
-          String(knob.value),
-          knob.simulation_seconds ? seconds(knob.simulation_seconds) : "–",
-          timeChange(knob.time),
-          errorCell(largest, result.reference?.errors),
-          nameCell(largest),
-        ];
-      }),
-    ),
+    tableOf(result.knobs as Document[], [
+      { title: "knob", left: true, cell: (knob) => words(knob.knob) },
+      { title: "value", left: true, cell: (knob) => String(knob.value) },
+      { title: "time", cell: (knob) => (knob.simulation_seconds ? seconds(knob.simulation_seconds) : "–") },
+      { title: "change of time", cell: (knob) => timeChange(knob.time) },
+      { title: "error", cell: (knob) => errorCell(largestError(knob.errors, counted), result.reference?.errors) },
+      { title: "of", left: true, cell: (knob) => nameCell(largestError(knob.errors, counted)) },
+    ]),
   );
 }
 
@@ -209,16 +171,13 @@ function savedEffects(result: Document, counted: string[]): HTMLElement | null {
   return section(
     "What leaving an effect out saves",
     "The time of a simulation, and what changes most of the responses that count.",
-    table(
-      [{ title: "effect", left: true }, { title: "set to", left: true }, { title: "time" }, { title: "change of time" }, { title: "changes most", left: true }],
-      result.effects.map((one: Document) => [
-        words(one.effect),
-        String(one.value),
-        one.seconds ? seconds(one.seconds) : "–",
-        timeChange(one.time),
-        one.failure ? "the simulation fails" : effectChange(one, values, counted),
-      ]),
-    ),
+    tableOf(result.effects as Document[], [
+      { title: "effect", left: true, cell: (one) => words(one.effect) },
+      { title: "set to", left: true, cell: (one) => String(one.value) },
+      { title: "time", cell: (one) => (one.seconds ? seconds(one.seconds) : "–") },
+      { title: "change of time", cell: (one) => timeChange(one.time) },
+      { title: "changes most", left: true, cell: (one) => (one.failure ? "the simulation fails" : effectChange(one, values, counted)) },
+    ]),
   );
 }
 
@@ -231,17 +190,14 @@ function wholeOptimizations(data: ReportData): HTMLElement | null {
   return section(
     "Whole optimizations",
     `Against the optimum with ${settingText(result.optimum_reference.settings)}${result.optimum_reference.objective === undefined ? "" : `, ${number(result.optimum_reference.objective / unit.factor, 6)} ${unit.name}`}.`,
-    table(
-      [{ title: "setting", left: true }, { title: `objective [${unit.name}]` }, { title: "error" }, { title: "time" }, { title: "simulations" }, { title: "status", left: true }],
-      runs.map((run) => [
-        settingText(run.settings),
-        run.objective === undefined ? "–" : number(run.objective / unit.factor, 6),
-        run.relative_error === undefined ? "–" : `${run.relative_error <= floor ? "≤ " : ""}${number(100 * run.relative_error, 2)} %`,
-        seconds(run.seconds),
-        count(run.evaluations),
-        run.status,
-      ]),
-    ),
+    tableOf(runs, [
+      { title: "setting", left: true, cell: (run) => settingText(run.settings) },
+      { title: `objective [${unit.name}]`, cell: (run) => (run.objective === undefined ? "–" : number(run.objective / unit.factor, 6)) },
+      { title: "error", cell: (run) => (run.relative_error === undefined ? "–" : `${run.relative_error <= floor ? "≤ " : ""}${number(100 * run.relative_error, 2)} %`) },
+      { title: "time", cell: (run) => seconds(run.seconds) },
+      { title: "simulations", cell: (run) => count(run.evaluations) },
+      { title: "status", left: true, cell: (run) => run.status },
+    ]),
   );
 }
 

@@ -1,6 +1,6 @@
 // What to build: all members with sections, sizes, masses; to copy, and as a design file.
 import type { Document, ReportData } from "../data";
-import { download, h, section, table } from "../dom";
+import { download, h, section, tableOf } from "../dom";
 import { engineering, number, percent, withUnit, words } from "../format";
 import { hasDesign } from "./headline";
 import { profileSvgs } from "./inspector";
@@ -81,34 +81,20 @@ export function buildSection(data: ReportData, title?: string): HTMLElement | nu
     await navigator.clipboard?.writeText(copied(all));
     copy.textContent = "Copied";
   });
-  const rows = all.map((one) => [
-    h("div.sketch", {}, profileSvgs(picture!, one.index, picture!.designs.length - 1)),
-    h("b", {}, words(one.name)),
-    one.sizes.length
-      ? one.sizes.map((size) => h("div", {}, isSize(one) ? h("b", {}, size.after) : size.after, size.after !== size.before && size.before ? h("div.was", {}, `${was} ${size.before}`) : null))
-      : "–",
-    one.bounds.length ? h("span.bad", {}, one.bounds.join(", ")) : "",
-    lengthText(one.length),
-    massText(one.mass, was),
-    one.material ?? "–",
-  ]);
-  const hasBounds = all.some((one) => one.bounds.length);
-  const keep = (_: unknown, i: number) => i !== 3 || hasBounds;
+  const sizeText = (size: Member["sizes"][number], isNew: boolean) =>
+    h("div", {}, isNew ? h("b", {}, size.after) : size.after, size.after !== size.before && size.before ? h("div.was", {}, `${was} ${size.before}`) : null);
   const part = section(
     title ?? (result.status === "verified" ? "Build this" : "The design"),
     title ? "The filled outline is the second, the grey one the first." : `All members of the ${endName(result)}; the filled outline is it, the grey one the start.`,
-    table(
-      [
-        { title: "section", left: true, short: true },
-        { title: "member", left: true, short: true },
-        { title: "size", left: true },
-        { title: "", left: true },
-        { title: "length" },
-        { title: "mass" },
-        { title: "material", left: true, short: true },
-      ].filter(keep),
-      rows.map((row) => row.filter(keep)),
-    ),
+    tableOf(all, [
+      { title: "section", left: true, short: true, cell: (one) => h("div.sketch", {}, profileSvgs(picture!, one.index, picture!.designs.length - 1)) },
+      { title: "member", left: true, short: true, cell: (one) => h("b", {}, words(one.name)) },
+      { title: "size", left: true, cell: (one) => (one.sizes.length ? one.sizes.map((size) => sizeText(size, isSize(one))) : "–") },
+      all.some((one) => one.bounds.length) && { title: "", left: true, cell: (one) => one.bounds.length > 0 && h("span.bad", {}, one.bounds.join(", ")) },
+      { title: "length", cell: (one) => lengthText(one.length) },
+      { title: "mass", cell: (one) => massText(one.mass, was) },
+      { title: "material", left: true, short: true, cell: (one) => one.material ?? "–" },
+    ]),
     h("p.buttons.saves-design", {}, copy, title ? null : h("button.quiet.bordered", { title: "for pleuel simulate … --design design.json", onclick: () => download("design.json", designFile(result), "application/json") }, "Download design.json")),
   );
   part.classList.add("build");

@@ -1,7 +1,7 @@
 // Of a check: what will be built, whether the derivatives can be trusted, how long things take.
 import { lineChart } from "../charts";
 import type { Document, ReportData } from "../data";
-import { chosenView, h, type Page, section, table } from "../dom";
+import { chosenView, h, type Page, section, tableOf } from "../dom";
 import { count, number, seconds, withUnit, words } from "../format";
 import { influenceSection } from "./influence";
 import { viewing } from "./viewing";
@@ -29,20 +29,21 @@ function responsesSection(data: ReportData): HTMLElement | null {
   return section(
     "Responses and their derivatives",
     hasDerivatives ? "Direct differentiation against central differences and against the adjoint; digits that an optimizer may expect of value and gradient." : "",
-    table(
-      [
-        { title: "response", left: true },
-        { title: "value" },
-        ...(hasDerivatives ? [{ title: "derivatives", left: true }, { title: "to" }, { title: "adjoint" }, { title: "noise" }, { title: "digits" }] : []),
-      ],
-      responses.map(([name, one]) => {
-        const d: Document | undefined = one.derivatives;
-        const row: (HTMLElement | string)[] = [words(name), withUnit(one.value, unitOf(data.picture, name, one.unit))];
-        if (hasDerivatives) row.push(verdictCell(d), number(d?.error, 2), number(d?.adjoint_error, 2), number(d?.noise, 2), d ? `${d.digits.value} / ${d.digits.gradient}` : "–");
-        return row;
-      }),
-    ),
+    tableOf(responses, [
+      { title: "response", left: true, cell: ([name]) => words(name) },
+      { title: "value", cell: ([name, one]) => withUnit(one.value, unitOf(data.picture, name, one.unit)) },
+      hasDerivatives && { title: "derivatives", left: true, cell: ([, one]) => verdictCell(one.derivatives) },
+      hasDerivatives && { title: "to", cell: ([, one]) => number(one.derivatives?.error, 2) },
+      hasDerivatives && { title: "adjoint", cell: ([, one]) => number(one.derivatives?.adjoint_error, 2) },
+      hasDerivatives && { title: "noise", cell: ([, one]) => number(one.derivatives?.noise, 2) },
+      hasDerivatives && { title: "digits", cell: ([, one]) => digitsText(one.derivatives) },
+    ]),
   );
+}
+
+/** Of value and gradient. */
+function digitsText(derivatives: Document | undefined): string {
+  return derivatives ? `${derivatives.digits.value} / ${derivatives.digits.gradient}` : "–";
 }
 
 /** "rod_width", or "rod_width and 3 others" */

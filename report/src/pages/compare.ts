@@ -1,6 +1,6 @@
 // Two runs beside each other: which to build, how both move, what differs.
 import { type Design, type Document, type Picture, type ReportData } from "../data";
-import { h, heroOf, type Page, section, table } from "../dom";
+import { h, heroOf, type Page, section, tableOf } from "../dom";
 import { count, engineering, errorText, number, percent, withUnit, words } from "../format";
 import { makePlayer } from "../mechanism/player";
 import { buildSection } from "./build_table";
@@ -101,16 +101,13 @@ function tables(data: ReportData): HTMLElement[] {
       section(
         title,
         "",
-        table(
-          [{ title: "", left: true }, { title: "first" }, { title: "second" }, { title: "unit", left: true }, { title: "change" }],
-          rows.map((one) => [
-            words(one.of ? `${one.name}, ${one.of}` : one.name),
-            shown(one.first, one),
-            shown(one.second, one),
-            unit(one).name === "1" ? "" : unit(one).name,
-            change(one),
-          ]),
-        ),
+        tableOf(rows, [
+          { title: "", left: true, cell: (one) => words(one.of ? `${one.name}, ${one.of}` : one.name) },
+          { title: "first", cell: (one) => shown(one.first, one) },
+          { title: "second", cell: (one) => shown(one.second, one) },
+          { title: "unit", left: true, cell: (one) => (unit(one).name === "1" ? "" : unit(one).name) },
+          { title: "change", cell: change },
+        ]),
       ),
     ];
   });
@@ -138,6 +135,12 @@ function inputSection(result: Document): HTMLElement {
   return section(
     "What went in",
     rows.length ? "Where the inputs differ." : "The inputs are the same.",
-    rows.length ? table([{ title: "place", left: true }, { title: "first", left: true }, { title: "second", left: true }], rows.map((one) => [h("code", {}, one.place), text(one.first), text(one.second)])) : null,
+    rows.length
+      ? tableOf(rows, [
+          { title: "place", left: true, cell: (one) => h("code", {}, one.place) },
+          { title: "first", left: true, cell: (one) => text(one.first) },
+          { title: "second", left: true, cell: (one) => text(one.second) },
+        ])
+      : null,
   );
 }

@@ -1,7 +1,7 @@
 // Gradients of one design: what each variable changes, and what the methods cost.
 import { lineChart, type Series } from "../charts";
 import type { Document, Picture, ReportData } from "../data";
-import { chosenView, h, type Page, section, table } from "../dom";
+import { chosenView, h, type Page, section, tableOf } from "../dom";
 import { number, seconds, words } from "../format";
 import { influenceNotes, influenceOf, influenceTable } from "./influence";
 import { viewing } from "./viewing";
@@ -48,10 +48,14 @@ function effortSection(all: Compared[]): HTMLElement {
         legend: true,
         series: best.map((one) => ({ name: one.method, x: [Math.max(worst(one).value, smallest)], y: [one.seconds], color: colors[one.method] ?? "soft", dots: true, line: false, labels: [`error ${number(worst(one).value, 2)}, ${seconds(one.seconds)}`] })),
       }).element,
-      table(
-        [{ title: "method", left: true }, { title: "best step" }, { title: "time" }, { title: "times the fastest" }, { title: "error" }, { title: "of", left: true }],
-        best.map((one) => [one.method, one.step === null ? "–" : number(one.step, 1), seconds(one.seconds), number(one.seconds / fastest, 2), number(worst(one).value, 2), h("span.soft", {}, words(worst(one).name))]),
-      ),
+      tableOf(best, [
+        { title: "method", left: true, cell: (one) => one.method },
+        { title: "best step", cell: (one) => (one.step === null ? "–" : number(one.step, 1)) },
+        { title: "time", cell: (one) => seconds(one.seconds) },
+        { title: "times the fastest", cell: (one) => number(one.seconds / fastest, 2) },
+        { title: "error", cell: (one) => number(worst(one).value, 2) },
+        { title: "of", left: true, cell: (one) => h("span.soft", {}, words(worst(one).name)) },
+      ]),
     ),
   );
 }
@@ -108,14 +112,15 @@ export function gradientPage(data: ReportData): Page {
 function gradientsTable(responses: Record<string, Document>, methods: string[], picture: Picture | null): HTMLElement | null {
   const variables = Object.entries(picture?.variables ?? {});
   if (!methods.length || !variables.length) return null;
-  const rows = Object.entries(responses).flatMap(([name, one]) => {
-    const unit = unitOf(picture, name, one.unit);
-    return variables.map(([variable, { unit: by }], j) => [
-      j ? "" : words(name),
-      words(variable),
-      ...methods.map((method) => number((one.gradients?.[method]?.[variable] * by.factor) / unit.factor, 6)),
-      by.name === "1" ? unit.name : `${unit.name}/${by.name}`,
-    ]);
-  });
-  return section("All derivatives", "", table([{ title: "response", left: true }, { title: "variable", left: true }, ...methods.map((method) => ({ title: method })), { title: "unit", left: true }], rows));
+  const rows = Object.entries(responses).flatMap(([name, one]) => variables.map(([variable, { unit: by }], j) => ({ name, one, unit: unitOf(picture, name, one.unit), variable, by, isFirst: j === 0 })));
+  return section(
+    "All derivatives",
+    "",
+    tableOf(rows, [
+      { title: "response", left: true, cell: ({ name, isFirst }) => (isFirst ? words(name) : "") },
+      { title: "variable", left: true, cell: ({ variable }) => words(variable) },
+      ...methods.map((method) => ({ title: method, cell: ({ one, unit, variable, by }: (typeof rows)[number]) => number((one.gradients?.[method]?.[variable] * by.factor) / unit.factor, 6) })),
+      { title: "unit", left: true, cell: ({ unit, by }) => (by.name === "1" ? unit.name : `${unit.name}/${by.name}`) },
+    ]),
+  );
 }

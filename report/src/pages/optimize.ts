@@ -1,6 +1,6 @@
 // Of an optimization: what was won, what to build, whether to believe it, how it moves, where its limits bite.
 import type { Document, ReportData } from "../data";
-import { choice, h, type Page, section, table } from "../dom";
+import { choice, h, type Page, section, tableOf } from "../dom";
 import { engineering, listed, number, seconds, sentence, withUnit, words } from "../format";
 import { buildSection } from "./build_table";
 import { convergenceSection } from "./convergence";
@@ -153,9 +153,9 @@ function evidenceTitle(result: Document): string {
 
 function evidenceSection(data: ReportData): HTMLElement | null {
   const { result } = data;
-  const rows: (string | HTMLElement)[][] = [];
+  const rows: { what: string; value: string; meaning: string }[] = [];
   const isVerified = result.status === "verified";
-  const add = (what: string, value: string, meaning: string) => rows.push([what, value, h("span.soft", {}, meaning)]);
+  const add = (what: string, value: string, meaning: string) => rows.push({ what, value, meaning });
   if (hasDesign(result) && result.kkt_residual !== undefined) add("KKT residual", number(result.kkt_residual, 2), "how far the optimality conditions are off, relative: below 1e−3 counts");
   if (hasDesign(result) && result.max_violation !== undefined) add("violation", number(result.max_violation, 2), "of the true limits, relative");
   if (result.gradients) add("gradients", result.gradients.method, `because of ${result.gradients.reason}`);
@@ -170,7 +170,11 @@ function evidenceSection(data: ReportData): HTMLElement | null {
     monitorsText(result),
     isVerified && result.message ? h("p.audit", {}, sentence(result.message)) : null,
     result.checked ? h("p.audit", {}, h("b", {}, "In plain words: "), `${result.checked}.`) : null,
-    table([{ title: "evidence", left: true }, { title: "" }, { title: "what it says", left: true }], rows),
+    tableOf(rows, [
+      { title: "evidence", left: true, cell: (one) => one.what },
+      { title: "", cell: (one) => one.value },
+      { title: "what it says", left: true, cell: (one) => h("span.soft", {}, one.meaning) },
+    ]),
     ...(responses ? [h("h3", {}, "All responses"), responses] : []),
     result.failed_evaluations ? h("p.note", {}, "The last design that could not be simulated is failed_design.json in the run folder.") : null,
     stages.length > 1

@@ -1,6 +1,6 @@
 // Parts that several pages have: headline, evidence, effects, files.
-import { curveOf, type Document, type Picture, type ReportData, type Unit } from "../data";
-import { details, download, h, section, table } from "../dom";
+import { curveOf, type Document, type ErrorBar, type Picture, type ReportData, type Unit } from "../data";
+import { details, download, h, section, tableOf } from "../dom";
 import { count, engineering, errorText, number, percent, seconds, sentence, withUnit, words } from "../format";
 
 const verdicts: Record<string, { text: string; tone: string }> = {
@@ -52,45 +52,29 @@ export function withoutRoundOff(picture: Picture | null, name: string, value: nu
 /** All responses with values and what their numbers are known to. */
 export function responsesTable(data: ReportData): HTMLElement | null {
   const responses: Record<string, Document> = data.result.responses ?? {};
-  const names = Object.keys(responses);
-  if (!names.length) return null;
-  const hasStart = names.some((name) => responses[name].start !== undefined);
-  const hasErrors = names.some((name) => responses[name].error);
-  const rows = names.map((name) => {
-    const one = responses[name];
-    const unit = unitOf(data.picture, name, one.unit);
-    const total = one.error?.total;
-    const row: (Node | string)[] = [words(name)];
+  const rows = Object.entries(responses).map(([name, one]) => {
     const [start, value] = [one.start, one.value].map((raw) => withoutRoundOff(data.picture, name, raw, one.unit));
-    if (hasStart) row.push(number(start / unit.factor));
-    row.push(number(value / unit.factor));
-    if (hasStart) row.push(name === data.result.objective?.name ? change(start, value) : start ? percent(value / start - 1) : "");
-    row.push(unit.name);
-    if (hasErrors) {
-      row.push(
-        one.error === null || one.error === undefined
-          ? "–"
-          : total === null
-            ? h("span.bad", {}, one.error.is_modelled === false ? "not modelled" : "not resolved")
-            : total === 0
-              ? "exact"
-              : errorText(one.error, { ...unit, name: "1" }),
-        total ? `${number((100 * total) / Math.abs(one.value || 1), 2)} %` : "",
-      );
-    }
-    return row;
+    return { name, one, start, value, unit: unitOf(data.picture, name, one.unit) };
   });
-  return table(
-    [
-      { title: "response", left: true },
-      ...(hasStart ? [{ title: "start" }] : []),
-      { title: hasStart ? endName(data.result) : "value" },
-      ...(hasStart ? [{ title: "change" }] : []),
-      { title: "unit", left: true },
-      ...(hasErrors ? [{ title: "known to" }, { title: "" }] : []),
-    ],
-    rows,
-  );
+  if (!rows.length) return null;
+  const hasStart = rows.some(({ one }) => one.start !== undefined);
+  const hasErrors = rows.some(({ one }) => one.error);
+  const changeOf = (name: string, start: number, value: number) => (name === data.result.objective?.name ? change(start, value) : start ? percent(value / start - 1) : "");
+  return tableOf(rows, [
+    { title: "response", left: true, cell: ({ name }) => words(name) },
+    hasStart && { title: "start", cell: ({ start, unit }) => number(start / unit.factor) },
+    { title: hasStart ? endName(data.result) : "value", cell: ({ value, unit }) => number(value / unit.factor) },
+    hasStart && { title: "change", cell: ({ name, start, value }) => changeOf(name, start, value) },
+    { title: "unit", left: true, cell: ({ unit }) => unit.name },
+    hasErrors && { title: "known to", cell: ({ one, unit }) => knownTo(one.error, unit) },
+    hasErrors && { title: "", cell: ({ one }) => (one.error?.total ? `${number((100 * one.error.total) / Math.abs(one.value || 1), 2)} %` : "") },
+  ]);
+}
+
+function knownTo(error: ErrorBar | null | undefined, unit: Unit): HTMLElement | string {
+  if (!error) return "–";
+  if (error.total === null) return h("span.bad", {}, error.is_modelled === false ? "not modelled" : "not resolved");
+  return error.total === 0 ? "exact" : errorText(error, { ...unit, name: "1" });
 }
 
 export function change(before: number, after: number): HTMLElement | string {
@@ -147,32 +131,21 @@ export function effectsSection(data: ReportData): HTMLElement | null {
     return text;
   };
   const hasWorth = hasInfluence && effects.some((e) => e.influence && worth(e.influence) !== null) && data.card.command === "optimize";
-  const rowOf = (effect: Document) => [
-    effect.name.replace(/[-_]/g, " "),
-    effect.body ? words(effect.body) : "all",
-    ...(hasCases ? [effect.cases as string] : []),
-    effect.built ? h("span.good-text", {}, "built") : h("span.soft", {}, "left out"),
-    ...(hasInfluence ? [effect.influence ? most(effect.influence) : "–"] : []),
-    ...(hasWorth
-      ? [effect.influence && worth(effect.influence) !== null ? smallMass(worth(effect.influence)!, objectiveUnit!) : "–"]
-      : []),
-    ...(hasTimes ? [timeChange(effect.time)] : []),
-    h("span.soft", {}, effect.reason ?? ""),
-  ];
-  const tableOf = (shown: Document[]) =>
-    table(
-      [
-        { title: "effect", left: true },
-        { title: "of", left: true, short: true },
-        ...(hasCases ? [{ title: "in", left: true }] : []),
-        { title: "", left: true, short: true },
-        ...(hasInfluence ? [{ title: "changes most", left: true }] : []),
-        ...(hasWorth ? [{ title: "worth" }] : []),
-        ...(hasTimes ? [{ title: "time" }] : []),
-        { title: "because", left: true },
-      ],
-      shown.map(rowOf),
-    );
+  const worthText = (influence?: Record<string, number>) => {
+    const value = influence ? worth(influence) : null;
+    return value === null ? "–" : smallMass(value, objectiveUnit!);
+  };
+  const effectsTable = (shown: Document[]) =>
+    tableOf(shown, [
+      { title: "effect", left: true, cell: (effect) => effect.name.replace(/[-_]/g, " ") },
+      { title: "of", left: true, short: true, cell: (effect) => (effect.body ? words(effect.body) : "all") },
+      hasCases && { title: "in", left: true, cell: (effect) => effect.cases },
+      { title: "", left: true, short: true, cell: (effect) => (effect.built ? h("span.good-text", {}, "built") : h("span.soft", {}, "left out")) },
+      hasInfluence && { title: "changes most", left: true, cell: (effect) => (effect.influence ? most(effect.influence) : "–") },
+      hasWorth && { title: "worth", cell: (effect) => worthText(effect.influence) },
+      hasTimes && { title: "time", cell: (effect) => timeChange(effect.time) },
+      { title: "because", left: true, cell: (effect) => h("span.soft", {}, effect.reason ?? "") },
+    ]);
   // Older documents do not say what matters.
   const isMarked = effects.some((effect) => effect.matters !== undefined);
   const doesMatter = (effect: Document) => (isMarked ? effect.matters : effect.influence && largestChange(effect.influence, data.result.responses ?? {}) > 1e-3);
@@ -181,9 +154,9 @@ export function effectsSection(data: ReportData): HTMLElement | null {
   return section(
     "What is simulated",
     hasInfluence ? `Effects that matter: how the numbers${hasTimes ? " and the time of a simulation" : ""} change without each.` : "What is built for this scene, and why.",
-    important.length ? tableOf(important) : null,
+    important.length ? effectsTable(important) : null,
     hasInfluence || important.length ? h("p.note", {}, rest) : null,
-    h("details.inner", { open: data.card.command === "show" }, h("summary", {}, `All ${effects.length} effects, and why`), tableOf(effects)),
+    h("details.inner", { open: data.card.command === "show" }, h("summary", {}, `All ${effects.length} effects, and why`), effectsTable(effects)),
   );
 }
 
@@ -264,7 +237,7 @@ export function filesSection(data: ReportData): HTMLElement {
     details(
       "Run card",
       h("p.note", {}, h("code", {}, `pleuel ${(card.arguments ?? []).join(" ")}`)),
-      known.length ? table([{ title: "", left: true }, { title: "", left: true }], known) : null,
+      known.length ? tableOf(known, [{ title: "", left: true, cell: ([name]) => name }, { title: "", left: true, cell: ([, value]) => value }]) : null,
     ),
     details(
       "Problem file",

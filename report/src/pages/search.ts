@@ -1,6 +1,6 @@
 // How an optimization was searched: limits that contradict each other, several starts, several methods.
 import type { Document, ReportData } from "../data";
-import { h, section, table } from "../dom";
+import { h, section, tableOf } from "../dom";
 import { engineering, number, roundedOutward, withUnit, words } from "../format";
 import { unitOf as unitOfResponse, unitOfLimit } from "./parts";
 
@@ -8,28 +8,23 @@ import { unitOf as unitOfResponse, unitOfLimit } from "./parts";
 export function conflictSection(data: ReportData): HTMLElement | null {
   const least = data.result.least_violation;
   if (!least) return null;
-  const names = Object.keys(least.limits ?? {});
-  if (!names.length) return null;
-  const hasAlone = names.some((name) => least.limits[name].alone !== undefined);
-  const rows = names.map((name) => {
-    const one: Document = least.limits[name];
-    const unit = unitOfLimit(data.picture, name, one.unit);
-    const isUpper = one.side === "upper";
-    const sign = isUpper ? "≤" : "≥";
-    const enough = (limit: number) => `${sign} ${withUnit(unit.factor * roundedOutward(limit / unit.factor, isUpper), unit)}`;
-    const row: (Node | string)[] = [one.in_conflict ? h("b", {}, words(name)) : words(name), `${sign} ${withUnit(one.limit, unit)}`];
-    if (hasAlone) row.push(one.alone === undefined ? "–" : enough(one.alone));
-    row.push(enough(one.together));
-    return row;
-  });
+  const limits = Object.entries((least.limits ?? {}) as Record<string, Document>);
+  if (!limits.length) return null;
+  const allowed = (name: string, one: Document, limit = one.limit) => `${one.side === "upper" ? "≤" : "≥"} ${withUnit(limit, unitOfLimit(data.picture, name, one.unit))}`;
+  const enough = (name: string, one: Document, limit: number) => {
+    const { factor } = unitOfLimit(data.picture, name, one.unit);
+    return allowed(name, one, factor * roundedOutward(limit / factor, one.side === "upper"));
+  };
   return section(
     "Limits in conflict",
     `${least.proven ? "No design nearby keeps all of them." : "No design that keeps all of them was found."} ` +
       "The design of this page breaks them least. One change of the column “alone” would do, or all of “together”.",
-    table(
-      [{ title: "limit", left: true }, { title: "asked for" }, ...(hasAlone ? [{ title: "alone" }] : []), { title: "together" }],
-      rows,
-    ),
+    tableOf(limits, [
+      { title: "limit", left: true, cell: ([name, one]) => (one.in_conflict ? h("b", {}, words(name)) : words(name)) },
+      { title: "asked for", cell: ([name, one]) => allowed(name, one) },
+      limits.some(([, one]) => one.alone !== undefined) && { title: "alone", cell: ([name, one]) => (one.alone === undefined ? "–" : enough(name, one, one.alone)) },
+      { title: "together", cell: ([name, one]) => enough(name, one, one.together) },
+    ]),
   );
 }
 
@@ -39,20 +34,13 @@ function optimaTable(data: ReportData, optima: Document[], runs: Document[]): HT
   const objective = unitOfResponse(picture, result.objective.name, result.objective.unit);
   const variables = Object.keys(optima[0].variables);
   const unitOf = (name: string) => picture?.variables[name]?.unit ?? engineering(result.variables?.[name]?.unit ?? "1");
-  return table(
-    [
-      { title: `${words(result.objective.name)} [${objective.name}]` },
-      ...variables.map((name) => ({ title: `${words(name)} [${unitOf(name).name}]` })),
-      { title: "found" },
-      { title: "from starts", left: true },
-    ],
-    optima.map((one, k) => [
-      k === 0 ? h("b", {}, number(one.objective / objective.factor, 6)) : number(one.objective / objective.factor, 6),
-      ...variables.map((name) => number(one.variables[name] / unitOf(name).factor)),
-      `${one.found} of ${runs.length}`,
-      runs.flatMap((run, i) => (run.optimum === k ? [String(i + 1)] : [])).join(", "),
-    ]),
-  );
+  const objectiveText = (one: Document) => number(one.objective / objective.factor, 6);
+  return tableOf(optima, [
+    { title: `${words(result.objective.name)} [${objective.name}]`, cell: (one, k) => (k === 0 ? h("b", {}, objectiveText(one)) : objectiveText(one)) },
+    ...variables.map((name) => ({ title: `${words(name)} [${unitOf(name).name}]`, cell: (one: Document) => number(one.variables[name] / unitOf(name).factor) })),
+    { title: "found", cell: (one) => `${one.found} of ${runs.length}` },
+    { title: "from starts", left: true, cell: (_, k) => runs.flatMap((run, i) => (run.optimum === k ? [String(i + 1)] : [])).join(", ") },
+  ]);
 }
 
 export function startsSection(data: ReportData): HTMLElement | null {

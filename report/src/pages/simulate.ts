@@ -1,7 +1,7 @@
 // Of one simulation, and of a mechanism that is only drawn.
 import { lineChart } from "../charts";
-import { curveOf, type Document, type Packed, type Picture, type ReportData, type SceneBody } from "../data";
-import { h, heroOf, type Page, section, table } from "../dom";
+import { curveOf, type Document, type Packed, type Picture, type ReportData, type SceneBody, type SceneLoad } from "../data";
+import { h, heroOf, type Page, section, tableOf } from "../dom";
 import { count, engineering, number, seconds, share, timeUnit, withUnit, words } from "../format";
 import { historyChart } from "./history";
 import { profiles } from "./inspector";
@@ -45,27 +45,22 @@ function limitsSentence(result: Document): HTMLElement | null {
 }
 
 function limitsTable(data: ReportData): HTMLElement | null {
-  const constraints: Record<string, Document> = data.result.constraints ?? {};
-  const names = Object.keys(constraints);
-  if (!names.length) return null;
+  const limits = Object.entries((data.result.constraints ?? {}) as Record<string, Document>);
+  if (!limits.length) return null;
+  const { picture } = data;
+  const unit = (name: string, one: Document) => unitOfLimit(picture, name, one.unit);
+  const shown = (name: string, one: Document) => withoutRoundOff(picture, picture?.limits[name]?.response ?? "", one.value, one.unit);
+  const used = (one: Document) => (one.utilisation !== undefined ? share(one.utilisation) : one.kept ? "–" : "broken");
   return h(
     "div",
     {},
     h("h3", {}, "Limits"),
-    table(
-      [{ title: "limit", left: true }, { title: "value" }, { title: "limit" }, { title: "used" }],
-      names.map((name) => {
-        const one = constraints[name];
-        const unit = unitOfLimit(data.picture, name, one.unit);
-        const used: number | undefined = one.utilisation;
-        return [
-          words(name),
-          withUnit(withoutRoundOff(data.picture, data.picture?.limits[name]?.response ?? "", one.value, one.unit), unit),
-          `${one.side === "lower" ? "≥" : "≤"} ${withUnit(one.limit, unit)}`,
-          h(one.kept ? "span" : "span.bad", {}, used !== undefined ? share(used) : one.kept ? "–" : "broken"),
-        ];
-      }),
-    ),
+    tableOf(limits, [
+      { title: "limit", left: true, cell: ([name]) => words(name) },
+      { title: "value", cell: ([name, one]) => withUnit(shown(name, one), unit(name, one)) },
+      { title: "limit", cell: ([name, one]) => `${one.side === "lower" ? "≥" : "≤"} ${withUnit(one.limit, unit(name, one))}` },
+      { title: "used", cell: ([, one]) => h(one.kept ? "span" : "span.bad", {}, used(one)) },
+    ]),
   );
 }
 
@@ -128,17 +123,14 @@ export function showPage(data: ReportData): Page {
     section(
       "Joints",
       "",
-      table(
-        [{ title: "joint", left: true }, { title: "kind", left: true }, { title: "of", left: true }, { title: "free in space", left: true }, { title: "the second body", left: true }, { title: "drive", left: true }],
-        scene.joints.map((joint) => [
-          words(joint.name),
-          joint.type,
-          bodyPair(joint.bodies, unheld),
-          joint.freedoms === undefined ? "" : `${joint.freedoms} of 6`,
-          joint.freedom,
-          joint.drive ? h("span.drive-text", {}, `${joint.drive} prescribed`) : "–",
-        ]),
-      ),
+      tableOf(scene.joints, [
+        { title: "joint", left: true, cell: (joint) => words(joint.name) },
+        { title: "kind", left: true, cell: (joint) => joint.type },
+        { title: "of", left: true, cell: (joint) => bodyPair(joint.bodies, unheld) },
+        { title: "free in space", left: true, cell: (joint) => (joint.freedoms === undefined ? "" : `${joint.freedoms} of 6`) },
+        { title: "the second body", left: true, cell: (joint) => joint.freedom },
+        { title: "drive", left: true, cell: (joint) => (joint.drive ? h("span.drive-text", {}, `${joint.drive} prescribed`) : "–") },
+      ]),
     ),
     loadsTable(picture),
     lawsSection(picture),
@@ -186,19 +178,17 @@ function goalSentence(picture: Picture): HTMLElement | null {
 
 /** The limits of the file. */
 function asked(picture: Picture): HTMLElement | null {
-  const names = Object.keys(picture.limits);
-  if (!names.length) return null;
+  const limits = Object.entries(picture.limits);
+  if (!limits.length) return null;
+  const allowed = ({ lower, upper, unit }: Picture["limits"][string]) => [lower === undefined ? "" : `≥ ${withUnit(lower, unit)}`, upper === undefined ? "" : `≤ ${withUnit(upper, unit)}`];
   return section(
     "Limits",
     "",
-    table(
-      [{ title: "limit", left: true }, { title: "of", left: true }, { title: "allowed" }],
-      names.map((name) => {
-        const { response, lower, upper, unit } = picture.limits[name];
-        const allowed = [lower === undefined ? "" : `≥ ${withUnit(lower, unit)}`, upper === undefined ? "" : `≤ ${withUnit(upper, unit)}`];
-        return [words(name), response ? words(response) : "variables", allowed.filter(Boolean).join(", ")];
-      }),
-    ),
+    tableOf(limits, [
+      { title: "limit", left: true, cell: ([name]) => words(name) },
+      { title: "of", left: true, cell: ([, { response }]) => (response ? words(response) : "variables") },
+      { title: "allowed", cell: ([, limit]) => allowed(limit).filter(Boolean).join(", ") },
+    ]),
   );
 }
 
@@ -223,18 +213,19 @@ function loadsTable(picture: Picture): HTMLElement | null {
     const text = low === high ? number(high) : `${number(low)} … ${number(high)}`;
     return `${text} ${unit}`;
   };
+  const size = (load: SceneLoad, l: number) => {
+    const { value, text } = designs[0].geometry.loads[l];
+    return [text ?? "", value ? range(value, load.unit ?? "") : ""].filter(Boolean).join(", ");
+  };
   return section(
     "Loads",
     "",
-    table(
-      [{ title: "load", left: true }, { title: "kind", left: true }, { title: "on", left: true }, { title: "from the start to the end", left: true }],
-      scene.loads.map((load, l) => {
-        const { value, text } = designs[0].geometry.loads[l];
-        const size = [text ?? "", value ? range(value, load.unit ?? "") : ""].filter(Boolean).join(", ");
-        const on = load.joint ? `the joint ${words(load.joint)}` : (load.bodies ?? []).map(words).join(" – ");
-        return [words(load.name), `${loadKinds[load.type]}${load.follows_body ? ", turns with the body" : ""}`, on, size || "–"];
-      }),
-    ),
+    tableOf(scene.loads, [
+      { title: "load", left: true, cell: (load) => words(load.name) },
+      { title: "kind", left: true, cell: (load) => `${loadKinds[load.type]}${load.follows_body ? ", turns with the body" : ""}` },
+      { title: "on", left: true, cell: (load) => (load.joint ? `the joint ${words(load.joint)}` : (load.bodies ?? []).map(words).join(" – ")) },
+      { title: "from the start to the end", left: true, cell: (load, l) => size(load, l) || "–" },
+    ]),
   );
 }
 
@@ -268,38 +259,33 @@ function startText(body: SceneBody): string {
 
 export function bodiesSection(picture: Picture, result: Document, unheld: string[]): HTMLElement {
   const { scene } = picture;
+  const known = (body: SceneBody) => (result.bodies ?? []).find((one: Document) => one.name === body.name) ?? {};
   return section(
     "Bodies",
     "Axes in the drawing: x red along the beam, y green, z blue. Sections are drawn with y up and z to the right." +
       (scene.bodies.some((body) => startText(body)) ? " What starts bent is drawn straight: a simulation shows its start." : ""),
-    table(
-      [{ title: "body", left: true }, { title: "kind", left: true }, { title: "section", left: true }, { title: "mass [kg]" }, { title: "coordinates" }],
-      scene.bodies.map((body, i) => {
-        const known = (result.bodies ?? []).find((one: Document) => one.name === body.name) ?? {};
-        return [
-          unheld.includes(body.name) ? h("span.bad", { title: "nothing holds or moves it" }, `${words(body.name)}: free`) : words(body.name),
-          `${body.is_rigid ? "rigid " : ""}${body.type}${body.material ? `, ${body.material}` : ""}${startText(body)}`,
-          profiles(picture, i, 0) ?? "–",
-          number(known.mass),
-          count(known.coordinates),
-        ];
-      }),
-    ),
+    tableOf(scene.bodies, [
+      { title: "body", left: true, cell: ({ name }) => (unheld.includes(name) ? h("span.bad", { title: "nothing holds or moves it" }, `${words(name)}: free`) : words(name)) },
+      { title: "kind", left: true, cell: (body) => `${body.is_rigid ? "rigid " : ""}${body.type}${body.material ? `, ${body.material}` : ""}${startText(body)}` },
+      { title: "section", left: true, cell: (_, i) => profiles(picture, i, 0) ?? "–" },
+      { title: "mass [kg]", cell: (body) => number(known(body).mass) },
+      { title: "coordinates", cell: (body) => count(known(body).coordinates) },
+    ]),
   );
 }
 
 export function variablesTable(picture: Picture): HTMLElement | null {
-  const names = Object.keys(picture.variables);
-  if (!names.length) return null;
+  const variables = Object.entries(picture.variables);
+  if (!variables.length) return null;
   return section(
     "Design variables",
     "",
-    table(
-      [{ title: "variable", left: true }, { title: "start" }, { title: "lower" }, { title: "upper" }, { title: "unit", left: true }],
-      names.map((name) => {
-        const { start, lower, upper, unit } = picture.variables[name];
-        return [words(name), number(start / unit.factor), number(lower / unit.factor), number(upper / unit.factor), unit.name];
-      }),
-    ),
+    tableOf(variables, [
+      { title: "variable", left: true, cell: ([name]) => words(name) },
+      { title: "start", cell: ([, { start, unit }]) => number(start / unit.factor) },
+      { title: "lower", cell: ([, { lower, unit }]) => number(lower / unit.factor) },
+      { title: "upper", cell: ([, { upper, unit }]) => number(upper / unit.factor) },
+      { title: "unit", left: true, cell: ([, { unit }]) => unit.name },
+    ]),
   );
 }

@@ -1,6 +1,6 @@
 // Formulations and schemes side by side: a heat map of what they drift, lose and cost.
 import type { Document, ReportData } from "../data";
-import { chosenView, h, type Page, type PaintedCell, paintedMatrix, section, table } from "../dom";
+import { chosenView, type Column, h, type Page, type PaintedCell, paintedMatrix, section, tableOf } from "../dom";
 import { count, number, seconds, sentenceCase } from "../format";
 import { fact, filesSection } from "./parts";
 import { hero } from "./studies";
@@ -28,6 +28,11 @@ function valueOf(run: Document | undefined, key: string): number | null {
   return typeof value === "number" ? value : null;
 }
 
+function textOf(run: Document | undefined, measure: Measure): string {
+  const value = valueOf(run, measure.key);
+  return value === null ? "–" : measure.text(value);
+}
+
 const nameOf = (file: string) => file.replace(/^.*\//, "").replace(/\.json$/, "");
 
 /** Colours by the logarithm: between the smallest and the largest of the measure. */
@@ -38,9 +43,8 @@ function heatMap(runs: Document[], files: string[], formulations: string[], meas
   const shareOf = (value: number | null) => (value === null || !(value > 0) ? 0 : Math.max(0, (Math.log10(value) - low) / Math.max(high - low, 0.3)));
   const cellOf = (file: string, formulation: string): PaintedCell => {
     const run = of(file, formulation);
-    const value = valueOf(run, measure.key);
-    const content = run?.failure ? h("span.bad", {}, "failed") : value === null ? "–" : measure.text(value);
-    return { content, title: run?.failure, tone: "more", percent: Math.round(42 * shareOf(value)) };
+    const content = run?.failure ? h("span.bad", {}, "failed") : textOf(run, measure);
+    return { content, title: run?.failure, tone: "more", percent: Math.round(42 * shareOf(valueOf(run, measure.key))) };
   };
   return paintedMatrix(
     measure.name,
@@ -69,6 +73,10 @@ export function stabilityPage(data: ReportData): Page {
   const formulations = [...new Set([...(result.formulations ?? []), ...runs.map((run) => String(run.formulation))])].filter((name) => runs.some((run) => run.formulation === name));
   const failed = runs.filter((run) => run.failure);
   const shown = measures.filter((measure) => runs.some((run) => valueOf(run, measure.key) !== null));
+  const ofRun: Column<Document>[] = [
+    { title: "file", left: true, cell: (run) => nameOf(run.file) },
+    { title: "formulation", left: true, cell: (run) => run.formulation },
+  ];
   const draw = (key: string) => {
     const measure = shown.find((one) => one.key === key)!;
     const note = `${measure.note ? `${sentenceCase(measure.note)}. ` : ""}The darker, the larger: colours follow the logarithm.`;
@@ -81,15 +89,16 @@ export function stabilityPage(data: ReportData): Page {
     ], [...sharedWarnings(runs)].map(([text, of]) => `${text} (${whose(of, runs, files)})`)),
     section("Formulations side by side", "", shown.length ? chosenView("measure", shown.map((one) => [one.key, one.name]), draw) : null),
     failed.length
-      ? section("What failed", "", table([{ title: "file", left: true }, { title: "formulation", left: true }, { title: "because", left: true }], failed.map((run) => [nameOf(run.file), run.formulation, run.failure])))
+      ? section("What failed", "", tableOf(failed, [...ofRun, { title: "because", left: true, cell: (run) => run.failure }]))
       : null,
     section(
       "All numbers",
       "",
-      table(
-        [{ title: "file", left: true }, { title: "formulation", left: true }, ...shown.map((one) => ({ title: one.name })), { title: "steps" }],
-        runs.map((run) => [nameOf(run.file), run.formulation, ...shown.map((one) => { const value = valueOf(run, one.key); return value === null ? "–" : one.text(value); }), run.work ? count(run.work.steps) : "–"]),
-      ),
+      tableOf(runs, [
+        ...ofRun,
+        ...shown.map((one) => ({ title: one.name, cell: (run: Document) => textOf(run, one) })),
+        { title: "steps", cell: (run) => (run.work ? count(run.work.steps) : "–") },
+      ]),
     ),
     filesSection(data),
   ];

@@ -1,7 +1,7 @@
 // Of fronts, accuracy and the other studies.
 import { lineChart, type Series } from "../charts";
 import { type Document, parseCsv, type Picture, type ReportData, type Unit } from "../data";
-import { h, heroOf, type Page, section, table } from "../dom";
+import { h, heroOf, type Page, section, tableOf } from "../dom";
 import { engineering, number, sentence, timeUnit, withUnit, words } from "../format";
 import { makePlayer } from "../mechanism/player";
 import { filesSection, verdict } from "./parts";
@@ -95,19 +95,16 @@ export function paretoPage(data: ReportData): Page {
     section(
       "Points",
       "",
-      table(
-        [{ title: "" }, { title: `${limitTitle} [${unit(limited).name}]` }, ...(isOfResponses ? [{ title: `${words(limited)} [${unit(limited).name}]` }] : []), { title: `${words(objective)} [${unit(objective).name}]` }, { title: "±" }, { title: `slope [${unit(objective).name}/${unit(limited).name}]` }, ...Object.keys(picture?.variables ?? {}).map((name) => ({ title: `${words(name)} [${picture!.variables[name].unit.name}]` })), { title: "status", left: true }],
-        points.map((point, i) => [
-          String(i + 1),
-          number(point.limit / unit(limited).factor),
-          ...(isOfResponses ? [number(point.objectives?.[limited] / unit(limited).factor)] : []),
-          number(point.objectives?.[objective] / unit(objective).factor),
-          point.error?.total ? number(point.error.total / unit(objective).factor, 2) : "–",
-          point.multiplier !== undefined ? number((-point.multiplier / unit(objective).factor) * unit(limited).factor, 3) : "–",
-          ...Object.entries(picture?.variables ?? {}).map(([name, variable]) => number(point.variables[name] / variable.unit.factor)),
-          marks(point),
-        ]),
-      ),
+      tableOf(points, [
+        { title: "", cell: (_, i) => String(i + 1) },
+        { title: `${limitTitle} [${unit(limited).name}]`, cell: (point) => number(point.limit / unit(limited).factor) },
+        isOfResponses && { title: `${words(limited)} [${unit(limited).name}]`, cell: (point) => number(point.objectives?.[limited] / unit(limited).factor) },
+        { title: `${words(objective)} [${unit(objective).name}]`, cell: (point) => number(point.objectives?.[objective] / unit(objective).factor) },
+        { title: "±", cell: (point) => (point.error?.total ? number(point.error.total / unit(objective).factor, 2) : "–") },
+        { title: `slope [${unit(objective).name}/${unit(limited).name}]`, cell: (point) => (point.multiplier !== undefined ? number((-point.multiplier / unit(objective).factor) * unit(limited).factor, 3) : "–") },
+        ...Object.entries(picture?.variables ?? {}).map(([name, { unit }]) => ({ title: `${words(name)} [${unit.name}]`, cell: (point: Document) => number(point.variables[name] / unit.factor) })),
+        { title: "status", left: true, cell: marks },
+      ]),
       unverifiedNotes(points),
     ),
     filesSection(data),

@@ -1,6 +1,6 @@
 // Deviations and bounds of the responses, and which parameters they come from.
 import type { Document, ReportData } from "../data";
-import { h, type Page, section, table } from "../dom";
+import { h, type Page, section, tableOf } from "../dom";
 import { count, engineering, number, share, withUnit, words } from "../format";
 import { fact, filesSection, unitOfLimit } from "./parts";
 import { csvCharts, hero } from "./studies";
@@ -16,17 +16,7 @@ export function uncertaintyPage(data: ReportData): Page {
   const { result, picture } = data;
   const rows = Object.entries((result.responses ?? {}) as Record<string, Document>).map(([name, one]) => {
     const unit = picture?.responses[name]?.unit ?? engineering(one.unit);
-    const shown = (value: number, digits = 4) => number(value / unit.factor, digits);
-    const shares = sharesOf(one);
-    return [
-      words(name),
-      shown(one.value),
-      shown(one.deviation, 3),
-      one.sampled ? shown(one.sampled.deviation, 3) : "–",
-      one.bounds ? boundsText(one.bounds[0] / unit.factor, one.bounds[1] / unit.factor) : "–",
-      unit.name,
-      shares.filter(({ part }, i) => i === 0 || part >= 0.005).slice(0, 2).map(({ who, part }) => `${words(who)} ${(100 * part).toFixed(0)} %`).join(", "),
-    ];
+    return { name, one, unit, shown: (value: number, digits = 4) => number(value / unit.factor, digits) };
   });
   return [
     hero(data, `What scatters: ${Object.keys(result.parameters ?? {}).map(words).join(", ")}.`, [
@@ -37,23 +27,26 @@ export function uncertaintyPage(data: ReportData): Page {
     section(
       "Responses",
       "First order from the gradients; beside it what the samples saw.",
-      table(
-        [
-          { title: "response", left: true },
-          { title: "value" },
-          { title: "deviation" },
-          { title: "by samples" },
-          { title: "bounds" },
-          { title: "unit", left: true },
-          { title: "mostly because of", left: true },
-        ],
-        rows,
-      ),
+      tableOf(rows, [
+        { title: "response", left: true, cell: ({ name }) => words(name) },
+        { title: "value", cell: ({ one, shown }) => shown(one.value) },
+        { title: "deviation", cell: ({ one, shown }) => shown(one.deviation, 3) },
+        { title: "by samples", cell: ({ one, shown }) => (one.sampled ? shown(one.sampled.deviation, 3) : "–") },
+        { title: "bounds", cell: ({ one, unit }) => (one.bounds ? boundsText(one.bounds[0] / unit.factor, one.bounds[1] / unit.factor) : "–") },
+        { title: "unit", left: true, cell: ({ unit }) => unit.name },
+        { title: "mostly because of", left: true, cell: ({ one }) => causes(one) },
+      ]),
     ),
     sharesSection(result),
     ...csvCharts(data),
     filesSection(data),
   ];
+}
+
+/** Of the largest two shares those that count. */
+function causes(one: Document): string {
+  const counted = sharesOf(one).filter(({ part }, i) => i === 0 || part >= 0.005);
+  return counted.slice(0, 2).map(({ who, part }) => `${words(who)} ${(100 * part).toFixed(0)} %`).join(", ");
 }
 
 /** Does it still hold? A row a limit, the nearest first. */
@@ -62,27 +55,20 @@ function limitsSection(data: ReportData): HTMLElement | null {
   const limits = [...((result.limits ?? []) as Document[])].sort((a, b) => (a.distance ?? Infinity) - (b.distance ?? Infinity));
   if (!limits.length) return null;
   const isSampled = !!result.samples;
-  const rows = limits.map((one) => {
-    const unit = unitOfLimit(picture, one.name, one.unit);
-    const sign = one.side === "upper" ? "≤" : "≥";
-    const isBeyond = one.side === "upper" ? one.worst > one.limit : one.worst < one.limit;
-    const row: (Node | string)[] = [
-      words(one.name),
-      withUnit(one.value, unit),
-      `${sign} ${withUnit(one.limit, unit)}`,
-      one.distance === undefined ? "–" : h(one.distance < 3 ? "span.bad" : "span", {}, `${number(one.distance, 3)} σ`),
-      h(isBeyond ? "span.bad" : "span", {}, withUnit(one.worst, unit)),
-    ];
-    if (isSampled) row.push(h(one.broken ? "span.bad" : "span", {}, share(one.broken / result.samples)));
-    return row;
-  });
+  const shown = (one: Document, value: number) => withUnit(value, unitOfLimit(picture, one.name, one.unit));
+  const isBeyond = (one: Document) => (one.side === "upper" ? one.worst > one.limit : one.worst < one.limit);
+  const marked = (isBad: boolean, text: string) => h(isBad ? "span.bad" : "span", {}, text);
   return section(
     "Does it still hold?",
     `Distance: from the value to the limit, in deviations.${isSampled ? ` Broken in: of the ${count(result.samples)} samples.` : ""} At worst: all parameters at their worst at once, to first order.`,
-    table(
-      [{ title: "limit", left: true }, { title: "value" }, { title: "allowed" }, { title: "distance" }, { title: "at worst" }, ...(isSampled ? [{ title: "broken in" }] : [])],
-      rows,
-    ),
+    tableOf(limits, [
+      { title: "limit", left: true, cell: (one) => words(one.name) },
+      { title: "value", cell: (one) => shown(one, one.value) },
+      { title: "allowed", cell: (one) => `${one.side === "upper" ? "≤" : "≥"} ${shown(one, one.limit)}` },
+      { title: "distance", cell: (one) => (one.distance === undefined ? "–" : marked(one.distance < 3, `${number(one.distance, 3)} σ`)) },
+      { title: "at worst", cell: (one) => marked(isBeyond(one), shown(one, one.worst)) },
+      isSampled && { title: "broken in", cell: (one) => marked(one.broken > 0, share(one.broken / result.samples)) },
+    ]),
   );
 }
 
