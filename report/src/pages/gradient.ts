@@ -1,7 +1,7 @@
 // Gradients of one design: what each variable changes, and what the methods cost.
 import { lineChart, type Series } from "../charts";
 import type { Document, Picture, ReportData } from "../data";
-import { chosenView, h, type Page, section, tableOf } from "../dom";
+import { chosenView, type Column, h, type Page, section, tableOf } from "../dom";
 import { number, seconds, words } from "../format";
 import { influenceNotes, influenceOf, influenceTable } from "./influence";
 import { viewing } from "./viewing";
@@ -112,14 +112,21 @@ export function gradientPage(data: ReportData): Page {
 function gradientsTable(responses: Record<string, Document>, methods: string[], picture: Picture | null): HTMLElement | null {
   const variables = Object.entries(picture?.variables ?? {});
   if (!methods.length || !variables.length) return null;
-  const rows = Object.entries(responses).flatMap(([name, one]) => variables.map(([variable, { unit: by }], j) => ({ name, one, unit: unitOf(picture, name, one.unit), variable, by, isFirst: j === 0 })));
+  const rows = Object.entries(responses).flatMap(([name, one]) => {
+    const unit = unitOf(picture, name, one.unit);
+    return variables.map(([variable, { unit: by }], j) => ({ name, one, unit, variable, by, isFirst: j === 0 }));
+  });
+  const methodColumn = (method: string): Column<(typeof rows)[number]> => ({
+    title: method,
+    cell: ({ one, unit, variable, by }) => number((one.gradients?.[method]?.[variable] * by.factor) / unit.factor, 6),
+  });
   return section(
     "All derivatives",
     "",
     tableOf(rows, [
       { title: "response", left: true, cell: ({ name, isFirst }) => (isFirst ? words(name) : "") },
       { title: "variable", left: true, cell: ({ variable }) => words(variable) },
-      ...methods.map((method) => ({ title: method, cell: ({ one, unit, variable, by }: (typeof rows)[number]) => number((one.gradients?.[method]?.[variable] * by.factor) / unit.factor, 6) })),
+      ...methods.map(methodColumn),
       { title: "unit", left: true, cell: ({ unit, by }) => (by.name === "1" ? unit.name : `${unit.name}/${by.name}`) },
     ]),
   );

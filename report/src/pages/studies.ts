@@ -45,6 +45,7 @@ export function paretoPage(data: ReportData): Page {
   const marks = (point: Document) => [point.status, point.dominated ? "dominated" : "", point.knee ? "knee" : "", ...bounds(point)].filter(Boolean).join(", ");
   const known = points.map((point, i) => ({ point, number: i + 1 })).filter(({ point }) => point.objectives?.[objective] !== undefined);
   const verified = points.filter((point) => point.status === "verified").length;
+  const slopeOf = (point: Document) => -point.multiplier * (unit(limited).factor / unit(objective).factor);
   const drawing = h("div.front-drawing", {});
   const players = new Map<number, HTMLElement>();
   const show = (index: number) => {
@@ -81,7 +82,7 @@ export function paretoPage(data: ReportData): Page {
         labels: known.map(({ point, number: n }) => `point ${n}: ${marks(point)}`),
       },
       ...(knee >= 0 ? [{ name: "knee", x: [x[knee]], y: [y[knee]], color: "good", dots: true, silent: true }] : []),
-      ...slopesOf(known.map(({ point }) => -point.multiplier * (unit(limited).factor / unit(objective).factor)), x, y),
+      ...slopesOf(known.map(({ point }) => slopeOf(point)), x, y),
     ],
     legend: known.some(({ point }) => Number.isFinite(point.multiplier)),
     onPick: (series, index) => series === 0 && show(index),
@@ -101,8 +102,11 @@ export function paretoPage(data: ReportData): Page {
         isOfResponses && { title: `${words(limited)} [${unit(limited).name}]`, cell: (point) => number(point.objectives?.[limited] / unit(limited).factor) },
         { title: `${words(objective)} [${unit(objective).name}]`, cell: (point) => number(point.objectives?.[objective] / unit(objective).factor) },
         { title: "±", cell: (point) => (point.error?.total ? number(point.error.total / unit(objective).factor, 2) : "–") },
-        { title: `slope [${unit(objective).name}/${unit(limited).name}]`, cell: (point) => (point.multiplier !== undefined ? number((-point.multiplier / unit(objective).factor) * unit(limited).factor, 3) : "–") },
-        ...Object.entries(picture?.variables ?? {}).map(([name, { unit }]) => ({ title: `${words(name)} [${unit.name}]`, cell: (point: Document) => number(point.variables[name] / unit.factor) })),
+        { title: `slope [${unit(objective).name}/${unit(limited).name}]`, cell: (point) => (point.multiplier !== undefined ? number(slopeOf(point), 3) : "–") },
+        ...Object.entries(picture?.variables ?? {}).map(([name, { unit }]) => ({
+          title: `${words(name)} [${unit.name}]`,
+          cell: (point: Document) => number(point.variables[name] / unit.factor),
+        })),
         { title: "status", left: true, cell: marks },
       ]),
       unverifiedNotes(points),
