@@ -74,6 +74,12 @@ void add_modes(Scene& scene, int more) {
 
 }  // namespace
 
+Refinement operator*(const Refinement& first, const Refinement& second) {
+  return {first.step * second.step, first.elements * second.elements,
+          first.more_modes + second.more_modes, first.newton * second.newton,
+          first.pieces * second.pieces};
+}
+
 ProblemFile refined(ProblemFile problem, const Refinement& refinement) {
   if (refinement.step != 1.0) change_steps(problem.simulation, refinement.step);
   if (refinement.elements != 1.0) change_elements(problem.scene, refinement.elements);
@@ -109,9 +115,14 @@ NestedRun simulate_refined(const ProblemFile& problem, const Eigen::VectorXd& x,
 }
 
 RefinedRun refined_run_of(const NestedRun& nested) {
-  if (!nested.analysis) return {nested.failure, {}, {}, {}};
+  if (!nested.analysis) return {nested.failure, {}, {}, {}, 0.0};
   const Analysis& analysis = *nested.analysis;
-  return {{}, values_of(analysis), analysis.trajectory.time, analysis.histories};
+  return {
+      {},
+      values_of(analysis),
+      analysis.trajectory.time,
+      analysis.histories,
+      static_cast<double>(analysis.trajectory.steps()) * analysis.model.mechanism.system->size()};
 }
 
 RefinedRun make_refined_run(const ProblemFile& problem, const Eigen::VectorXd& x,
@@ -119,14 +130,23 @@ RefinedRun make_refined_run(const ProblemFile& problem, const Eigen::VectorXd& x
   return refined_run_of(simulate_refined(problem, x, refinement, similar));
 }
 
-std::vector<RefinedRun> make_refined_runs(const ProblemFile& problem, const Eigen::VectorXd& x,
-                                          const std::vector<Refinement>& refinements,
-                                          const Trajectory* similar) {
-  std::vector<RefinedRun> runs(refinements.size());
-  for_each_in_parallel(int_size(runs), available_threads(), [&](int i) {
-    runs[i] = make_refined_run(problem, x, refinements[i], similar);
+void RefinedRuns::keep(const Refinement& refinement, RefinedRun run) {
+  runs_.insert_or_assign(refinement, std::move(run));
+}
+
+std::vector<const RefinedRun*> RefinedRuns::runs(const std::vector<Refinement>& refinements,
+                                                 const Trajectory* similar) {
+  std::vector<decltype(runs_)::value_type*> missing;
+  std::vector<const RefinedRun*> all;
+  for (const Refinement& refinement : refinements) {
+    const auto [entry, is_new] = runs_.try_emplace(refinement);
+    if (is_new) missing.push_back(&*entry);
+    all.push_back(&entry->second);
+  }
+  for_each_in_parallel(int_size(missing), available_threads(), [&](int i) {
+    missing[i]->second = make_refined_run(problem_, x_, missing[i]->first, similar);
   });
-  return runs;
+  return all;
 }
 
 bool has_reduced_beams(const Model& model, const ProblemFile& problem) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,7 +20,12 @@ struct Refinement {
   /// Into how many each element of the mesh is divided. Twice the elements of the file may be the
   /// same mesh, where joints, loads or frames divide the beam anyway.
   int pieces = 1;
+
+  auto operator<=>(const Refinement&) const = default;
 };
+
+/// Both, one after the other.
+Refinement operator*(const Refinement& first, const Refinement& second);
 
 /// Refinements that judge what is not divided: so many modes more in each family (with one the next
 /// may be of a symmetry that is not excited), and so many times the tolerance of Newton's method,
@@ -33,6 +39,7 @@ struct RefinedRun {
   Eigen::VectorXd values;
   Eigen::VectorXd time;
   std::vector<Eigen::MatrixXd> histories;  ///< one a response; empty for constants
+  double work = 0.0;                       ///< steps × unknowns
 
   bool has_failed() const { return !failure.empty(); }
 };
@@ -60,10 +67,25 @@ RefinedRun make_refined_run(const ProblemFile& problem, const Eigen::VectorXd& x
 /// What was simulated already.
 RefinedRun refined_run_of(const NestedRun& nested);
 
-/// The same of several refinements, on the threads of the machine.
-std::vector<RefinedRun> make_refined_runs(const ProblemFile& problem, const Eigen::VectorXd& x,
-                                          const std::vector<Refinement>& refinements,
-                                          const Trajectory* similar = nullptr);
+/// The runs of one design, each made once.
+class RefinedRuns {
+ public:
+  RefinedRuns(const ProblemFile& problem, const Eigen::VectorXd& x) : problem_(problem), x_(x) {}
+
+  /// A run that is there already.
+  void keep(const Refinement& refinement, RefinedRun run);
+  bool has(const Refinement& refinement) const { return runs_.contains(refinement); }
+  /// Those that are not there yet are made on the threads of the machine. They stay where they are.
+  /// @param similar  see analyze()
+  std::vector<const RefinedRun*> runs(const std::vector<Refinement>& refinements,
+                                      const Trajectory* similar = nullptr);
+  const RefinedRun& run(const Refinement& refinement) { return *runs({refinement}).front(); }
+
+ private:
+  const ProblemFile& problem_;
+  const Eigen::VectorXd& x_;
+  std::map<Refinement, RefinedRun> runs_;
+};
 
 /// Whether an elastic beam is reduced to modes.
 bool has_reduced_beams(const Model& model, const ProblemFile& problem);

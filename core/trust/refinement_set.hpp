@@ -1,6 +1,6 @@
 #pragma once
 
-#include <list>
+#include <vector>
 
 #include "core/trust/error_bars.hpp"
 #include "core/trust/trusted_run.hpp"
@@ -14,16 +14,19 @@ enum class Divisions {
   both
 };
 
-/// The runs that judge a simulation, each kept for all that is asked of it. Always there are two and
-/// four times the step. At twice the step, or four times where that is enough, elements are fewer or
-/// more, and reduced beams have more modes; at four times the step the tolerance of Newton's method is
-/// smaller, if it is not small already. Half and a quarter of the step are made when they are asked for.
+/// The runs that judge a simulation. Always there are two and four times the step. At a larger step
+/// elements are fewer or more, and reduced beams have more modes; at four times the step the tolerance
+/// of Newton's method is smaller, if it is not small already. Half and a quarter of the step are made
+/// when they are asked for.
 class RefinementSet {
  public:
+  /// @param store     where the runs are kept, of a file
+  /// @param at        how the simulation that is judged differs from the file
+  /// @param problem   the file with that
   /// @param analysis  that is judged
-  /// @param coarse    with larger steps, if they are there already
-  RefinementSet(const ProblemFile& problem, const Eigen::VectorXd& x, const Analysis& analysis,
-                Divisions divisions, const CoarseRuns* coarse = nullptr);
+  /// @param basis     times its step: where other elements are compared; 2 or 4
+  RefinementSet(RefinedRuns& store, const Refinement& at, const ProblemFile& problem,
+                const Analysis& analysis, Divisions divisions, double basis);
 
   /// Makes the run with half the step; of one that is there already, with a quarter.
   void refine_steps();
@@ -35,10 +38,10 @@ class RefinementSet {
   std::string failure() const;
 
  private:
-  const ProblemFile& problem_;
-  const Eigen::VectorXd& x_;
-  const Trajectory* similar_;
-  std::list<RefinedRun> made_;  ///< the first two: with twice and four times the step
+  RefinedRuns& store_;
+  Refinement at_;
+  const Trajectory& similar_;
+  std::vector<const RefinedRun*> made_;  ///< the first two: with twice and four times the step
   JudgingRuns runs_;
 };
 

@@ -69,13 +69,23 @@ std::vector<std::size_t> judged_responses(const ProblemFile& problem) {
   return judged;
 }
 
+/// With the runs in larger steps, which others may have made.
+RefinedRuns stored(const TrustedRun& run) {
+  RefinedRuns store(run.problem, run.x);
+  store.keep({2.0}, refined_run_of(coarse_runs(run).twice));
+  store.keep({4.0}, refined_run_of(coarse_runs(run).four));
+  return store;
+}
+
 class Judgement {
  public:
   explicit Judgement(const TrustedRun& run)
       : run_(run),
         problem_(run.problem),
-        set_(run.problem, run.x, run.analysis, is_close() ? Divisions::finer : Divisions::coarser,
-             &coarse_runs(run)),
+        store_(stored(run)),
+        set_(store_, {}, run.problem, run.analysis,
+             is_close() ? Divisions::finer : Divisions::coarser,
+             coarse_runs(run).is_four_enough ? 4.0 : 2.0),
         judged_(judged_responses(run.problem)),
         asked_(asked_responses(run.problem)) {}
 
@@ -146,6 +156,7 @@ class Judgement {
 
   const TrustedRun& run_;
   const ProblemFile& problem_;
+  RefinedRuns store_;
   RefinementSet set_;
   std::vector<std::size_t> judged_, asked_;
   Resolution found_;

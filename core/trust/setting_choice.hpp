@@ -40,21 +40,21 @@ enum class JudgedBy {
   coarser_runs  ///< error_bars.hpp, at other designs; they are wider
 };
 
-/// The coarsest division from which a choice may begin: 256 steps, or those of the file if they are
+/// The coarsest division from which a choice may begin: 256 to 512 steps, or those of the file if they are
 /// fewer, and the elements of the file.
 Refinement coarse_setting(const ProblemFile& problem);
 
 /// Chooses steps and elements such that the errors of all responses that are asked for
 /// (trusted_run.hpp) are within the target at this design, relative to their values
-/// (core/base/relative_error.hpp). From `first` on steps and elements are refined as order 2 says,
-/// until error bars (error_bars.hpp) are within the target and a run at a quarter of the step, or
-/// at the step of the file if that is smaller, agrees: steps that are far too large may agree with
-/// each other, as vibrations that they do not see are damped out. Then the way goes back to fewer
-/// elements and to larger steps, by comparison with these runs: differences are added to the errors
-/// that are known. The step may end up larger or smaller than that of the file. One simulation takes
-/// at most sixteen times the work of that of the file, or a second or so where that is more.
-/// Steps that loads and drives are too fast for (fast_laws.hpp) are not taken; where the balance of
-/// energy or loads over joints speak against the steps in the end, they are halved up to three times.
+/// (core/base/relative_error.hpp). From `first` on steps and elements are refined by powers of two, as
+/// order 2 says, until error bars (error_bars.hpp) are within the target and a run at half the step
+/// agrees: steps that are far too large may agree with each other, as vibrations that they do not see
+/// are damped out. Then the way goes back to fewer elements and to larger steps, by comparison with
+/// these runs: differences are added to the errors that are known. Each run is made once. The step may
+/// end up larger or smaller than that of the file. One simulation takes at most sixteen times the work
+/// of that of the file, or a second or so where that is more. Steps that loads and drives are too fast
+/// for (fast_laws.hpp) are not taken; where the balance of energy or loads over joints speak against
+/// the steps in the end, they are halved up to three times.
 /// @param target  relative error, in (0, 1)
 /// @throws Stopped
 SettingChoice choose_setting(const ProblemFile& problem, const Eigen::VectorXd& x, double target,
