@@ -1,64 +1,13 @@
 #include "core/response/fatigue_signal.hpp"
 
-#include <numbers>
+#include <array>
 #include <utility>
 
 #include "core/response/body_strengths.hpp"
-#include "core/response/section_force_signal.hpp"
-#include "core/response/stress_signal.hpp"
 
 namespace pleuel {
 
 namespace {
-
-/// A point that stays where it is: a stress point of the section, or of a round outline, by number.
-struct FixedPoint {
-  bool is_on_outline;
-  int number;
-};
-
-/// Normal stress at such points.
-class FixedPointStress {
- public:
-  using Point = FixedPoint;
-
-  std::vector<Point> points(const BodyModel& body, const SectionProperties<double>& section) const {
-    const bool is_planar = body.frame.rotation == RotationCoordinates::angle;
-    std::vector<Point> points;
-    if (is_planar || !section.is_round()) {
-      for (const int i : distinct_stress_points(body, section)) points.push_back({false, i});
-    } else {
-      for (int i = 0; i < fixed_outline_points; ++i) points.push_back({true, i});
-    }
-    return points;
-  }
-
-  std::string name(const SectionProperties<double>& section, const Point& point) const {
-    if (!point.is_on_outline) return stress_point_name(section, point.number);
-    return outline_point_name(point.number);
-  }
-
-  template <class Scalar, class Force>
-  StressOf<Scalar, Force> evaluate(const Beam<Scalar>&, const SectionProperties<Scalar>& section,
-                                   const SectionForces<Force>& forces, const Point& point) const {
-    const auto [y, z] = place(section, point);
-    return forces.axial / section.area - forces.moment_z * y / section.inertia_z +
-           forces.moment_y * z / section.inertia_y;
-  }
-
- private:
-  template <class Scalar>
-  static std::pair<Scalar, Scalar> place(const SectionProperties<Scalar>& section,
-                                         const Point& point) {
-    if (!point.is_on_outline) {
-      const StressPoint<Scalar>& at = section.points[point.number];
-      return {at.y, at.z};
-    }
-    const auto at =
-        outline_point(section, 2.0 * std::numbers::pi * point.number / fixed_outline_points);
-    return {at.y, at.z};
-  }
-};
 
 /// 1/S of a strength S of the material.
 struct Inverse {
@@ -114,12 +63,6 @@ class StressOverStrengths final : public Signal {
 };
 
 }  // namespace
-
-std::unique_ptr<Signal> make_fixed_point_signal(const BodyModel& body,
-                                                const Eigen::Vector3d& gravity,
-                                                const StationChoice& stations) {
-  return make_section_signal(body, gravity, stations, FixedPointStress());
-}
 
 std::unique_ptr<Signal> make_fatigue_signal(std::unique_ptr<Signal> stress, const BodyModel& body,
                                             int variables, const CycleStrengths& strengths) {

@@ -5,8 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "core/base/int_size.hpp"
 #include "core/model/model.hpp"
 #include "core/response/recovered_signal.hpp"
@@ -32,16 +30,6 @@ struct OneASection {
 
   std::string name(const SectionProperties<double>&, Point) const { return ""; }
 };
-
-/// ", y = 0.005 m, z = 0 m": where a stress point of a section is, by its number.
-inline std::string outline_point_name(int point) {
-  return fmt::format(", {} degrees from y to z", point * 360 / fixed_outline_points);
-}
-
-inline std::string stress_point_name(const SectionProperties<double>& section, int point) {
-  const StressPoint<double>& at = section.points[point];
-  return fmt::format(", y = {:.4g} m, z = {:.4g} m", at.y, at.z);
-}
 
 /// What is made of the section forces of a beam. Quantity is a formula for any scalar types, those
 /// of the beam and of the forces:

@@ -121,8 +121,8 @@ class BodySignalMaker {
       stress = make_plane_stress_signal(body_, model_.gravity, settings_.place);
     } else {
       check_section_forces();
-      stress =
-          make_fixed_point_signal(body_, model_.gravity, {settings_.segment, settings_.station});
+      stress = make_stress_signal(body_, model_.gravity, StressPart::normal, OutlinePoints::fixed,
+                                  {settings_.segment, settings_.station});
     }
     check_fatigue_data();
     return make_fatigue_signal(std::move(stress), body_, model_.mechanism.system->variables(),
@@ -160,7 +160,8 @@ class BodySignalMaker {
     const bool is_averaged = settings_.over_time == OverTime::mean ||
                              settings_.over_time == OverTime::rms ||
                              settings_.over_time == OverTime::integral;
-    return make_stress_signal(body_, model_.gravity, settings_.part, is_averaged,
+    return make_stress_signal(body_, model_.gravity, settings_.part,
+                              is_averaged ? OutlinePoints::fixed : OutlinePoints::most_stressed,
                               {settings_.segment, settings_.station});
   }
 

@@ -86,14 +86,16 @@ class StressQuantity {
  public:
   using Point = OutlinePlace;
 
-  StressQuantity(StressPart part, bool is_averaged) : part_(part), is_averaged_(is_averaged) {}
+  StressQuantity(StressPart part, OutlinePoints points) : part_(part), points_(points) {}
 
   std::vector<Point> points(const BodyModel& body, const SectionProperties<double>& section) const {
     const bool is_planar = body.frame.rotation == RotationCoordinates::angle;
     const bool is_shear = part_ == StressPart::shear;
     std::vector<Point> all;
     if (!is_shear && section.is_round() && !is_planar) {
-      if (!is_averaged_) return {{Point::Kind::tension_side}, {Point::Kind::compression_side}};
+      if (points_ == OutlinePoints::most_stressed) {
+        return {{Point::Kind::tension_side}, {Point::Kind::compression_side}};
+      }
       for (int i = 0; i < fixed_outline_points; ++i) all.push_back({Point::Kind::outline, i});
       return all;
     }
@@ -105,9 +107,12 @@ class StressQuantity {
   }
 
   std::string name(const SectionProperties<double>& section, const Point& place) const {
-    if (place.kind == Point::Kind::point) return stress_point_name(section, place.number);
-    if (!place.moves()) return outline_point_name(place.number);
-    return place.is_tension_side() ? ", tension side" : ", compression side";
+    if (place.moves()) return place.is_tension_side() ? ", tension side" : ", compression side";
+    if (place.kind == Point::Kind::outline) {
+      return fmt::format(", {} degrees from y to z", place.number * 360 / fixed_outline_points);
+    }
+    const StressPoint<double>& at = section.points[place.number];
+    return fmt::format(", y = {:.4g} m, z = {:.4g} m", at.y, at.z);
   }
 
   template <class Scalar, class Force>
@@ -130,7 +135,7 @@ class StressQuantity {
 
  private:
   StressPart part_;
-  bool is_averaged_;
+  OutlinePoints points_;
 };
 
 }  // namespace
@@ -160,12 +165,12 @@ std::vector<int> distinct_stress_points(const BodyModel& body,
 }
 
 std::unique_ptr<Signal> make_stress_signal(const BodyModel& body, const Eigen::Vector3d& gravity,
-                                           StressPart part, bool is_averaged,
+                                           StressPart part, OutlinePoints points,
                                            const StationChoice& stations) {
   if (part == StressPart::axial) {
     return make_section_signal(body, gravity, stations, AxialStress());
   }
-  return make_section_signal(body, gravity, stations, StressQuantity(part, is_averaged));
+  return make_section_signal(body, gravity, stations, StressQuantity(part, points));
 }
 
 namespace {

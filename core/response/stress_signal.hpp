@@ -8,6 +8,12 @@
 
 namespace pleuel {
 
+/// The points of a round outline in space at which a stress is taken.
+enum class OutlinePoints {
+  most_stressed,  ///< they move with the load: the largest and the smallest stress at each instant
+  fixed  ///< 24 that stay where they are, as those of other sections: for averages and cycles over time
+};
+
 /// Stress [Pa] at the stress points of the sections of an elastic beam. With
 ///     σ = N/A − M_z y/I_z + M_y z/I_y,    τ = shear · T
 ///     von_mises    √(σ² + 3τ²)
@@ -16,12 +22,11 @@ namespace pleuel {
 ///     bending      σ without N/A, signed
 ///     shear        τ, signed as the torque
 ///     utilization  √(σ² + 3τ²) over the strength of the material [–]
-/// On round outlines in space the point moves with the load: normal and bending stress have their
-/// maximum on the half where bending pulls and their minimum on the other one. What is averaged over
-/// time is that of points that stay where they are, as on other sections.
-/// @param is_averaged  over time: mean, rms or integral
+/// Of the most stressed points of a round outline in space, normal and bending stress have their
+/// maximum on the half where bending pulls and their minimum on the other one.
+/// @param points  only round outlines in space make a difference between both kinds
 std::unique_ptr<Signal> make_stress_signal(const BodyModel& body, const Eigen::Vector3d& gravity,
-                                           StressPart part, bool is_averaged,
+                                           StressPart part, OutlinePoints points,
                                            const StationChoice& stations);
 
 /// Points of a section with stresses of their own. In planar motion, points that differ only across
