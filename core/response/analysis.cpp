@@ -189,7 +189,7 @@ Reduction reduce_response(std::size_t i, ShortWindow short_window, Analysis& ana
   }
   Reduction constant;
   if (response.expression()) {
-    constant.value = expression_value(analysis.responses, analysis.reductions, analysis.x, i);
+    constant.value = numbers_of(analysis.responses, analysis.reductions, analysis.x).value(i);
     return constant;
   }
   const InitialMode* mode = response.mode();

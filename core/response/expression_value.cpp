@@ -1,7 +1,7 @@
 #include "core/response/expression_value.hpp"
 
 #include <cmath>
-#include <string>
+#include <map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -13,79 +13,76 @@ namespace pleuel {
 
 namespace {
 
-using ArgumentKind = ExpressionArgument::Kind;
+bool is_response(const ExpressionArgument& argument) {
+  return argument.kind == ExpressionArgument::Kind::response;
+}
 
-/// ", with a = 1, b = 0": the responses that the formula names.
-std::string arguments_text(const std::vector<Response>& responses,
-                           const std::vector<Reduction>& reductions, const Expression& expression) {
-  std::string text;
-  for (const ExpressionArgument& argument : expression.arguments) {
-    if (argument.kind != ArgumentKind::response) continue;
-    text += fmt::format("{}{} = {:.6g}", text.empty() ? ", with " : ", ",
-                        responses[argument.index].name, reductions[argument.index].value);
+/// What counts of responses that are no expressions, and of the design.
+struct CountedParts {
+  std::map<std::size_t, double> weights;
+  Eigen::VectorXd design;
+};
+
+void add_parts(const ResponseNumbers& numbers, std::size_t response, double weight,
+               CountedParts& counted) {
+  const Expression* expression = numbers.expression_of(response);
+  if (expression == nullptr) {
+    counted.weights[response] += weight;
+    return;
   }
-  return text;
+  const ExpressionValue at = numbers.evaluated(*expression);
+  for (std::size_t i = 0; i < expression->arguments.size(); ++i) {
+    const ExpressionArgument& argument = expression->arguments[i];
+    const double share = weight * at.derivatives[i];
+    if (is_response(argument)) {
+      add_parts(numbers, argument.index, share, counted);
+    } else {
+      counted.design(argument.index) += share;
+    }
+  }
 }
 
 }  // namespace
 
-ExpressionValue evaluate_at(const std::vector<Reduction>& reductions, const Eigen::VectorXd& x,
-                            const Expression& expression) {
+ExpressionValue ResponseNumbers::evaluated(const Expression& expression) const {
   std::vector<double> arguments;
   for (const ExpressionArgument& argument : expression.arguments) {
-    arguments.push_back(argument.kind == ArgumentKind::variable ? x(argument.index)
-                                                                : reductions[argument.index].value);
+    arguments.push_back(is_response(argument) ? value_of(argument.index) : x(argument.index));
   }
   return evaluate(expression, arguments);
 }
 
-double expression_value(const std::vector<Response>& responses,
-                        const std::vector<Reduction>& reductions, const Eigen::VectorXd& x,
-                        std::size_t response) {
-  const double value = evaluate_at(reductions, x, *responses[response].expression()).value;
-  if (!std::isfinite(value)) refuse_expression(responses, reductions, response, "value");
+double ResponseNumbers::value(std::size_t response) const {
+  const double value = evaluated(*expression_of(response)).value;
+  if (!std::isfinite(value)) refuse(response, "value");
   return value;
 }
 
-void refuse_expression(const std::vector<Response>& responses,
-                       const std::vector<Reduction>& reductions, std::size_t response,
-                       const char* what) {
-  const Expression& expression = *responses[response].expression();
-  throw SimulationError(fmt::format("the response \"{}\" has no finite {} there: \"{}\"{}",
-                                    responses[response].name, what, expression.text,
-                                    arguments_text(responses, reductions, expression)));
-}
-
-ChainedResponse::ChainedResponse(Eigen::Index variables, ExpressionOf expression_of,
-                                 Evaluated evaluated)
-    : expression_of_(std::move(expression_of)),
-      evaluated_(std::move(evaluated)),
-      design_(Eigen::VectorXd::Zero(variables)) {}
-
-LinearizedResponse ChainedResponse::linearized(std::size_t response) && {
-  add(response, 1.0);
-  LinearizedResponse found;
-  for (const auto& [part, weight] : weights_) found.parts.push_back({part, weight});
-  found.design = std::move(design_);
+LinearizedResponse ResponseNumbers::linearized(std::size_t response) const {
+  CountedParts counted{{}, Eigen::VectorXd::Zero(x.size())};
+  add_parts(*this, response, 1.0, counted);
+  LinearizedResponse found{{}, std::move(counted.design)};
+  for (const auto& [part, weight] : counted.weights) found.parts.push_back({part, weight});
   return found;
 }
 
-void ChainedResponse::add(std::size_t response, double weight) {
-  const Expression* expression = expression_of_(response);
-  if (expression == nullptr) {
-    weights_[response] += weight;
-    return;
+void ResponseNumbers::refuse(std::size_t response, const char* what) const {
+  const Expression& expression = *expression_of(response);
+  std::string numbers;
+  for (const ExpressionArgument& argument : expression.arguments) {
+    if (!is_response(argument)) continue;
+    numbers += fmt::format("{}{} = {:.6g}", numbers.empty() ? ", with " : ", ",
+                           name_of(argument.index), value_of(argument.index));
   }
-  const ExpressionValue at = evaluated_(response, *expression);
-  for (std::size_t i = 0; i < expression->arguments.size(); ++i) {
-    const ExpressionArgument& argument = expression->arguments[i];
-    const double share = weight * at.derivatives[i];
-    if (argument.kind == ExpressionArgument::Kind::response) {
-      add(argument.index, share);
-    } else {
-      design_(argument.index) += share;
-    }
-  }
+  throw SimulationError(fmt::format("the response \"{}\" has no finite {} there: \"{}\"{}",
+                                    name_of(response), what, expression.text, numbers));
+}
+
+ResponseNumbers numbers_of(const std::vector<Response>& responses,
+                           const std::vector<Reduction>& reductions, const Eigen::VectorXd& x) {
+  return {x, [&](std::size_t response) { return responses[response].expression(); },
+          [&](std::size_t response) { return reductions[response].value; },
+          [&](std::size_t response) { return responses[response].name; }};
 }
 
 }  // namespace pleuel

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 #include <functional>
-#include <map>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -13,55 +13,44 @@
 
 namespace pleuel {
 
-/// Value and derivatives of an expression, from the numbers of the responses that it names.
-/// @param x  design variables [SI]
-ExpressionValue evaluate_at(const std::vector<Reduction>& reductions, const Eigen::VectorXd& x,
-                            const Expression& expression);
-
-/// Its value. @throws SimulationError where that is not finite
-double expression_value(const std::vector<Response>& responses,
-                        const std::vector<Reduction>& reductions, const Eigen::VectorXd& x,
-                        std::size_t response);
-
-/// @param what  it has not: "value"
-/// @throws SimulationError with the numbers of the responses that the expression names
-[[noreturn]] void refuse_expression(const std::vector<Response>& responses,
-                                    const std::vector<Reduction>& reductions, std::size_t response,
-                                    const char* what);
-
 /// A response, and how much of its change counts.
 struct WeightedResponse {
   std::size_t response;
   double weight;
 };
 
-/// What a response is made from, to first order at the design of the analysis:
+/// What a response is made from, to first order at a design:
 ///     d(response) = Σ weight · d(part) + design · dx
 struct LinearizedResponse {
   std::vector<WeightedResponse> parts;  ///< responses that are no expressions, each once
   Eigen::VectorXd design;               ///< explicit part, one a design variable [SI]
 };
 
-/// The derivatives of a response that is made from others by expressions of expressions: adds up by the
-/// chain rule what each of those counts that are none.
-class ChainedResponse {
- public:
-  /// The expression of a response, none if it is no expression.
-  using ExpressionOf = std::function<const Expression*(std::size_t response)>;
-  /// An expression of a response, with its derivatives by its arguments.
-  using Evaluated = std::function<ExpressionValue(std::size_t response, const Expression&)>;
+/// What expressions are evaluated with: responses by their number, and the design. What it refers to
+/// has to outlive it.
+struct ResponseNumbers {
+  const Eigen::VectorXd& x;  ///< design variables [SI]
+  /// The expression of a response, null if it is none.
+  std::function<const Expression*(std::size_t response)> expression_of;
+  std::function<double(std::size_t response)> value_of;  ///< of one that an expression names
+  std::function<std::string(std::size_t response)> name_of;
 
-  ChainedResponse(Eigen::Index variables, ExpressionOf expression_of, Evaluated evaluated);
+  /// The value of an expression. @throws SimulationError where that is not finite
+  double value(std::size_t response) const;
 
-  LinearizedResponse linearized(std::size_t response) &&;
+  /// By the chain rule through all expressions; of a response that is none, itself with weight 1.
+  LinearizedResponse linearized(std::size_t response) const;
 
- private:
-  void add(std::size_t response, double weight);
+  /// @param what  it has not: "value"
+  /// @throws SimulationError with the numbers of the responses that the expression names
+  [[noreturn]] void refuse(std::size_t response, const char* what) const;
 
-  ExpressionOf expression_of_;
-  Evaluated evaluated_;
-  std::map<std::size_t, double> weights_;
-  Eigen::VectorXd design_;
+  /// Value and derivatives, finite or not.
+  ExpressionValue evaluated(const Expression& expression) const;
 };
+
+/// Those of the responses of one simulation.
+ResponseNumbers numbers_of(const std::vector<Response>& responses,
+                           const std::vector<Reduction>& reductions, const Eigen::VectorXd& x);
 
 }  // namespace pleuel

@@ -4,18 +4,11 @@
 #include <cmath>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/response/expression_value.hpp"
 
 namespace pleuel {
 
 LinearizedResponse linearized(const Analysis& analysis, std::size_t response) {
-  return ChainedResponse(
-             analysis.x.size(),
-             [&](std::size_t one) { return analysis.responses[one].expression(); },
-             [&](std::size_t, const Expression& expression) {
-               return evaluate_at(analysis.reductions, analysis.x, expression);
-             })
-      .linearized(response);
+  return numbers_of(analysis.responses, analysis.reductions, analysis.x).linearized(response);
 }
 
 void require_derivatives(const Analysis& analysis, std::size_t response) {
@@ -24,9 +17,8 @@ void require_derivatives(const Analysis& analysis, std::size_t response) {
       found.design.allFinite() &&
       std::all_of(found.parts.begin(), found.parts.end(),
                   [](const WeightedResponse& part) { return std::isfinite(part.weight); });
-  if (!is_finite) {
-    refuse_expression(analysis.responses, analysis.reductions, response, "derivative");
-  }
+  if (is_finite) return;
+  numbers_of(analysis.responses, analysis.reductions, analysis.x).refuse(response, "derivative");
 }
 
 double magnitude_of(const Analysis& analysis, std::size_t response) {
