@@ -5,7 +5,6 @@
 #include <numbers>
 #include <utility>
 
-#include "core/base/int_size.hpp"
 #include "core/response/section_force_signal.hpp"
 
 namespace pleuel {
@@ -72,52 +71,13 @@ class CompressionQuantity : public OneASection {
   }
 };
 
-/// The channels of a compression over each of several loads, load by load.
-class BucklingSignal final : public Signal {
- public:
-  BucklingSignal(std::unique_ptr<Signal> compression, std::vector<EulerLoad> loads)
-      : compression_(std::move(compression)),
-        loads_(std::move(loads)),
-        values_(compression_->channels()) {}
-
-  int channels() const override { return int_size(loads_) * places(); }
-  std::string describe(int channel) const override {
-    return compression_->describe(channel % places()) + load_of(channel).name;
-  }
-
-  void observe(const State& state, Eigen::Ref<Eigen::VectorXd> values) override {
-    compression_->observe(state, values_);
-    for (std::size_t i = 0; i < loads_.size(); ++i) {
-      values.segment(static_cast<Eigen::Index>(i) * places(), places()) = values_ / loads_[i].value;
-    }
-  }
-
-  void add_gradient(const State& state, int channel, double weight,
-                    SignalGradient& gradient) override {
-    const EulerLoad& load = load_of(channel);
-    const int place = channel % places();
-    compression_->observe(state, values_);
-    compression_->add_gradient(state, place, weight / load.value, gradient);
-    const double slope = -values_(place) / (load.value * load.value);
-    gradient.design += weight * slope * load.derivatives;
-  }
-
- private:
-  int places() const { return int_size(values_); }
-  const EulerLoad& load_of(int channel) const {
-    return loads_[static_cast<std::size_t>(channel / places())];
-  }
-
-  std::unique_ptr<Signal> compression_;
-  std::vector<EulerLoad> loads_;
-  Eigen::VectorXd values_;  ///< of the compression
-};
-
 }  // namespace
 
 std::unique_ptr<Signal> make_buckling_signal(std::unique_ptr<Signal> compression,
-                                             std::vector<EulerLoad> loads) {
-  return std::make_unique<BucklingSignal>(std::move(compression), std::move(loads));
+                                             const std::vector<DesignFactor>& loads) {
+  std::vector<DesignFactor> inverses;
+  for (const DesignFactor& load : loads) inverses.push_back(load.inverse());
+  return std::make_unique<ScaledSignal>(std::move(compression), std::move(inverses));
 }
 
 std::unique_ptr<Signal> make_compression_signal(const BodyModel& body,
@@ -125,10 +85,10 @@ std::unique_ptr<Signal> make_compression_signal(const BodyModel& body,
   return make_section_signal(body, gravity, {}, CompressionQuantity());
 }
 
-std::vector<EulerLoad> euler_loads(const BodyModel& body, int variables) {
-  std::vector<EulerLoad> loads;
+std::vector<DesignFactor> euler_loads(const BodyModel& body, int variables) {
+  std::vector<DesignFactor> loads;
   const auto add = [&](Plane plane, const char* name) {
-    EulerLoad load{euler_load(body.beam, plane), Eigen::VectorXd::Zero(variables), name};
+    DesignFactor load{euler_load(body.beam, plane), Eigen::VectorXd::Zero(variables), name};
     for (const auto& [variable, beam] : body.beam_x) {
       load.derivatives(variable) = derivative_of(euler_load(beam, plane));
     }

@@ -1,23 +1,16 @@
 #pragma once
 
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "core/model/model.hpp"
-#include "core/response/signal.hpp"
+#include "core/response/composed_signals.hpp"
 
 namespace pleuel {
 
-/// P_E [N] for bending in one plane, and its derivatives with respect to all design variables.
-struct EulerLoad {
-  double value = 0.0;
-  Eigen::VectorXd derivatives;
-  std::string name;  ///< ", bending along y"; empty if there is no other one
-};
-
-/// Those of a beam for both planes; one where they are equal.
-std::vector<EulerLoad> euler_loads(const BodyModel& body, int variables);
+/// P_E [N] of a beam for bending in either plane, named ", bending along y"; one without a name where
+/// they are equal.
+std::vector<DesignFactor> euler_loads(const BodyModel& body, int variables);
 
 /// −N [N] at every node and quarter point of the elements of a beam.
 std::unique_ptr<Signal> make_compression_signal(const BodyModel& body,
@@ -35,6 +28,6 @@ std::unique_ptr<Signal> make_compression_signal(const BodyModel& body,
 /// @param compression  of the whole beam
 /// @param loads        at least one
 std::unique_ptr<Signal> make_buckling_signal(std::unique_ptr<Signal> compression,
-                                             std::vector<EulerLoad> loads);
+                                             const std::vector<DesignFactor>& loads);
 
 }  // namespace pleuel

@@ -93,36 +93,65 @@ class SignalSum final : public Signal {
   Eigen::VectorXd own_;  ///< of one part
 };
 
-/// c(x) · signal, with a factor that depends on the design only.
+/// c(x): what a signal is multiplied with, which depends on the design only.
+struct DesignFactor {
+  double value;
+  Eigen::VectorXd derivatives;  ///< one a design variable
+  std::string name = "";        ///< goes behind the description of a channel
+
+  DesignFactor inverse() const { return {1.0 / value, -derivatives / (value * value), name}; }
+};
+
+/// Of the channels of a signal with several factors.
+enum class ScaledOrder {
+  factor_by_factor,   ///< all channels with the first factor, all with the second …
+  channel_by_channel  ///< the first channel with all factors, the second …
+};
+
+/// c(x) · signal: each channel with each of some factors.
 class ScaledSignal final : public Signal {
  public:
-  /// @param factor_x  derivatives of the factor, one a design variable
-  ScaledSignal(std::unique_ptr<Signal> inner, double factor, Eigen::VectorXd factor_x)
-      : inner_(std::move(inner)),
-        factor_(factor),
-        factor_x_(std::move(factor_x)),
-        values_(inner_->channels()) {}
+  ScaledSignal(std::unique_ptr<Signal> inner, std::vector<DesignFactor> factors,
+               ScaledOrder order = ScaledOrder::factor_by_factor)
+      : inner_(std::move(inner)), factors_(std::move(factors)), values_(inner_->channels()) {
+    const bool is_by_factor = order == ScaledOrder::factor_by_factor;
+    of_next_factor_ = is_by_factor ? int_size(values_) : 1;
+    of_next_value_ = is_by_factor ? 1 : int_size(factors_);
+  }
 
-  int channels() const override { return inner_->channels(); }
-  std::string describe(int channel) const override { return inner_->describe(channel); }
+  int channels() const override { return int_size(factors_) * int_size(values_); }
+  std::string describe(int channel) const override {
+    return inner_->describe(own(channel)) + factor(channel).name;
+  }
 
   void observe(const State& state, Eigen::Ref<Eigen::VectorXd> values) override {
-    inner_->observe(state, values);
-    values *= factor_;
+    inner_->observe(state, values_);
+    for (int i = 0; i < int_size(factors_); ++i) {
+      for (int k = 0; k < int_size(values_); ++k) {
+        values(i * of_next_factor_ + k * of_next_value_) = factors_[i].value * values_(k);
+      }
+    }
   }
 
   void add_gradient(const State& state, int channel, double weight,
                     SignalGradient& gradient) override {
+    const DesignFactor& by = factor(channel);
     inner_->observe(state, values_);
-    inner_->add_gradient(state, channel, weight * factor_, gradient);
-    gradient.design += weight * values_(channel) * factor_x_;
+    inner_->add_gradient(state, own(channel), weight * by.value, gradient);
+    gradient.design += weight * values_(own(channel)) * by.derivatives;
   }
 
  private:
+  /// The channel of the signal itself.
+  int own(int channel) const { return channel / of_next_value_ % int_size(values_); }
+  const DesignFactor& factor(int channel) const {
+    return factors_[channel / of_next_factor_ % int_size(factors_)];
+  }
+
   std::unique_ptr<Signal> inner_;
-  double factor_;
-  Eigen::VectorXd factor_x_;
-  Eigen::VectorXd values_;  ///< scratch
+  std::vector<DesignFactor> factors_;
+  Eigen::VectorXd values_;              ///< scratch
+  int of_next_factor_, of_next_value_;  ///< so many channels further
 };
 
 /// The largest channel of a signal at each instant. Where two tie it has a kink.

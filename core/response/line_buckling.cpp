@@ -152,8 +152,8 @@ std::unique_ptr<Signal> make_line_compression_signal(const BodyModel& body,
   return make_recovered_signal(body, gravity, std::make_unique<LineForces>(body));
 }
 
-EulerLoad pinned_line_load(const BodyModel& body, const std::array<std::string, 2>& chord,
-                           int variables) {
+DesignFactor pinned_line_load(const BodyModel& body, const std::array<std::string, 2>& chord,
+                              int variables) {
   constexpr double coincidence = 1e-6;
   const CompressedLine line(body, chord);
   if (!line.is_stiffened()) {
@@ -170,7 +170,7 @@ EulerLoad pinned_line_load(const BodyModel& body, const std::array<std::string, 
   const double inverse = modes.values(last);
   Eigen::Index first = last;
   while (first > 0 && modes.values(first - 1) >= (1.0 - coincidence) * inverse) --first;
-  EulerLoad load{1.0 / inverse, VectorXd::Zero(variables), ""};
+  DesignFactor load{1.0 / inverse, VectorXd::Zero(variables), ""};
   for (std::size_t k = 0; k < body.invariants_x.size(); ++k) {
     const MatrixXd stiffness_x = dense(body.invariants_x[k].data.stiffness);
     double slope = 0.0;

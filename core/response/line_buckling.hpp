@@ -21,7 +21,7 @@ std::unique_ptr<Signal> make_line_compression_signal(const BodyModel& body,
 /// their derivatives.
 /// @param chord  names of A and B
 /// @throws InputError if these are not the ends of the stiffening
-EulerLoad pinned_line_load(const BodyModel& body, const std::array<std::string, 2>& chord,
-                           int variables);
+DesignFactor pinned_line_load(const BodyModel& body, const std::array<std::string, 2>& chord,
+                              int variables);
 
 }  // namespace pleuel

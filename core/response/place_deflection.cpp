@@ -73,10 +73,13 @@ std::unique_ptr<Signal> make_place_deflection(const BodyModel& body, const std::
   const auto deflection = [&](const std::string& name) {
     return make_deflection_signal(body, named_point(body, name), direction);
   };
+  const auto scaled = [&](const std::string& name, DesignFactor factor) {
+    return std::make_unique<ScaledSignal>(deflection(name), std::vector{std::move(factor)});
+  };
   std::vector<SignalSum::Part> parts;
   parts.push_back({1.0, deflection(place)});
-  parts.push_back({-1.0, std::make_unique<ScaledSignal>(deflection(ends[0]), 1.0 - s, -slopes)});
-  parts.push_back({-1.0, std::make_unique<ScaledSignal>(deflection(ends[1]), s, slopes)});
+  parts.push_back({-1.0, scaled(ends[0], {1.0 - s, -slopes})});
+  parts.push_back({-1.0, scaled(ends[1], {s, slopes})});
   return std::make_unique<SignalSum>(std::move(parts));
 }
 

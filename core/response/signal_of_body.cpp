@@ -185,15 +185,15 @@ class BodySignalMaker {
     for (const BodyModel* part : model_.parts(body_.name)) {
       parts.push_back(make_compression_signal(*part, model_.gravity));
     }
-    std::vector<EulerLoad> loads =
+    std::vector<DesignFactor> loads =
         euler_loads(model_.body(body_.name), model_.mechanism.system->variables());
     if (!takes_larger_peak(settings_.over_time)) {
-      const auto is_weaker = [](const EulerLoad& a, const EulerLoad& b) {
+      const auto is_weaker = [](const DesignFactor& a, const DesignFactor& b) {
         return a.value < b.value;
       };
       loads = {*std::min_element(loads.begin(), loads.end(), is_weaker)};
     }
-    return make_buckling_signal(std::make_unique<SignalList>(std::move(parts)), std::move(loads));
+    return make_buckling_signal(std::make_unique<SignalList>(std::move(parts)), loads);
   }
 
   std::unique_ptr<Signal> make_line_buckling() const {
