@@ -1,6 +1,7 @@
 #include "sensitivity/adjoint.hpp"
 
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -17,11 +18,6 @@ namespace pleuel {
 
 namespace {
 
-StateAdjoint zero_adjoint(const System& system, int functions) {
-  const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(system.coordinates(), functions);
-  return {zero, zero, zero, zero, Eigen::MatrixXd::Zero(system.multipliers(), functions)};
-}
-
 class AdjointRun {
  public:
   AdjointRun(Mechanism& mechanism, const Trajectory& trajectory, int functions)
@@ -34,7 +30,7 @@ class AdjointRun {
         old_(state_),
         matrix_(equations_.make_matrix()),
         solver_(matrix_, mechanism.elastic),
-        adjoint_(zero_adjoint(system_, functions)),
+        adjoint_(zero_sensitivity(system_, functions)),
         before_(adjoint_),
         y_(Eigen::MatrixXd::Zero(equations_.size(), functions)),
         sums_(Eigen::MatrixXd::Zero(system_.parameter_adjoint_count(), functions)) {
@@ -53,7 +49,7 @@ class AdjointRun {
     const Eigen::MatrixXd of_steps =
         system_.design_gradients(sums_) +
         along(first_step_sensitivity(mechanism_, trajectory_, state_, start), adjoint_);
-    adjoint_ = zero_adjoint(system_, static_cast<int>(sums_.cols()));
+    adjoint_ = zero_sensitivity(system_, sums_.cols());
     derivatives(0, state_, adjoint_);
     return of_steps + along(start, adjoint_);
   }
@@ -84,24 +80,20 @@ class AdjointRun {
   /// the start are those at the end.
   void go_back_through_periods() {
     const PeriodicStart& periodic = *trajectory_.periodic;
-    const Eigen::VectorXd& units = periodic.map->states().units();
-    const int n = system_.coordinates();
-    Eigen::MatrixXd left(4 * n, sums_.cols());
+    const StackedStates& states = periodic.map->states();
+    // stack() divides states by the units; derivatives with respect to states are multiplied.
+    const Eigen::VectorXd squares = states.units().cwiseAbs2();
     const auto stacked = [&]() -> Eigen::MatrixXd {
-      Eigen::MatrixXd columns(4 * n, sums_.cols());
-      columns << adjoint_.q, adjoint_.v, adjoint_.a, adjoint_.w;
-      return units.asDiagonal() * columns;
+      return squares.asDiagonal() * states.stack(adjoint_);
     };
-    left = stacked();
+    Eigen::MatrixXd left = stacked();
     Eigen::MatrixXd whole = left.cwiseAbs();
     PeriodicCorrection progress;
     while (!progress.is_done(left, sizes_of(whole)) || !adjoint_.lambda.isZero(0.0)) {
       const Eigen::MatrixXd end = progress.map(mechanism_, trajectory_).solve_transposed(left);
-      const Eigen::MatrixXd columns = units.cwiseInverse().asDiagonal() * end;
-      adjoint_.q = columns.topRows(n);
-      adjoint_.v = columns.middleRows(n, n);
-      adjoint_.a = columns.middleRows(2 * n, n);
-      adjoint_.w = columns.bottomRows(n);
+      StateAdjoint after = states.unstack(squares.cwiseInverse().asDiagonal() * end);
+      after.lambda = std::move(adjoint_.lambda);
+      adjoint_ = std::move(after);
       const auto all = static_cast<int>(sums_.cols());
       go_back_from(periodic.steps, [all](int, const State&, StateAdjoint&) { return all; });
       left += stacked() - end;

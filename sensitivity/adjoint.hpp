@@ -6,12 +6,9 @@
 
 namespace pleuel {
 
-/// Derivatives of several functions with respect to one instant (one column each).
-struct StateAdjoint {
-  Eigen::MatrixXd q, v, a;  ///< n × functions
-  Eigen::MatrixXd w;        ///< with respect to the scheme's algorithmic acceleration
-  Eigen::MatrixXd lambda;   ///< m × functions
-};
+/// Derivatives of several functions with respect to one instant: of the form of derivatives of an
+/// instant, with one column a function.
+using StateAdjoint = StateSensitivity;
 
 /// Called for each step from the last to the first: adds the derivatives of the functions with
 /// respect to this very instant.

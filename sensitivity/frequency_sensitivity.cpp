@@ -123,16 +123,17 @@ class FrequencySensitivity {
                            turned_left = turned_by_motion(mechanism_, state_, vectors_.left);
     std::vector<Eigen::MatrixXcd> damping_of_left;
     for (Eigen::Index i = 0; i < count; ++i) {
-      damping_of_left.push_back(along_rates(vectors_.left.col(i).conjugate()));
+      damping_of_left.push_back(along({{&Direction::v, vectors_.left.col(i).conjugate()}}));
     }
     for (Eigen::Index j = 0; j < count; ++j) {
       const Eigen::VectorXcd right = vectors_.right.col(j);
-      const Eigen::MatrixXcd inertia = along_accelerations(right);
+      const Eigen::MatrixXcd inertia = along({{&Direction::a, right}});
       const Eigen::MatrixXcd whole =
-          along_positions(right, vectors_.right_multipliers.col(j)) + s * s * inertia;
+          along({{&Direction::q, right}, {&Direction::lambda, vectors_.right_multipliers.col(j)}}) +
+          s * s * inertia;
       // G = R_v − M W, or its skew part ½ (R_v − R_vᵀ − M W − W M)
       const Eigen::MatrixXcd damping =
-          along_rates(right) - along_accelerations(turned_right.col(j));
+          along({{&Direction::v, right}}) - along({{&Direction::a, turned_right.col(j)}});
       for (Eigen::Index i = 0; i < count; ++i) {
         const Eigen::VectorXcd left = vectors_.left.col(i);
         const Eigen::RowVectorXcd row =
@@ -161,29 +162,19 @@ class FrequencySensitivity {
             Eigen::VectorXd::Zero(m_)};
   }
 
-  /// Derivatives of R_x along complex directions, (n + m) × variables.
-  Eigen::MatrixXcd along_positions(const Eigen::VectorXcd& q,
-                                   const Eigen::VectorXcd& lambda) const {
+  /// A part of a complex direction.
+  struct ComplexPart {
+    Eigen::VectorXd Direction::*part;
+    Eigen::VectorXcd vector;
+  };
+
+  /// Derivatives of R_x along a complex direction, (n + m) × variables.
+  Eigen::MatrixXcd along(const std::vector<ComplexPart>& parts) const {
     Direction real = nowhere(), imaginary = nowhere();
-    real.q = q.real();
-    real.lambda = lambda.real();
-    imaginary.q = q.imag();
-    imaginary.lambda = lambda.imag();
-    return combine(real, imaginary);
-  }
-  Eigen::MatrixXcd along_rates(const Eigen::VectorXcd& v) const {
-    Direction real = nowhere(), imaginary = nowhere();
-    real.v = v.real();
-    imaginary.v = v.imag();
-    return combine(real, imaginary);
-  }
-  Eigen::MatrixXcd along_accelerations(const Eigen::VectorXcd& a) const {
-    Direction real = nowhere(), imaginary = nowhere();
-    real.a = a.real();
-    imaginary.a = a.imag();
-    return combine(real, imaginary);
-  }
-  Eigen::MatrixXcd combine(const Direction& real, const Direction& imaginary) const {
+    for (const auto& [part, vector] : parts) {
+      real.*part = vector.real();
+      imaginary.*part = vector.imag();
+    }
     const auto design_derivative = [&](const State& state) {
       Eigen::MatrixXd columns;
       mechanism_.system->design_derivative(state, ConstraintLevel::position, columns);

@@ -170,11 +170,6 @@ class InitialDifferentiation {
   StateSensitivity sensitivity_;
 };
 
-StateSensitivity zero_sensitivity(const System& system) {
-  const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(system.coordinates(), system.variables());
-  return {zero, zero, zero, zero, Eigen::MatrixXd::Zero(system.multipliers(), system.variables())};
-}
-
 /// Variables that change forces only, as the mass of a counterweight that a drive turns, have
 /// derivatives of the motion that are round-off from end to end. Those of the size at which the
 /// motion would change by this share of what the forces change count as such.
@@ -192,6 +187,11 @@ Eigen::RowVectorXd compared_sizes(const Eigen::MatrixXd& end, const Eigen::Matri
 }
 
 }  // namespace
+
+StateSensitivity zero_sensitivity(const System& system, Eigen::Index columns) {
+  const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(system.coordinates(), columns);
+  return {zero, zero, zero, zero, Eigen::MatrixXd::Zero(system.multipliers(), columns)};
+}
 
 StateSensitivity initial_sensitivity(Mechanism& mechanism, const InitialState& initial) {
   return InitialDifferentiation(mechanism, initial).run();
@@ -232,7 +232,7 @@ StateSensitivity periodic_sensitivity(Mechanism& mechanism, const Trajectory& tr
   const PeriodicStart& periodic = *trajectory.periodic;
   require_repeated_derivatives(mechanism, trajectory);
   const StackedStates& states = periodic.map->states();
-  StateSensitivity start = zero_sensitivity(*mechanism.system);
+  StateSensitivity start = zero_sensitivity(*mechanism.system, mechanism.system->variables());
   StepDifferentiation motion(mechanism, trajectory, DerivativesOf::design);
   PeriodicCorrection progress;
   State last;

@@ -16,6 +16,9 @@
 
 namespace pleuel {
 
+/// @param columns  how many variables (or, of the adjoint, functions)
+StateSensitivity zero_sensitivity(const System& system, Eigen::Index columns);
+
 /// Derivatives of the consistent initial values: assembly, velocity projection and initial
 /// accelerations are differentiated as they are computed (implicit function theorem), the curvature
 /// of the constraints included.
