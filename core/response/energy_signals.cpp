@@ -60,6 +60,7 @@ class StretchingEnergy {
         design_(system.size(), system.variables()) {}
 
   double value(const State& state) {
+    if (terms_.empty()) return 0.0;
     double sum = 0.0;
     for (const double share : gauss_shares) {
       sum += 0.5 * state.q.dot(forces(state, share));
@@ -119,30 +120,13 @@ std::vector<Term*> stiffening_of(const Model& model, const std::vector<const Bod
   return chosen;
 }
 
-class KineticEnergySignal final : public Signal {
+class EnergySignal final : public Signal {
  public:
-  explicit KineticEnergySignal(EnergySum sum) : sum_(std::move(sum)) {}
+  EnergySignal(const char* name, EnergySum sum, StretchingEnergy stretching)
+      : name_(name), sum_(std::move(sum)), stretching_(std::move(stretching)) {}
 
   int channels() const override { return 1; }
-  std::string describe(int) const override { return "kinetic energy"; }
-  void observe(const State& state, Eigen::Ref<Eigen::VectorXd> values) override {
-    values(0) = sum_.value(state);
-  }
-  void add_gradient(const State& state, int, double weight, SignalGradient& gradient) override {
-    sum_.add_gradient(state, weight, gradient);
-  }
-
- private:
-  EnergySum sum_;
-};
-
-class ElasticEnergySignal final : public Signal {
- public:
-  ElasticEnergySignal(EnergySum sum, StretchingEnergy stretching)
-      : sum_(std::move(sum)), stretching_(std::move(stretching)) {}
-
-  int channels() const override { return 1; }
-  std::string describe(int) const override { return "elastic energy"; }
+  std::string describe(int) const override { return name_; }
   void observe(const State& state, Eigen::Ref<Eigen::VectorXd> values) override {
     values(0) = sum_.value(state) + stretching_.value(state);
   }
@@ -152,6 +136,7 @@ class ElasticEnergySignal final : public Signal {
   }
 
  private:
+  const char* name_;
   EnergySum sum_;
   StretchingEnergy stretching_;
 };
@@ -206,15 +191,16 @@ class EnergyAndPowerSignal final : public Signal {
 
 std::unique_ptr<Signal> make_kinetic_energy_signal(const Model& model,
                                                    const std::vector<std::string>& bodies) {
-  return std::make_unique<KineticEnergySignal>(
-      EnergySum(bodies_of(model, bodies), model.gravity, {.kinetic = 1}));
+  return std::make_unique<EnergySignal>(
+      "kinetic energy", EnergySum(bodies_of(model, bodies), model.gravity, {.kinetic = 1}),
+      StretchingEnergy({}, *model.mechanism.system));
 }
 
 std::unique_ptr<Signal> make_elastic_energy_signal(const Model& model,
                                                    const std::vector<std::string>& names) {
   const std::vector<const BodyModel*> bodies = bodies_of(model, names);
-  return std::make_unique<ElasticEnergySignal>(
-      EnergySum(bodies, model.gravity, {.elastic = 1}),
+  return std::make_unique<EnergySignal>(
+      "elastic energy", EnergySum(bodies, model.gravity, {.elastic = 1}),
       StretchingEnergy(stiffening_of(model, bodies), *model.mechanism.system));
 }
 

@@ -16,22 +16,6 @@ namespace pleuel {
 
 namespace {
 
-class DriveEffortSignal final : public Signal {
- public:
-  explicit DriveEffortSignal(int row) : row_(row) {}
-  int channels() const override { return 1; }
-  std::string describe(int) const override { return "drive"; }
-  void observe(const State& state, Eigen::Ref<Eigen::VectorXd> values) override {
-    values(0) = -state.lambda(row_);
-  }
-  void add_gradient(const State&, int, double weight, SignalGradient& gradient) override {
-    gradient.lambda(row_) -= weight;
-  }
-
- private:
-  int row_;
-};
-
 TimeLaw<Dual> seed_law(const TimeLaw<double>& law, const TimeLaw<double>& derivative) {
   std::size_t i = 0;
   return law.transformed<Dual>([&](double parameter) {
@@ -39,9 +23,12 @@ TimeLaw<Dual> seed_law(const TimeLaw<double>& law, const TimeLaw<double>& deriva
   });
 }
 
-class DrivePowerSignal final : public Signal {
+/// −λ, times ḟ of the power.
+class DriveSignal final : public Signal {
  public:
-  explicit DrivePowerSignal(const JointModel& joint) : joint_(joint) {
+  DriveSignal(const JointModel& joint, DriveNumber number)
+      : joint_(joint), is_power_(number == DriveNumber::power) {
+    if (!is_power_) return;
     for (const auto& [variable, data] : joint.derivatives) {
       laws_.push_back({variable, seed_law(joint.data.drive, data.drive)});
     }
@@ -49,10 +36,10 @@ class DrivePowerSignal final : public Signal {
   int channels() const override { return 1; }
   std::string describe(int) const override { return "drive"; }
   void observe(const State& state, Eigen::Ref<Eigen::VectorXd> values) override {
-    values(0) = -state.lambda(joint_.drive_row) * joint_.data.drive.at(state.time).rate;
+    values(0) = -state.lambda(joint_.drive_row) * rate(state);
   }
   void add_gradient(const State& state, int, double weight, SignalGradient& gradient) override {
-    gradient.lambda(joint_.drive_row) -= weight * joint_.data.drive.at(state.time).rate;
+    gradient.lambda(joint_.drive_row) -= weight * rate(state);
     for (const auto& [variable, law] : laws_) {
       gradient.design(variable) -=
           weight * state.lambda(joint_.drive_row) * derivative_of(law.at(state.time).rate);
@@ -60,18 +47,19 @@ class DrivePowerSignal final : public Signal {
   }
 
  private:
+  double rate(const State& state) const {
+    return is_power_ ? joint_.data.drive.at(state.time).rate : 1.0;
+  }
+
   const JointModel& joint_;
-  std::vector<DesignDerivative<TimeLaw<Dual>>> laws_;
+  bool is_power_;
+  std::vector<DesignDerivative<TimeLaw<Dual>>> laws_;  ///< of the power
 };
 
 }  // namespace
 
-std::unique_ptr<Signal> make_drive_effort_signal(const JointModel& joint) {
-  return std::make_unique<DriveEffortSignal>(joint.drive_row);
-}
-
-std::unique_ptr<Signal> make_drive_power_signal(const JointModel& joint) {
-  return std::make_unique<DrivePowerSignal>(joint);
+std::unique_ptr<Signal> make_drive_signal(const JointModel& joint, DriveNumber number) {
+  return std::make_unique<DriveSignal>(joint, number);
 }
 
 namespace {

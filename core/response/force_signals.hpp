@@ -9,14 +9,16 @@
 
 namespace pleuel {
 
-/// −λ of a drive's equation: the torque [N m] about the joint's axis that a drive of an angle
-/// exerts on the second body of its joint, or the force [N] along the axis (of a distance: along
-/// the connection) of a drive of a displacement.
-std::unique_ptr<Signal> make_drive_effort_signal(const JointModel& joint);
+enum class DriveNumber {
+  /// −λ of its equation: the torque [N m] about the joint's axis that a drive of an angle exerts on the
+  /// second body of its joint, or the force [N] along the axis (of a distance: along the connection) of
+  /// a drive of a displacement.
+  effort,
+  power  ///< −λ ḟ(t) [W]: what the drive f(t) supplies to the mechanism, −λᵀ ∂Φ/∂t
+};
 
-/// −λ ḟ(t) [W]: what the drive f(t) supplies to the mechanism, −λᵀ ∂Φ/∂t.
 /// @param joint  must outlive the signal
-std::unique_ptr<Signal> make_drive_power_signal(const JointModel& joint);
+std::unique_ptr<Signal> make_drive_signal(const JointModel& joint, DriveNumber number);
 
 /// Position and velocity of a joint, length and pull of a spring, power of a motor: what a gauge of
 /// the model reads (core/system/term.hpp).

@@ -87,9 +87,9 @@ class ResponseMaker {
     switch (observed_type(settings_.type)) {
       case ResponseType::drive_torque:
       case ResponseType::drive_force:
-        return of_multipliers(make_drive_effort_signal(driven_joint()));
+        return of_multipliers(make_drive_signal(driven_joint(), DriveNumber::effort));
       case ResponseType::drive_power:
-        return of_multipliers(make_drive_power_signal(driven_joint()));
+        return of_multipliers(make_drive_signal(driven_joint(), DriveNumber::power));
       case ResponseType::reaction_force:
         return make_reaction(ReactionPart::Kind::force);
       case ResponseType::reaction_moment:
