@@ -13,7 +13,7 @@ namespace pleuel {
 
 namespace {
 
-/// Uses within this relative distance of the largest are called tied.
+/// Points within this relative distance of the largest are called tied.
 constexpr double cycle_tie_gap = 1e-3;
 /// So many ties are remembered.
 constexpr std::size_t max_cycle_ties = 16;
@@ -25,16 +25,24 @@ constexpr double out_of_reach = 0.9;
 struct Cycle {
   int point = 0;
   Reduction highest, lowest;  ///< of its first row
-  CycleUse use;
+  double mean = 0.0;          ///< of its second row
+  CycleValue use = {};
 
   int row() const { return 2 * point; }
 };
 
-/// Σ weight · value in the second row, at the samples of the first one.
-double in_second_row(const Reduction& extreme, const Eigen::MatrixXd& values, int row) {
+/// Σ weight · value in a row, at samples of the same or another one.
+double in_row(int row, const std::vector<Sample>& samples, const Eigen::MatrixXd& values) {
   double sum = 0.0;
-  for (const Sample& sample : extreme.samples) sum += sample.weight * values(row, sample.step);
+  for (const Sample& sample : samples) sum += sample.weight * values(row, sample.step);
   return sum;
+}
+
+/// The closest come first.
+void keep_closest(std::vector<PeakTie>& ties) {
+  std::stable_sort(ties.begin(), ties.end(),
+                   [](const PeakTie& a, const PeakTie& b) { return a.gap < b.gap; });
+  if (ties.size() > max_cycle_ties) ties.resize(max_cycle_ties);
 }
 
 /// One extreme's part in amplitude and mean.
@@ -46,7 +54,7 @@ void add_samples(const std::vector<Sample>& extreme, int row, double of_amplitud
   }
 }
 
-std::vector<Sample> samples_of(const Cycle& cycle, const CycleUse& use,
+std::vector<Sample> samples_of(const Cycle& cycle, const CycleValue& use,
                                const std::vector<Sample>& highest,
                                const std::vector<Sample>& lowest) {
   std::vector<Sample> samples;
@@ -77,9 +85,7 @@ class CycleSearch {
     add_other_points(cycles, *best, reduction.ties);
     add_other_instants(*best, reduction.ties);
     add_zero_mean(*best, reduction.ties);
-    std::stable_sort(reduction.ties.begin(), reduction.ties.end(),
-                     [](const PeakTie& a, const PeakTie& b) { return a.gap < b.gap; });
-    if (reduction.ties.size() > max_cycle_ties) reduction.ties.resize(max_cycle_ties);
+    keep_closest(reduction.ties);
     return reduction;
   }
 
@@ -97,13 +103,11 @@ class CycleSearch {
 
   Cycle cycle_of(int point) const {
     const Eigen::MatrixXd stress = values_.row(2 * point);
-    Cycle cycle{point,
-                reduce(OverTime::max, time_, stress, range_, breaks_),
-                reduce(OverTime::min, time_, stress, range_, breaks_),
-                {}};
-    const double mean = 0.5 * (in_second_row(cycle.highest, values_, cycle.row() + 1) +
-                               in_second_row(cycle.lowest, values_, cycle.row() + 1));
-    cycle.use = cycle_use(criterion_, 0.5 * (cycle.highest.value - cycle.lowest.value), mean);
+    Cycle cycle{point, reduce(OverTime::max, time_, stress, range_, breaks_),
+                reduce(OverTime::min, time_, stress, range_, breaks_)};
+    cycle.mean = 0.5 * (in_row(cycle.row() + 1, cycle.highest.samples, values_) +
+                        in_row(cycle.row() + 1, cycle.lowest.samples, values_));
+    cycle.use = cycle_use(criterion_, 0.5 * (cycle.highest.value - cycle.lowest.value), cycle.mean);
     return cycle;
   }
 
@@ -159,11 +163,9 @@ class CycleSearch {
   /// What the other side of zero mean says.
   void add_zero_mean(const Cycle& best, std::vector<PeakTie>& ties) const {
     if (criterion_ == FatigueCriterion::gerber) return;
-    const double mean = 0.5 * (in_second_row(best.highest, values_, best.row() + 1) +
-                               in_second_row(best.lowest, values_, best.row() + 1));
-    CycleUse other = best.use;
-    other.by_mean = mean > 0.0 ? 0.0 : 1.0;
-    add(best, best, time_of(best.lowest.samples), std::abs(mean) / best.use.value,
+    CycleValue other = best.use;
+    other.by_mean = best.mean > 0.0 ? 0.0 : 1.0;
+    add(best, best, time_of(best.lowest.samples), std::abs(best.mean) / best.use.value,
         samples_of(best, other, best.highest.samples, best.lowest.samples), ties);
   }
 
@@ -174,32 +176,12 @@ class CycleSearch {
   const BrokenInstants& breaks_;
 };
 
-/// Damages within this relative distance of the largest are called tied.
-constexpr double damage_tie_gap = 1e-3;
-/// So many ties are remembered.
-constexpr std::size_t max_damage_ties = 16;
-
 /// A maximum or minimum of a history: Σ weight · sample.
-struct TurningPoint {
-  int step;  ///< of the sample next to it
-  std::vector<std::pair<int, double>> samples;
-
-  double value(const Eigen::MatrixXd& values, int row) const {
-    double sum = 0.0;
-    for (const auto& [at, weight] : samples) sum += weight * values(row, at);
-    return sum;
-  }
-};
-
-/// What a cycle adds to the damage, with its derivatives by both turning points in both rows.
-struct CycleDamage {
-  double value = 0.0;
-  double by_amplitude = 0.0, by_mean = 0.0;
-};
+using TurningPoint = std::vector<Sample>;
 
 /// 2 σ̂^k, σ̂ = a/(1 − m), of Gerber a/(1 − m²): a = σ_a/σ_f', m = σ_m/S.
-CycleDamage cycle_damage(FatigueCriterion criterion, double exponent, double amplitude,
-                         double mean) {
+CycleValue cycle_damage(FatigueCriterion criterion, double exponent, double amplitude,
+                        double mean) {
   const bool is_gerber = criterion == FatigueCriterion::gerber;
   const double m = std::max(mean, 0.0), room = is_gerber ? 1.0 - m * m : 1.0 - m;
   if (room <= 0.0) return {std::numeric_limits<double>::infinity()};
@@ -228,7 +210,7 @@ class PointDamage {
     std::vector<TurningPoint> turning = repeats_ ? extremes(row) : turning_points(row);
     if (repeats_) begin_at_largest(row, turning);
     std::vector<double> heights;
-    for (const TurningPoint& point : turning) heights.push_back(point.value(values_, row));
+    for (const TurningPoint& point : turning) heights.push_back(in_row(row, point, values_));
     Reduction damage;
     for (const CountedCycle& cycle : count_rainflow(heights)) {
       add(cycle, turning, row, damage);
@@ -253,9 +235,9 @@ class PointDamage {
 
   /// First and last sample, and what lies between.
   std::vector<TurningPoint> turning_points(int row) const {
-    std::vector<TurningPoint> turning = {{range_.first, {{range_.first, 1.0}}}};
+    std::vector<TurningPoint> turning = {{{range_.first, row, 1.0}}};
     for (TurningPoint& point : extremes(row)) turning.push_back(std::move(point));
-    turning.push_back({range_.last, {{range_.last, 1.0}}});
+    turning.push_back({{range_.last, row, 1.0}});
     return turning;
   }
 
@@ -285,24 +267,22 @@ class PointDamage {
     const std::array<int, 3> steps = {before(step), step, after(step)};
     const double value = values_(row, step), previous = values_(row, steps[0]);
     if (value == previous || is_broken(step) || jumps_beside(time_, values_, row, step)) {
-      return {step, {{step, 1.0}}};
+      return {{step, row, 1.0}};
     }
     const double turn = time_(range_.last) - time_(range_.first);
     const Eigen::Vector3d times(time_(steps[0]) - (steps[0] > step ? turn : 0.0), time_(step),
                                 time_(steps[2]) + (steps[2] < step ? turn : 0.0));
     const Eigen::RowVector3d three(previous, value, values_(row, steps[2]));
     const Reduction vertex = reduce(value > previous ? OverTime::max : OverTime::min, times, three);
-    TurningPoint point{step, {}};
-    for (const Sample& sample : vertex.samples) {
-      point.samples.emplace_back(steps[sample.step], sample.weight);
-    }
+    TurningPoint point = vertex.samples;
+    for (Sample& sample : point) sample.step = steps[sample.step];
     return point;
   }
 
   void begin_at_largest(int row, std::vector<TurningPoint>& turning) const {
     const auto largest =
         std::max_element(turning.begin(), turning.end(), [&](const auto& one, const auto& other) {
-          return one.value(values_, row) < other.value(values_, row);
+          return in_row(row, one, values_) < in_row(row, other, values_);
         });
     if (largest == turning.end()) return;
     std::rotate(turning.begin(), largest, turning.end());
@@ -312,21 +292,15 @@ class PointDamage {
   void add(const CountedCycle& cycle, const std::vector<TurningPoint>& turning, int row,
            Reduction& damage) const {
     const TurningPoint &from = turning[cycle.from], &to = turning[cycle.to];
-    const double change = to.value(values_, row) - from.value(values_, row);
-    const double mean = 0.5 * (to.value(values_, row + 1) + from.value(values_, row + 1));
-    const CycleDamage one = cycle_damage(criterion_, exponent_, 0.5 * std::abs(change), mean);
+    const double change = in_row(row, to, values_) - in_row(row, from, values_);
+    const double mean = 0.5 * (in_row(row + 1, to, values_) + in_row(row + 1, from, values_));
+    const CycleValue one = cycle_damage(criterion_, exponent_, 0.5 * std::abs(change), mean);
     if (one.value == 0.0) return;
     damage.value += cycle.count * one.value;
     const double of_change = 0.5 * cycle.count * one.by_amplitude * (change < 0.0 ? -1.0 : 1.0);
     const double of_mean = 0.5 * cycle.count * one.by_mean;
-    const auto add_samples = [&](const TurningPoint& point, double of_first) {
-      for (const auto& [step, weight] : point.samples) {
-        damage.samples.push_back({step, row, of_first * weight});
-        if (of_mean != 0.0) damage.samples.push_back({step, row + 1, of_mean * weight});
-      }
-    };
-    add_samples(from, -of_change);
-    add_samples(to, of_change);
+    add_samples(from, row, -of_change, of_mean, damage.samples);
+    add_samples(to, row, of_change, of_mean, damage.samples);
   }
 
   FatigueCriterion criterion_;
@@ -362,7 +336,7 @@ void gather(std::vector<Sample>& samples) {
 
 }  // namespace
 
-CycleUse cycle_use(FatigueCriterion criterion, double amplitude, double mean) {
+CycleValue cycle_use(FatigueCriterion criterion, double amplitude, double mean) {
   if (mean <= 0.0) return {amplitude, 1.0, 0.0};
   if (criterion != FatigueCriterion::gerber) return {amplitude + mean, 1.0, 1.0};
   const double root = std::hypot(amplitude, 2.0 * mean), use = 0.5 * (amplitude + root);
@@ -388,15 +362,13 @@ Reduction reduce_damage(FatigueCriterion criterion, double exponent, const Eigen
   gather(reduction.samples);
   for (auto other = points.begin(); other != points.end(); ++other) {
     const double gap = 1.0 - other->value / worst->value;
-    if (other == worst || !(gap <= damage_tie_gap)) continue;
+    if (other == worst || !(gap <= cycle_tie_gap)) continue;
     const double end = time(range.last);
     gather(other->samples);
     reduction.ties.push_back({end, end, 2 * static_cast<int>(worst - points.begin()),
                               2 * static_cast<int>(other - points.begin()), gap, other->samples});
   }
-  std::stable_sort(reduction.ties.begin(), reduction.ties.end(),
-                   [](const PeakTie& a, const PeakTie& b) { return a.gap < b.gap; });
-  if (reduction.ties.size() > max_damage_ties) reduction.ties.resize(max_damage_ties);
+  keep_closest(reduction.ties);
   return reduction;
 }
 

@@ -11,20 +11,21 @@
 
 namespace pleuel {
 
-/// u = 1/n: the load could be n times as large before the line of the criterion is reached.
-struct CycleUse {
+/// What a cycle of stress uses of a material, or adds to its damage.
+struct CycleValue {
   double value = 0.0;
   double by_amplitude = 0.0, by_mean = 0.0;  ///< derivatives
 };
 
-/// Of the amplitude a = σ_a/S_e (S_e: endurance limit) and the mean m = σ_m/S:
+/// u = 1/n: the load could be n times as large before the line of the criterion is reached. Of the
+/// amplitude a = σ_a/S_e (S_e: endurance limit) and the mean m = σ_m/S:
 ///     Goodman    n σ_a/S_e + n σ_m/S_u = 1        u = a + m,   S = S_u: ultimate strength
 ///     Soderberg  n σ_a/S_e + n σ_m/S_y = 1        u = a + m,   S = S_y: yield strength
 ///     Gerber     n σ_a/S_e + (n σ_m/S_u)² = 1     u = (a + √(a² + 4m²))/2,   S = S_u
 /// Compressive mean stress neither harms nor helps: u = a for m < 0. There Goodman's and
 /// Soderberg's line has a kink.
 /// @param amplitude, mean  a ≥ 0, m
-CycleUse cycle_use(FatigueCriterion criterion, double amplitude, double mean);
+CycleValue cycle_use(FatigueCriterion criterion, double amplitude, double mean);
 
 /// The largest utilization of many points, each by the one cycle between its largest and its
 /// smallest stress in a range of time: σ_a = (max − min)/2, σ_m = (max + min)/2. Extrema lie

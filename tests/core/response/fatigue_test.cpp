@@ -39,7 +39,7 @@ TEST(CycleUse, GrowsAsTheLoadDoes) {
 
 TEST(CycleUse, OfCompressiveMeanStressIsThatOfTheAmplitude) {
   for (const FatigueCriterion criterion : criteria) {
-    const CycleUse use = cycle_use(criterion, 0.3, -0.7);
+    const CycleValue use = cycle_use(criterion, 0.3, -0.7);
     EXPECT_EQ(use.value, 0.3);
     EXPECT_EQ(use.by_amplitude, 1.0);
     EXPECT_EQ(use.by_mean, 0.0);
@@ -49,7 +49,7 @@ TEST(CycleUse, OfCompressiveMeanStressIsThatOfTheAmplitude) {
 /// Central differences with 1e-6: errors of 1e-12, round-off of 1e-10.
 TEST(CycleUse, HasTheDerivativesOfItsValue) {
   for (const FatigueCriterion criterion : criteria) {
-    const CycleUse use = cycle_use(criterion, 0.3, 0.2);
+    const CycleValue use = cycle_use(criterion, 0.3, 0.2);
     const auto value = [&](double a, double m) { return cycle_use(criterion, a, m).value; };
     EXPECT_NEAR(use.by_amplitude, (value(0.3 + 1e-6, 0.2) - value(0.3 - 1e-6, 0.2)) / 2e-6, 1e-9);
     EXPECT_NEAR(use.by_mean, (value(0.3, 0.2 + 1e-6) - value(0.3, 0.2 - 1e-6)) / 2e-6, 1e-9);
