@@ -140,7 +140,7 @@ class StressExport {
 
   StressRecovery value() const {
     const SparseMatrix stress = stress_of_forces();
-    const Recovery forces = section_force_recovery(body_, stations_);
+    const Recovery forces = section_recovery(body_, stations_, section_force_parts);
     return recovery_of({stress * forces.of_coordinates, stress * forces.of_accelerations,
                         stress * forces.of_stretching},
                        body_.beam.elements.front().strengths);
@@ -152,8 +152,8 @@ class StressExport {
     const SparseMatrix stress = stress_of_forces();
     const SparseMatrix stress_x =
         stress_of_forces(beam, [](const Dual& number) { return derivative_of(number); });
-    const Recovery forces = section_force_recovery(body_, stations_);
-    const Recovery forces_x = section_force_derivative(body_, stations_, k);
+    const Recovery forces = section_recovery(body_, stations_, section_force_parts);
+    const Recovery forces_x = section_recovery_derivative(body_, stations_, section_force_parts, k);
     const auto change = [&](const SparseMatrix Recovery::*part) {
       return SparseMatrix(SparseMatrix(stress * (forces_x.*part)) +
                           SparseMatrix(stress_x * (forces.*part)));

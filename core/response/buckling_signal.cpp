@@ -62,15 +62,6 @@ Scalar euler_load(const Beam<Scalar>& beam, Plane plane) {
   return least;
 }
 
-class CompressionQuantity : public OneASection {
- public:
-  template <class Scalar, class Force>
-  StressOf<Scalar, Force> evaluate(const Beam<Scalar>&, const SectionProperties<Scalar>&,
-                                   const SectionForces<Force>& forces, Point) const {
-    return -forces.axial;
-  }
-};
-
 }  // namespace
 
 std::unique_ptr<Signal> make_buckling_signal(std::unique_ptr<Signal> compression,
@@ -82,7 +73,9 @@ std::unique_ptr<Signal> make_buckling_signal(std::unique_ptr<Signal> compression
 
 std::unique_ptr<Signal> make_compression_signal(const BodyModel& body,
                                                 const Eigen::Vector3d& gravity) {
-  return make_section_signal(body, gravity, {}, CompressionQuantity());
+  std::vector<SignalSum::Part> parts;
+  parts.push_back({-1.0, make_section_force_signal(body, gravity, SectionForcePart::axial, {})});
+  return std::make_unique<SignalSum>(std::move(parts));
 }
 
 std::vector<DesignFactor> euler_loads(const BodyModel& body, int variables) {

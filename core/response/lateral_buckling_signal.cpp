@@ -28,9 +28,11 @@ class PlaneForces final : public Stations {
   }
 
   int numbers() const override { return section_force_count; }
-  Recovery recovery() const override { return section_force_recovery(body_, stations_); }
+  Recovery recovery() const override {
+    return section_recovery(body_, stations_, section_force_parts);
+  }
   Recovery recovery_derivative(std::size_t k) const override {
-    return section_force_derivative(body_, stations_, k);
+    return section_recovery_derivative(body_, stations_, section_force_parts, k);
   }
   int channels() const override { return 2 * int_size(stations_); }
   int station(int channel) const override { return channel / 4 * 2 + channel % 2; }

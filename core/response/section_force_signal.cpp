@@ -7,40 +7,16 @@ namespace pleuel {
 
 namespace {
 
-class SectionForceQuantity : public OneASection {
+/// Of every station one number, the section force itself.
+class ForceStations final : public Stations {
  public:
-  explicit SectionForceQuantity(SectionForcePart part) : part_(part) {}
-
-  template <class Scalar, class Force>
-  StressOf<Scalar, Force> evaluate(const Beam<Scalar>&, const SectionProperties<Scalar>&,
-                                   const SectionForces<Force>& forces, Point) const {
-    switch (part_) {
-      case SectionForcePart::axial:
-        return forces.axial;
-      case SectionForcePart::moment_y:
-        return forces.moment_y;
-      case SectionForcePart::moment_z:
-        return forces.moment_z;
-      default:
-        break;
-    }
-    return forces.torque;
-  }
-
- private:
-  SectionForcePart part_;
-};
-
-/// Of every station one number, the shear force itself.
-class ShearStations final : public Stations {
- public:
-  ShearStations(const BodyModel& body, const StationChoice& choice, int direction)
-      : body_(body), direction_(direction), stations_(find_stations(body, choice)) {}
+  ForceStations(const BodyModel& body, const StationChoice& choice, SectionForcePart part)
+      : body_(body), parts_{part}, stations_(find_stations(body, choice)) {}
 
   int numbers() const override { return 1; }
-  Recovery recovery() const override { return shear_force_recovery(body_, stations_, direction_); }
+  Recovery recovery() const override { return section_recovery(body_, stations_, parts_); }
   Recovery recovery_derivative(std::size_t k) const override {
-    return shear_force_derivative(body_, stations_, direction_, k);
+    return section_recovery_derivative(body_, stations_, parts_, k);
   }
   int channels() const override { return int_size(stations_); }
   int station(int channel) const override { return channel; }
@@ -53,7 +29,7 @@ class ShearStations final : public Stations {
 
  private:
   const BodyModel& body_;
-  int direction_;
+  std::array<SectionForcePart, 1> parts_;
   std::vector<Station> stations_;
 };
 
@@ -63,12 +39,8 @@ std::unique_ptr<Signal> make_section_force_signal(const BodyModel& body,
                                                   const Eigen::Vector3d& gravity,
                                                   SectionForcePart part,
                                                   const StationChoice& stations) {
-  if (part == SectionForcePart::shear_y || part == SectionForcePart::shear_z) {
-    const int direction = part == SectionForcePart::shear_y ? 1 : 2;
-    return make_recovered_signal(body, gravity,
-                                 std::make_unique<ShearStations>(body, stations, direction));
-  }
-  return make_section_signal(body, gravity, stations, SectionForceQuantity(part));
+  return make_recovered_signal(body, gravity,
+                               std::make_unique<ForceStations>(body, stations, part));
 }
 
 }  // namespace pleuel

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <utility>
@@ -20,23 +21,13 @@ std::unique_ptr<Signal> make_section_force_signal(const BodyModel& body,
                                                   SectionForcePart part,
                                                   const StationChoice& stations);
 
-/// What quantities have in common that have one number a section.
-struct OneASection {
-  struct Point {};
-
-  std::vector<Point> points(const BodyModel&, const SectionProperties<double>&) const {
-    return {{}};
-  }
-
-  std::string name(const SectionProperties<double>&, Point) const { return ""; }
-};
-
 /// What is made of the section forces of a beam. Quantity is a formula for any scalar types, those
 /// of the beam and of the forces:
+///     static constexpr std::array parts = {…};  // SectionForcePart: which forces it is made of
 ///     using Point = …;  // a place of a section
 ///     std::vector<Point> points(const BodyModel&, const SectionProperties<double>&) const;
 ///     template <class Scalar, class Force> StressOf<Scalar, Force> evaluate(const Beam<Scalar>&,
-///         const SectionProperties<Scalar>&, const SectionForces<Force>&, const Point&) const;
+///         const SectionProperties<Scalar>&, const Force* forces, const Point&) const;
 ///     std::string name(const SectionProperties<double>&, const Point&) const;  // ", tension side"
 /// One channel a station and point.
 template <class Quantity>
@@ -51,10 +42,10 @@ class SectionStations final : public Stations {
     }
   }
 
-  int numbers() const override { return section_force_count; }
-  Recovery recovery() const override { return section_force_recovery(body_, stations_); }
+  int numbers() const override { return count; }
+  Recovery recovery() const override { return section_recovery(body_, stations_, Quantity::parts); }
   Recovery recovery_derivative(std::size_t k) const override {
-    return section_force_derivative(body_, stations_, k);
+    return section_recovery_derivative(body_, stations_, Quantity::parts, k);
   }
 
   int channels() const override { return int_size(channels_); }
@@ -66,23 +57,24 @@ class SectionStations final : public Stations {
   }
 
   double value(int channel, const double* numbers) const override {
-    return evaluate(body_.beam, channel, section_forces(numbers));
+    return evaluate(body_.beam, channel, numbers);
   }
 
   Numbers slopes(int channel, const double* numbers) override {
-    std::array<ForcesDual, section_force_count> seeded;
-    for (int i = 0; i < section_force_count; ++i) {
+    std::array<ForcesDual, count> seeded;
+    for (int i = 0; i < count; ++i) {
       seeded[i] = {numbers[i], ForcesDual::Derivatives::Unit(i)};
     }
-    return evaluate(body_.beam, channel, section_forces(seeded.data())).derivatives();
+    return evaluate(body_.beam, channel, seeded.data()).derivatives();
   }
 
   double design_slope(int channel, const double* numbers, std::size_t k) const override {
-    return derivative_of(evaluate(body_.beam_x[k].second, channel, section_forces(numbers)));
+    return derivative_of(evaluate(body_.beam_x[k].second, channel, numbers));
   }
 
  private:
-  using ForcesDual = DualOf<section_force_count>;
+  static constexpr int count = Quantity::parts.size();
+  using ForcesDual = DualOf<count>;
   using Point = typename Quantity::Point;
 
   /// One number of a station.
@@ -101,7 +93,7 @@ class SectionStations final : public Stations {
 
   template <class Scalar, class Force>
   StressOf<Scalar, Force> evaluate(const Beam<Scalar>& beam, int channel,
-                                   const SectionForces<Force>& forces) const {
+                                   const Force* forces) const {
     const auto& [station, point] = at(channel);
     return quantity_.evaluate(beam, section_of(beam, station), forces, point);
   }

@@ -9,7 +9,10 @@ namespace pleuel {
 
 namespace {
 
-constexpr int axial = 0, moment_y = 1, moment_z = 2, torque = 3;
+/// Rows in the order of SectionForcePart.
+constexpr int axial = 0, moment_y = 1, moment_z = 2, torque = 3, shear_y = 4, shear_z = 5;
+constexpr int row_count = 6;
+static_assert(static_cast<int>(SectionForcePart::shear_z) == shear_z);
 
 /// Moment over w ℓ² in a clamped element under the load w ξ. What of the load is even about the middle
 /// does not shear the element as a whole. Of w (ξ − ½) the moment is w ℓ² (t³/6 + c t), t = ξ − ½, and
@@ -23,14 +26,18 @@ Scalar clamped_change(const Scalar& xi, const Scalar& shear) {
 /// The section forces at a place of an element, as rows.
 template <class Scalar>
 struct ElementForces {
-  Eigen::Matrix<Scalar, section_force_count, 12> of_coordinates;
+  Eigen::Matrix<Scalar, row_count, 12> of_coordinates;
   /// Of those of both nodes against free fall, local axes.
-  Eigen::Matrix<Scalar, section_force_count, 6> of_accelerations;
+  Eigen::Matrix<Scalar, row_count, 6> of_accelerations;
 
   ElementForces(const BeamElement<Scalar>& element, const Scalar& xi) {
     const ElementForm<Scalar> form = form_of(element);
+    of_coordinates.setConstant(Scalar(0));
+    of_accelerations.setConstant(Scalar(0));
     set_strain(element, form, xi);
     set_inertia(element, form, xi);
+    set_shear(element, xi, 1, form.shear_y);
+    set_shear(element, xi, 2, form.shear_z);
   }
 
  private:
@@ -38,7 +45,6 @@ struct ElementForces {
                   const Scalar& xi) {
     const SectionProperties<Scalar>& section = element.section;
     const Scalar& length = element.length;
-    of_coordinates.setConstant(Scalar(0));
     of_coordinates(axial, 6) = element.young * section.area / length;
     of_coordinates(axial, 0) = -of_coordinates(axial, 6);
     of_coordinates(torque, 9) = element.shear * section.torsion / length;
@@ -59,7 +65,6 @@ struct ElementForces {
     const Scalar start = xi * xi / 2.0 - xi / 2.0 + 1.0 / 12.0;
     const Scalar change_y = clamped_change(xi, form.shear_y);
     const Scalar change_z = clamped_change(xi, form.shear_z);
-    of_accelerations.setConstant(Scalar(0));
     of_accelerations(axial, 0) = along * (along_start - along_change);
     of_accelerations(axial, 3) = along * along_change;
     of_accelerations(moment_z, 1) = across * (start - change_y);
@@ -67,53 +72,29 @@ struct ElementForces {
     of_accelerations(moment_y, 2) = across * (change_z - start);
     of_accelerations(moment_y, 5) = across * -change_z;
   }
-};
 
-/// The shear force at a place of an element, as rows: the derivatives of those of the moments.
-template <class Scalar>
-struct ElementShear {
-  Eigen::Matrix<Scalar, 1, 12> of_coordinates;
-  Eigen::Matrix<Scalar, 1, 6> of_accelerations;
-
-  ElementShear(const BeamElement<Scalar>& element, const Scalar& xi, int direction) {
+  /// The shear force along local y (1) or z (2): the derivatives of the rows of the moments.
+  /// @param shear  Φ/(1 + Φ) of the plane
+  void set_shear(const BeamElement<Scalar>& element, const Scalar& xi, int direction,
+                 const Scalar& shear) {
     const SectionProperties<Scalar>& section = element.section;
     const Scalar& length = element.length;
     // v‴ of the cubic with the values and rotations at both nodes: (12, 6ℓ, −12, 6ℓ)/ℓ³ (1 − s).
     const bool is_y = direction == 1;
     const Scalar inertia = is_y ? section.inertia_z : section.inertia_y;
-    const ElementForm<Scalar> form = form_of(element);
-    const Scalar& shear = is_y ? form.shear_y : form.shear_z;
     const Scalar stiffness = element.young * inertia * (1.0 - shear);
     const Scalar third = -stiffness / (length * length * length);
     const Scalar turned = (is_y ? 6.0 : -6.0) * third * length;
-    const int turn = is_y ? 5 : 4;
-    of_coordinates.setConstant(Scalar(0));
-    of_coordinates(direction) = 12.0 * third;
-    of_coordinates(turn) = turned;
-    of_coordinates(6 + direction) = -12.0 * third;
-    of_coordinates(6 + turn) = turned;
+    const int row = is_y ? shear_y : shear_z, turn = is_y ? 5 : 4;
+    of_coordinates(row, direction) = 12.0 * third;
+    of_coordinates(row, turn) = turned;
+    of_coordinates(row, 6 + direction) = -12.0 * third;
+    of_coordinates(row, 6 + turn) = turned;
     const Scalar across = -element.density * section.area * length;
     const Scalar start = xi - 0.5;
     const Scalar change = xi * xi / 2.0 - 3.0 / 20.0 - shear / 60.0;
-    of_accelerations.setConstant(Scalar(0));
-    of_accelerations(direction) = across * (change - start);
-    of_accelerations(3 + direction) = across * -change;
-  }
-};
-
-/// Both shear forces and the torque at a place of an element, as rows.
-template <class Scalar>
-struct ElementShearing {
-  Eigen::Matrix<Scalar, shearing_force_count, 12> of_coordinates;
-  Eigen::Matrix<Scalar, shearing_force_count, 6> of_accelerations;
-
-  ElementShearing(const BeamElement<Scalar>& element, const Scalar& xi) {
-    const ElementShear<Scalar> along_y(element, xi, 1), along_z(element, xi, 2);
-    const ElementForces<Scalar> forces(element, xi);
-    of_coordinates << along_y.of_coordinates, along_z.of_coordinates,
-        forces.of_coordinates.row(torque);
-    of_accelerations << along_y.of_accelerations, along_z.of_accelerations,
-        forces.of_accelerations.row(torque);
+    of_accelerations(row, direction) = across * (change - start);
+    of_accelerations(row, 3 + direction) = across * -change;
   }
 };
 
@@ -145,123 +126,84 @@ struct NodalRows {
   SparseMatrix of_displacements, of_accelerations;
 };
 
-/// @param count   rows of a station
-/// @param of      element, place in it → its rows
 /// @param number  Scalar → double: value or derivative
 /// @param place   station, number of one of its elements → where it is in it, 0 … 1
-template <class Scalar, class OfElement, class Number, class Place>
-NodalRows nodal_rows(const Beam<Scalar>& beam, const std::vector<Station>& stations, int count,
-                     const OfElement& of, const Number& number, const Place& place) {
-  const auto rows = count * static_cast<Eigen::Index>(stations.size());
+template <class Scalar, class Number, class Place>
+NodalRows nodal_rows(const Beam<Scalar>& beam, const std::vector<Station>& stations,
+                     std::span<const SectionForcePart> parts, const Number& number,
+                     const Place& place) {
+  const auto rows = std::ssize(parts) * std::ssize(stations);
   RowWriter displacements(rows, 6 * beam.node_count()), accelerations(rows, 3 * beam.node_count());
-  Eigen::Index row = 0;
+  Eigen::Index first = 0;
   for (const Station& station : stations) {
     const double share = 1.0 / static_cast<double>(station.elements.size());
+    const auto scaled = [&](const Scalar& entry) { return share * number(entry); };
     for (std::size_t i = 0; i < station.elements.size(); ++i) {
       const int e = station.elements[i];
-      const auto forces = of(beam.elements[e], place(station, i));
-      const auto scaled = [&](const Scalar& entry) { return share * number(entry); };
-      displacements.add(row, 6 * e, forces.of_coordinates.unaryExpr(scaled).eval());
-      accelerations.add(row, 3 * e, forces.of_accelerations.unaryExpr(scaled).eval());
+      const ElementForces<Scalar> forces(beam.elements[e], place(station, i));
+      Eigen::Index row = first;
+      for (const SectionForcePart part : parts) {
+        const int from = static_cast<int>(part);
+        displacements.add(row, 6 * e, forces.of_coordinates.row(from).unaryExpr(scaled).eval());
+        accelerations.add(row, 3 * e, forces.of_accelerations.row(from).unaryExpr(scaled).eval());
+        ++row;
+      }
     }
-    row += count;
+    first += std::ssize(parts);
   }
   return {displacements.finish(), accelerations.finish()};
 }
 
-constexpr auto value = [](double number) { return number; };
-constexpr auto derivative = [](const Dual& number) { return derivative_of(number); };
-
-constexpr auto forces_of = []<class Scalar>(const BeamElement<Scalar>& element, const Scalar& xi) {
-  return ElementForces<Scalar>(element, xi);
-};
-
-constexpr auto shearing_of = []<class Scalar>(const BeamElement<Scalar>& element,
-                                              const Scalar& xi) {
-  return ElementShearing<Scalar>(element, xi);
-};
-
-auto shear_of(int direction) {
-  return [direction]<class Scalar>(const BeamElement<Scalar>& element, const Scalar& xi) {
-    return ElementShear<Scalar>(element, xi, direction);
-  };
+NodalRows value_rows(const BodyModel& body, const std::vector<Station>& stations,
+                     std::span<const SectionForcePart> parts) {
+  return nodal_rows(
+      body.beam, stations, parts, [](double number) { return number; },
+      [](const Station& station, std::size_t i) -> double {
+        return station.place - station.elements[i];
+      });
 }
 
-/// @param count, of  as of nodal_rows()
-template <class OfElement>
-NodalRows value_rows(const BodyModel& body, const std::vector<Station>& stations, int count,
-                     const OfElement& of) {
-  return nodal_rows(body.beam, stations, count, of, value,
-                    [](const Station& station, std::size_t i) -> double {
-                      return station.place - station.elements[i];
-                    });
-}
-
-/// @param count, of  as of nodal_rows()
-template <class OfElement>
-Recovery derivative_rows(const BodyModel& body, const std::vector<Station>& stations, int count,
-                         const OfElement& of, std::size_t k) {
-  NodalRows change =
-      nodal_rows(body.beam_x[k].second, stations, count, of, derivative,
-                 [k](const Station& station, std::size_t i) { return station.xi_along(i, k); });
-  SparseMatrix of_coordinates = change.of_displacements * body.places.shape;
-  const SparseMatrix& shape_x = body.places_x[k].data.shape;
-  if (shape_x.nonZeros() > 0) {
-    const NodalRows rows = value_rows(body, stations, count, of);
-    of_coordinates += SparseMatrix(rows.of_displacements * shape_x);
+/// What the stretching of bent members adds to axial forces.
+SparseMatrix stretching_rows(const BodyModel& body, const std::vector<Station>& stations,
+                             std::span<const SectionForcePart> parts) {
+  RowWriter rows(std::ssize(parts) * std::ssize(stations), body.stretching.elements.size());
+  Eigen::Index row = 0;
+  for (const Station& station : stations) {
+    const double share = 1.0 / static_cast<double>(station.elements.size());
+    for (const SectionForcePart part : parts) {
+      for (const int e : station.elements) {
+        if (part != SectionForcePart::axial || !body.has_stiffening) continue;
+        rows.add(row, e, Eigen::Matrix<double, 1, 1>(share));
+      }
+      ++row;
+    }
   }
-  SparseMatrix of_stretching(of_coordinates.rows(), body.stretching.elements.size());
-  return {std::move(of_coordinates), std::move(change.of_accelerations), std::move(of_stretching)};
-}
-
-/// Rows that the stretching of bent members has no part in.
-template <class OfElement>
-Recovery bending_recovery(const BodyModel& body, const std::vector<Station>& stations, int count,
-                          const OfElement& of) {
-  NodalRows rows = value_rows(body, stations, count, of);
-  SparseMatrix of_stretching(rows.of_displacements.rows(), body.stretching.elements.size());
-  return {rows.of_displacements * body.places.shape, std::move(rows.of_accelerations),
-          std::move(of_stretching)};
+  return rows.finish();
 }
 
 }  // namespace
 
-Recovery section_force_recovery(const BodyModel& body, const std::vector<Station>& stations) {
-  NodalRows rows = value_rows(body, stations, section_force_count, forces_of);
-  RowWriter stretching(rows.of_displacements.rows(), body.stretching.elements.size());
-  for (std::size_t s = 0; body.has_stiffening && s < stations.size(); ++s) {
-    const double share = 1.0 / static_cast<double>(stations[s].elements.size());
-    for (int e : stations[s].elements) {
-      stretching.add(section_force_count * static_cast<Eigen::Index>(s) + axial, e,
-                     Eigen::Matrix<double, 1, 1>(share));
-    }
-  }
+Recovery section_recovery(const BodyModel& body, const std::vector<Station>& stations,
+                          std::span<const SectionForcePart> parts) {
+  NodalRows rows = value_rows(body, stations, parts);
   return {rows.of_displacements * body.places.shape, std::move(rows.of_accelerations),
-          stretching.finish()};
+          stretching_rows(body, stations, parts)};
 }
 
-Recovery section_force_derivative(const BodyModel& body, const std::vector<Station>& stations,
-                                  std::size_t k) {
-  return derivative_rows(body, stations, section_force_count, forces_of, k);
-}
-
-Recovery shear_force_recovery(const BodyModel& body, const std::vector<Station>& stations,
-                              int direction) {
-  return bending_recovery(body, stations, 1, shear_of(direction));
-}
-
-Recovery shear_force_derivative(const BodyModel& body, const std::vector<Station>& stations,
-                                int direction, std::size_t k) {
-  return derivative_rows(body, stations, 1, shear_of(direction), k);
-}
-
-Recovery shearing_force_recovery(const BodyModel& body, const std::vector<Station>& stations) {
-  return bending_recovery(body, stations, shearing_force_count, shearing_of);
-}
-
-Recovery shearing_force_derivative(const BodyModel& body, const std::vector<Station>& stations,
-                                   std::size_t k) {
-  return derivative_rows(body, stations, shearing_force_count, shearing_of, k);
+Recovery section_recovery_derivative(const BodyModel& body, const std::vector<Station>& stations,
+                                     std::span<const SectionForcePart> parts, std::size_t k) {
+  NodalRows change = nodal_rows(
+      body.beam_x[k].second, stations, parts,
+      [](const Dual& number) { return derivative_of(number); },
+      [k](const Station& station, std::size_t i) { return station.xi_along(i, k); });
+  SparseMatrix of_coordinates = change.of_displacements * body.places.shape;
+  const SparseMatrix& shape_x = body.places_x[k].data.shape;
+  if (shape_x.nonZeros() > 0) {
+    const NodalRows rows = value_rows(body, stations, parts);
+    of_coordinates += SparseMatrix(rows.of_displacements * shape_x);
+  }
+  SparseMatrix of_stretching(of_coordinates.rows(), body.stretching.elements.size());
+  return {std::move(of_coordinates), std::move(change.of_accelerations), std::move(of_stretching)};
 }
 
 }  // namespace pleuel

@@ -9,7 +9,6 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
-#include "core/response/recovered_signal.hpp"
 #include "core/response/section_force_signal.hpp"
 #include "core/response/section_forces.hpp"
 
@@ -17,10 +16,10 @@ namespace pleuel {
 
 namespace {
 
-/// A stress point of the section or a point of a round outline, by its number, or half of a round
-/// outline.
+/// The section as a whole, a stress point of it or a point of a round outline, by its number, or half
+/// of a round outline.
 struct OutlinePlace {
-  enum class Kind { point, outline, tension_side, compression_side };
+  enum class Kind { section, point, outline, tension_side, compression_side };
   Kind kind;
   int number = 0;
 
@@ -72,18 +71,10 @@ StressOf<Scalar, Force> von_mises(const SectionProperties<Scalar>& section,
                               : place.at(section));
 }
 
-class AxialStress : public OneASection {
- public:
-  template <class Scalar, class Force>
-  StressOf<Scalar, Force> evaluate(const Beam<Scalar>&, const SectionProperties<Scalar>& section,
-                                   const SectionForces<Force>& forces, Point) const {
-    return forces.axial / section.area;
-  }
-};
-
-/// All parts but the axial one.
+/// Normal stress, what it is made from, and the stress of torsion (StressPart).
 class StressQuantity {
  public:
+  static constexpr std::array parts = section_force_parts;
   using Point = OutlinePlace;
 
   StressQuantity(StressPart part, OutlinePoints points) : part_(part), points_(points) {}
@@ -92,6 +83,7 @@ class StressQuantity {
     const bool is_planar = body.frame.rotation == RotationCoordinates::angle;
     const bool is_shear = part_ == StressPart::shear;
     std::vector<Point> all;
+    if (part_ == StressPart::axial) return {{Point::Kind::section}};
     if (!is_shear && section.is_round() && !is_planar) {
       if (points_ == OutlinePoints::most_stressed) {
         return {{Point::Kind::tension_side}, {Point::Kind::compression_side}};
@@ -107,6 +99,7 @@ class StressQuantity {
   }
 
   std::string name(const SectionProperties<double>& section, const Point& place) const {
+    if (place.kind == Point::Kind::section) return "";
     if (place.moves()) return place.is_tension_side() ? ", tension side" : ", compression side";
     if (place.kind == Point::Kind::outline) {
       return fmt::format(", {} degrees from y to z", place.number * 360 / fixed_outline_points);
@@ -117,9 +110,12 @@ class StressQuantity {
 
   template <class Scalar, class Force>
   StressOf<Scalar, Force> evaluate(const Beam<Scalar>& beam,
-                                   const SectionProperties<Scalar>& section,
-                                   const SectionForces<Force>& forces, const Point& place) const {
+                                   const SectionProperties<Scalar>& section, const Force* numbers,
+                                   const Point& place) const {
+    const SectionForces<Force> forces = section_forces(numbers);
     switch (part_) {
+      case StressPart::axial:
+        return forces.axial / section.area;
       case StressPart::normal:
         return forces.axial / section.area + bending_stress(section, forces, place);
       case StressPart::bending:
@@ -167,15 +163,10 @@ std::vector<int> distinct_stress_points(const BodyModel& body,
 std::unique_ptr<Signal> make_stress_signal(const BodyModel& body, const Eigen::Vector3d& gravity,
                                            StressPart part, OutlinePoints points,
                                            const StationChoice& stations) {
-  if (part == StressPart::axial) {
-    return make_section_signal(body, gravity, stations, AxialStress());
-  }
   return make_section_signal(body, gravity, stations, StressQuantity(part, points));
 }
 
 namespace {
-
-using ForcesDual = DualOf<shearing_force_count>;
 
 /// √(a² + b²), differentiable at zero.
 template <class Scalar>
@@ -185,95 +176,47 @@ Scalar magnitude_of(const Scalar& a, const Scalar& b) {
   return sqrt(a * a + b * b + tiny);
 }
 
-/// @param along_y, along_z, torque  V_y, V_z, T
-template <class Scalar>
-Scalar shear_stress(const ShearPoint<Scalar>& point, const Scalar& along_y, const Scalar& along_z,
-                    const Scalar& torque) {
-  const Scalar of_y = point.by_y * along_y, of_z = point.by_z * along_z;
-  const Scalar none(0), of_torque = magnitude_of<Scalar>(point.by_torque * torque, none);
-  if (!point.is_in_wall) return magnitude_of<Scalar>(of_y, of_z) + of_torque;
-  return magnitude_of<Scalar>(of_y, none) + magnitude_of<Scalar>(of_z, none) + of_torque;
-}
-
-/// One channel a station and a place of its section.
-class ShearPlaces final : public Stations {
+/// Shear stress at the places of a section where it can be the largest.
+class ShearStress {
  public:
-  ShearPlaces(const BodyModel& body, const StationChoice& choice)
-      : body_(body), stations_(find_stations(body, choice)) {
-    for (int station = 0; station < int_size(stations_); ++station) {
-      for (const int point : points_of(section(body.beam, station))) {
-        channels_.push_back({station, point});
-      }
-    }
-  }
+  static constexpr std::array parts = {SectionForcePart::shear_y, SectionForcePart::shear_z,
+                                       SectionForcePart::torque};
+  struct Point {
+    int number;
+    bool is_only;
+  };
 
-  int numbers() const override { return shearing_force_count; }
-  Recovery recovery() const override { return shearing_force_recovery(body_, stations_); }
-  Recovery recovery_derivative(std::size_t k) const override {
-    return shearing_force_derivative(body_, stations_, k);
-  }
-
-  int channels() const override { return int_size(channels_); }
-  int station(int channel) const override { return at(channel).first; }
-  std::string describe(int channel) const override {
-    const auto& [station, point] = at(channel);
-    const std::string place = pleuel::describe(stations_[station], body_);
-    const std::size_t count = section(body_.beam, station).shear_points.size();
-    const bool is_one = count == 1 || body_.frame.rotation == RotationCoordinates::angle;
-    return is_one ? place : fmt::format("{}, place {} of {}", place, point + 1, count);
-  }
-
-  double value(int channel, const double* numbers) const override {
-    return shear_stress(point(body_.beam, channel), numbers[0], numbers[1], numbers[2]);
-  }
-
-  Numbers slopes(int channel, const double* numbers) override {
-    const ShearPoint<double>& fixed = point(body_.beam, channel);
-    std::array<ForcesDual, shearing_force_count> forces;
-    for (int i = 0; i < shearing_force_count; ++i) {
-      forces[i] = {numbers[i], ForcesDual::Derivatives::Unit(i)};
-    }
-    const ShearPoint<ForcesDual> seeded{fixed.by_y, fixed.by_z, fixed.by_torque, fixed.is_in_wall};
-    return shear_stress(seeded, forces[0], forces[1], forces[2]).derivatives();
-  }
-
-  double design_slope(int channel, const double* numbers, std::size_t k) const override {
-    return derivative_of(shear_stress<Dual>(point(body_.beam_x[k].second, channel), numbers[0],
-                                            numbers[1], numbers[2]));
-  }
-
- private:
   /// In a plane there is one shear force and no torsion.
-  std::vector<int> points_of(const SectionProperties<double>& section) const {
-    const std::vector<ShearPoint<double>>& points = section.shear_points;
-    std::vector<int> all;
-    for (int i = 0; i < int_size(points); ++i) all.push_back(i);
-    if (body_.frame.rotation != RotationCoordinates::angle) return all;
-    const Eigen::Vector3d normal = body_.frame.reference.transpose() * body_.frame.axis;
+  std::vector<Point> points(const BodyModel& body, const SectionProperties<double>& section) const {
+    const std::vector<ShearPoint<double>>& places = section.shear_points;
+    std::vector<Point> all;
+    for (int i = 0; i < int_size(places); ++i) all.push_back({i, places.size() == 1});
+    if (body.frame.rotation != RotationCoordinates::angle) return all;
+    const Eigen::Vector3d normal = body.frame.reference.transpose() * body.frame.axis;
     const auto share = [&](const ShearPoint<double>& point) {
       return std::abs(normal.z()) > 0.5 ? point.by_y : point.by_z;
     };
     const auto largest = std::max_element(
-        points.begin(), points.end(),
+        places.begin(), places.end(),
         [&](const auto& one, const auto& other) { return share(one) < share(other); });
-    return {static_cast<int>(largest - points.begin())};
+    return {{static_cast<int>(largest - places.begin()), true}};
   }
 
-  const std::pair<int, int>& at(int channel) const { return channels_[channel]; }
-
-  template <class Scalar>
-  const SectionProperties<Scalar>& section(const Beam<Scalar>& beam, int station) const {
-    return beam.elements[stations_[station].elements.front()].section;
+  std::string name(const SectionProperties<double>& section, const Point& point) const {
+    if (point.is_only) return "";
+    return fmt::format(", place {} of {}", point.number + 1, section.shear_points.size());
   }
 
-  template <class Scalar>
-  const ShearPoint<Scalar>& point(const Beam<Scalar>& beam, int channel) const {
-    return section(beam, at(channel).first).shear_points[at(channel).second];
+  template <class Scalar, class Force>
+  StressOf<Scalar, Force> evaluate(const Beam<Scalar>&, const SectionProperties<Scalar>& section,
+                                   const Force* forces, const Point& place) const {
+    using Stress = StressOf<Scalar, Force>;
+    const ShearPoint<Scalar>& point = section.shear_points[place.number];
+    const Stress of_y = point.by_y * forces[0], of_z = point.by_z * forces[1], none(0);
+    const Stress of_torque = magnitude_of<Stress>(point.by_torque * forces[2], none);
+    if (!point.is_in_wall) return magnitude_of(of_y, of_z) + of_torque;
+    return magnitude_of(of_y, none) + magnitude_of(of_z, none) + of_torque;
   }
-
-  const BodyModel& body_;
-  std::vector<Station> stations_;
-  std::vector<std::pair<int, int>> channels_;  ///< station, place of its section
 };
 
 }  // namespace
@@ -281,7 +224,7 @@ class ShearPlaces final : public Stations {
 std::unique_ptr<Signal> make_shear_stress_signal(const BodyModel& body,
                                                  const Eigen::Vector3d& gravity,
                                                  const StationChoice& stations) {
-  return make_recovered_signal(body, gravity, std::make_unique<ShearPlaces>(body, stations));
+  return make_section_signal(body, gravity, stations, ShearStress());
 }
 
 }  // namespace pleuel
