@@ -2,7 +2,8 @@
 """Whether `--accuracy` chooses well: for every shipped problem, at its start design, the setting that
 is chosen for 1 %, 0.1 % and 0.01 % against a full grid of steps and elements. Prints a table: the
 chosen setting, its true error (against a quarter of the finest step and twice the most elements), the
-processor time of one simulation, and those of the fastest setting of the grid within the target.
+processor time of one simulation, those of the fastest setting of the grid within the target, and what
+choosing took, in simulations of the chosen setting.
 
     bench/target_grid.py PLEUEL [NAME …]
 """
@@ -61,7 +62,7 @@ class Problem:
         best, values = float("inf"), None
         for _ in range(repetitions):
             before = processor_time()
-            code, text = self.run([*overrides, ("/simulation/resolution_check", "false")])
+            code, text = self.run(overrides, "--no-checks")
             if code not in (0, 4):
                 return None, best
             document = json.loads(text)
@@ -87,6 +88,9 @@ def report(program, name, folder):
     file_step = float(number) * {"": 1.0, "s": 1.0, "ms": 1e-3, "us": 1e-6}[unit]
     exact, _ = problem.simulate(
         problem.divided(0.25 * STEPS[0] * file_step, 2 * ELEMENTS[-1]))
+    before = processor_time()
+    subprocess.run([program, "--version"], capture_output=True, check=True)
+    start_up = processor_time() - before
     grid = []
     for factor in ELEMENTS:
         for step in STEPS:
@@ -96,7 +100,9 @@ def report(program, name, folder):
                 grid.append((seconds, problem.error(values, exact), step * file_step, factor, overrides))
     for target in TARGETS:
         bound = float(target.rstrip("%")) / 100
-        setting = json.loads(problem.run([], "--accuracy", target)[1])["setting"]
+        before = processor_time()
+        setting = json.loads(problem.run([], "--accuracy", target, "--no-checks")[1])["setting"]
+        with_choice = processor_time() - before
         values, seconds = problem.simulate(list(setting["overrides"].items()), REPETITIONS)
         error = problem.error(values, exact)
         fast = sorted(one for one in grid if one[1] <= bound)[:3]
@@ -104,15 +110,16 @@ def report(program, name, folder):
                    default=None)
         of_grid = (f"{1e3 * best[2]:.3g} ms × {best[3]:g} | {100 * best[1]:.2g} % | "
                    f"{1e3 * best[0]:.3g} ms | {seconds / best[0]:.2f}") if best else "none | | | "
+        choosing = (with_choice - seconds) / (seconds - start_up)
         print(f"| {name} | {target} | {'' if setting['met'] else 'not known: '}"
               f"{1e3 * setting['step']:.3g} ms, {setting['elements']} | {100 * error:.2g} % | "
-              f"{1e3 * seconds:.3g} ms | {of_grid} |", flush=True)
+              f"{1e3 * seconds:.3g} ms | {of_grid} | {choosing:.1f} |", flush=True)
 
 
 def main():
     print("| problem | target | chosen: step, elements in all | its error | its time | best of the grid: "
-          "step × elements | its error | its time | ratio |")
-    print("|---|---|---|---|---|---|---|---|---|")
+          "step × elements | its error | its time | ratio | choosing |")
+    print("|---|---|---|---|---|---|---|---|---|---|")
     with tempfile.TemporaryDirectory() as folder:
         for name in sys.argv[2:] or PROBLEMS:
             report(sys.argv[1], name, os.path.join(folder, "run"))

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -185,6 +186,35 @@ UnitError unknown_unit(const std::string& name, std::string_view si) {
                                meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant)));
 }
 
+/// What base_units() writes of powers that are not whole, which the library does not read: "kg^0.5".
+/// Four digits of a power stand for a fraction.
+std::optional<Dimension> read_base_units(const std::string& text) {
+  Dimension dimension;
+  double sign = 1.0;
+  for (const char* at = text.c_str(); *at != '\0';) {
+    const char* end = std::find_if(at, text.c_str() + text.size(),
+                                   [](char c) { return c == '^' || c == ' ' || c == '/'; });
+    const auto base = std::ranges::find(Dimension::bases, std::string_view(at, end - at));
+    if (base == Dimension::bases.end() && std::string_view(at, end - at) != "1")
+      return std::nullopt;
+    double power = 1.0;
+    if (*end == '^') {
+      const auto [rest, status] = std::from_chars(end + 1, text.c_str() + text.size(), power);
+      if (status != std::errc()) return std::nullopt;
+      constexpr double finest = 60.0, digits = 1e-4;
+      const double fraction = std::round(finest * power) / finest;
+      if (std::abs(fraction - power) < digits) power = fraction;
+      end = rest;
+    }
+    if (base != Dimension::bases.end()) {
+      dimension.powers[base - Dimension::bases.begin()] += sign * power;
+    }
+    if (*end == '/') sign = -1.0;
+    at = *end == '\0' ? end : end + 1;
+  }
+  return dimension;
+}
+
 /// Takes a unit apart; callbacks of the library. Its status tells what is no product of base units:
 /// logarithms, dates, and temperatures that do not count from zero.
 struct UnitTaker {
@@ -259,8 +289,11 @@ double UnitSystem::scale_by_database(const std::string& unit, const Quantity& qu
   const std::string name = trim(unit);
   refuse_misread(name);
   const UnitHandle from = has_stray_number(name) ? nullptr : parse_unit(database(), name);
-  if (!from) throw unknown_unit(name, quantity.unit);
-  const UnitHandle to = parse_unit(database(), std::string(quantity.unit));
+  const std::string si(quantity.unit);
+  const auto root = has_stray_number(si) ? read_base_units(si) : std::nullopt;
+  if (root && read_base_units(name) == root) return 1.0;
+  if (!from) throw unknown_unit(name, si);
+  const UnitHandle to = parse_unit(database(), si);
   const double cycles = cycles_factor(name, quantity, from.get());
   if (cycles == 1.0 || ut_are_convertible(from.get(), to.get()) == 0) {
     check_dimension(name, from.get(), to.get());
@@ -277,7 +310,10 @@ MeasuredUnit UnitSystem::measure_by_database(const std::string& unit) const {
   const std::string name = trim(unit);
   refuse_misread(name);
   const UnitHandle handle = has_stray_number(name) ? nullptr : parse_unit(database(), name);
-  if (!handle && name != "1") throw unknown_unit(name, "");
+  if (!handle && name != "1") {
+    if (const auto dimension = read_base_units(name)) return {1.0, *dimension};
+    throw unknown_unit(name, "");
+  }
   UnitTaker taker;
   if (handle && !taker.take(handle.get())) {
     throw UnitError(fmt::format("\"{}\" does not count from zero", name));

@@ -186,6 +186,22 @@ TEST(Integrals, AreCalledByTheQuantityThatUsuallyHasTheUnit) {
             "an angular acceleration times a time [rad/s^2 s]");
 }
 
+/// Formulas make roots of units, "sqrt(mass)", which others are made from: read back from their texts.
+TEST(Units, MayHavePowersThatAreNotWhole) {
+  Dimension dimension;
+  dimension.powers = {0.5, 1.0 / 3.0, -1.5};
+  const std::string text = base_units(dimension);
+  EXPECT_EQ(text, "kg^0.3333 m^0.5/s^1.5");
+  const MeasuredUnit found = UnitSystem().measure(text);
+  EXPECT_TRUE(found.dimension == dimension);
+  EXPECT_EQ(found.scale, 1.0);
+  const Quantity root{"a quantity", "kg^0.5"};
+  EXPECT_EQ(UnitSystem().read("2 kg^0.5", root), 2.0);
+  EXPECT_NE(complaint("2 m^0.5", root), "");
+  EXPECT_NE(complaint("2 kg", root), "");
+  EXPECT_NE(complaint("2 gnu^0.5", root), "");
+}
+
 TEST(Units, MayNotHideASecondNumber) {  // the library would read 30 mm, 0 m, −20 mm, …
   for (const char* text :
        {"1 mm 30", "1 000 mm", "120 mm -20", "1 mm*30", "1 mm.30", "1 m/2", "3 2/s", "1 mm + 2"}) {
