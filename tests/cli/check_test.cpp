@@ -1,5 +1,6 @@
+#include <algorithm>
+#include <array>
 #include <fstream>
-#include <limits>
 #include <sstream>
 
 #include "tests/cli/page_text.hpp"
@@ -259,7 +260,7 @@ TEST_F(Show, SaysWhatJointsLeaveFreeAndHowLongItTakes) {
   EXPECT_THAT(run.out, HasSubstr("Time: one simulation takes about "));
 }
 
-/// Some seven periods in place of one: more than the least of some times of the same work ever differ,
+/// Some seven periods in place of one: more than the medians of some times of the same work ever differ,
 /// which are taken in turns.
 TEST_F(Show, ExpectsTheSearchForAMotionThatRepeatsItself) {
   const auto expected = [&](const std::string& start) {
@@ -267,12 +268,14 @@ TEST_F(Show, ExpectsTheSearchForAMotionThatRepeatsItself) {
                                         "--json", "--set", "/simulation/initial_state=" + start});
     return run.document().at("seconds").at("simulate").get<double>();
   };
-  double periodic = std::numeric_limits<double>::infinity(), consistent = periodic;
-  for (int i = 0; i < 5; ++i) {
-    periodic = std::min(periodic, expected("periodic"));
-    consistent = std::min(consistent, expected("consistent"));
+  std::array<double, 5> periodic{}, consistent{};
+  for (std::size_t i = 0; i < periodic.size(); ++i) {
+    periodic[i] = expected("periodic");
+    consistent[i] = expected("consistent");
   }
-  EXPECT_GT(periodic, 2.0 * consistent);
+  std::ranges::sort(periodic);
+  std::ranges::sort(consistent);
+  EXPECT_GT(periodic[2], 2.0 * consistent[2]);
 }
 
 /// A link that nothing drives, holds or pulls, on the end of a driven crank.
