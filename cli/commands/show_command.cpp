@@ -13,8 +13,6 @@
 #include "core/start/initial_state.hpp"
 #include "core/trust/check_list.hpp"
 #include "core/trust/checks.hpp"
-#include "core/trust/joint_findings.hpp"
-#include "core/trust/unactuated_freedoms.hpp"
 #include "picture/motion.hpp"
 
 /// The mechanism as the file places it, before anything is simulated.

@@ -31,7 +31,7 @@ struct ErrorBar {
   std::optional<double> order;  ///< observed, in the step; of a single response
   bool is_modelled =
       true;  ///< false: what it is about is not in the equations, and no bar says how far it is off
-  /// What the model leaves out would change, by its name (core/trust/model_variants.hpp): beside the bound.
+  /// What the model leaves out would change, by its name (core/trust/model_variants.cpp): beside the bound.
   std::map<std::string, double> left_out;
 
   double change() const { return step.change + elements.change + newton.change + effects.change; }

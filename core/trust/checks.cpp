@@ -11,13 +11,7 @@
 #include "core/trust/coarse_runs.hpp"
 #include "core/trust/fast_laws.hpp"
 #include "core/trust/finding.hpp"
-#include "core/trust/joint_findings.hpp"
-#include "core/trust/lint.hpp"
-#include "core/trust/model_variants.hpp"
-#include "core/trust/neglected_effects.hpp"
 #include "core/trust/resolution.hpp"
-#include "core/trust/sideways_buckling.hpp"
-#include "core/trust/unactuated_freedoms.hpp"
 
 namespace pleuel {
 

@@ -1,5 +1,3 @@
-#include "core/trust/joint_findings.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -19,6 +17,7 @@
 #include "core/model/scene_geometry.hpp"
 #include "core/response/monitors.hpp"
 #include "core/start/degrees_of_freedom.hpp"
+#include "core/trust/check_list.hpp"
 #include "core/trust/trusted_run.hpp"
 
 namespace pleuel {

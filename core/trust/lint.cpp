@@ -1,5 +1,3 @@
-#include "core/trust/lint.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -13,6 +11,7 @@
 #include "core/model/body_point.hpp"
 #include "core/scene/held_points.hpp"
 #include "core/scene/shown_unit.hpp"
+#include "core/trust/check_list.hpp"
 
 namespace pleuel {
 

@@ -1,5 +1,3 @@
-#include "core/trust/model_variants.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -15,6 +13,7 @@
 #include "core/base/quoted.hpp"
 #include "core/scene/body_groups.hpp"
 #include "core/trust/bent_beams.hpp"
+#include "core/trust/check_list.hpp"
 #include "core/trust/coarse_runs.hpp"
 #include "core/trust/round_off.hpp"
 

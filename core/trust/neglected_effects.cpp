@@ -1,5 +1,3 @@
-#include "core/trust/neglected_effects.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,6 +11,7 @@
 #include "core/model/effect_estimates.hpp"
 #include "core/response/effect_measurement.hpp"
 #include "core/trust/bent_beams.hpp"
+#include "core/trust/check_list.hpp"
 #include "core/trust/coarse_runs.hpp"
 
 namespace pleuel {

@@ -1,10 +1,9 @@
-#include "core/trust/sideways_buckling.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -212,6 +211,58 @@ std::vector<Finding> check_sideways_buckling(const TrustedRun& run) {
 
 namespace {
 
+/// The model without weight and loads.
+Model unloaded_model(const ProblemFile& problem, const Eigen::VectorXd& x,
+                     EffectChoice spatial_motion) {
+  Scene scene = problem.scene;
+  scene.gravity = {0.0, 0.0, 0.0};
+  scene.loads.clear();
+  EffectSettings effects = problem.effects;
+  effects.spatial_motion = spatial_motion;
+  const Eigen::VectorXd start = start_design(problem);
+  return build_model(scene, effects, {start.begin(), start.end()}, {x.begin(), x.end()});
+}
+
+/// By what factor the loads of an instant buckle a mechanism, by linear buckling
+/// (elastic_stability.hpp): its stiffness against that of the same position without deformation,
+/// motion, weight and loads. In the coordinates of the motion: in a plane, of buckling in it. Drives
+/// hold.
+class LoadFactor {
+ public:
+  explicit LoadFactor(const TrustedRun& run) : analysis_(run.analysis) {
+    const Mechanism& mechanism = analysis_.model.mechanism;
+    const int coordinates = mechanism.system->coordinates(),
+              multipliers = mechanism.system->multipliers();
+    if (!mechanism.springs.empty() || coordinates > most_judged_coordinates) return;
+    // What moves in space because of its loads may move in a plane without.
+    for (const EffectChoice choice : {run.problem.effects.spatial_motion, EffectChoice::on}) {
+      Model model = unloaded_model(run.problem, run.x, choice);
+      const System& system = *model.mechanism.system;
+      if (system.coordinates() != coordinates || system.multipliers() != multipliers) continue;
+      free_ = std::move(model);
+      return;
+    }
+  }
+
+  /// Whether it can be told: not of many coordinates, nor of mechanisms with springs, which loads
+  /// turn at once.
+  bool is_known() const { return free_.has_value(); }
+
+  /// Infinite where nothing buckles, as without geometric stiffening; not a number where motions
+  /// of bodies are held by what is no joint.
+  double at(int instant) const {
+    const Mechanism& mechanism = analysis_.model.mechanism;
+    State loaded;
+    analysis_.trajectory.states->load(instant, loaded);
+    const State unloaded = without_forces(mechanism, loaded);
+    return buckling_load_factor({free_->mechanism, unloaded}, {mechanism, loaded}, 1.0);
+  }
+
+ private:
+  const Analysis& analysis_;
+  std::optional<Model> free_;  ///< without weight and loads
+};
+
 /// When a history is largest, within the window of its response.
 int instant_of_peak(const TrustedRun& run, std::size_t response) {
   const ResponseSettings& settings = run.problem.responses[response];
@@ -245,7 +296,7 @@ std::vector<Finding> check_promised_buckling(const TrustedRun& run) {
     return response.type == ResponseType::buckling;
   });
   if (!is_asked) return {};
-  const LoadFactor load_factor(run.problem, run.x, run.analysis);
+  const LoadFactor load_factor(run);
   if (!load_factor.is_known()) return {};
   std::vector<Finding> findings;
   for (std::size_t i = 0; i < responses.size(); ++i) {
@@ -270,47 +321,6 @@ std::vector<Finding> check_promised_buckling(const TrustedRun& run) {
          {response.name}});
   }
   return findings;
-}
-
-namespace {
-
-/// The model without weight and loads.
-Model unloaded_model(const ProblemFile& problem, const Eigen::VectorXd& x,
-                     EffectChoice spatial_motion) {
-  Scene scene = problem.scene;
-  scene.gravity = {0.0, 0.0, 0.0};
-  scene.loads.clear();
-  EffectSettings effects = problem.effects;
-  effects.spatial_motion = spatial_motion;
-  const Eigen::VectorXd start = start_design(problem);
-  return build_model(scene, effects, {start.begin(), start.end()}, {x.begin(), x.end()});
-}
-
-}  // namespace
-
-LoadFactor::LoadFactor(const ProblemFile& problem, const Eigen::VectorXd& x,
-                       const Analysis& analysis)
-    : analysis_(analysis) {
-  const Mechanism& mechanism = analysis.model.mechanism;
-  const int coordinates = mechanism.system->coordinates(),
-            multipliers = mechanism.system->multipliers();
-  if (!mechanism.springs.empty() || coordinates > most_judged_coordinates) return;
-  // What moves in space because of its loads may move in a plane without.
-  for (const EffectChoice choice : {problem.effects.spatial_motion, EffectChoice::on}) {
-    Model model = unloaded_model(problem, x, choice);
-    const System& system = *model.mechanism.system;
-    if (system.coordinates() != coordinates || system.multipliers() != multipliers) continue;
-    free_ = std::move(model);
-    return;
-  }
-}
-
-double LoadFactor::at(int instant) const {
-  const Mechanism& mechanism = analysis_.model.mechanism;
-  State loaded;
-  analysis_.trajectory.states->load(instant, loaded);
-  const State unloaded = without_forces(mechanism, loaded);
-  return buckling_load_factor({free_->mechanism, unloaded}, {mechanism, loaded}, 1.0);
 }
 
 }  // namespace pleuel

@@ -1,5 +1,3 @@
-#include "core/trust/unactuated_freedoms.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -17,6 +15,7 @@
 #include "core/scene/response_kind.hpp"
 #include "core/scene/response_parts.hpp"
 #include "core/start/degrees_of_freedom.hpp"
+#include "core/trust/check_list.hpp"
 
 namespace pleuel {
 
@@ -28,6 +27,32 @@ constexpr double visible = 1e-6;
 constexpr int instants = 200;
 /// Of the scale of a coordinate.
 constexpr double idle_speed = 1e-9;
+
+/// Names of the bodies that joints, springs and each other tie to the ground.
+std::set<std::string> grounded_bodies(const Scene& scene) {
+  const BodyGroups groups(scene);
+  std::set<std::string> grounded;
+  for (const Body& body : scene.bodies) {
+    if (groups.is_grounded(groups.of(body.name))) grounded.insert(body.name);
+  }
+  return grounded;
+}
+
+/// Whether the file gives a body a velocity at the start.
+bool has_given_velocity(const Body& body, const std::vector<double>& design) {
+  const auto is_given = [&](const Number& number) { return resolve(number, design) != 0.0; };
+  return std::any_of(body.velocity.begin(), body.velocity.end(), is_given) ||
+         std::any_of(body.angular_velocity.begin(), body.angular_velocity.end(), is_given);
+}
+
+/// Whether a force or a torque acts on a body.
+bool has_load(const Scene& scene, const std::string& body) {
+  return std::any_of(scene.loads.begin(), scene.loads.end(), [&](const Load& load) {
+    const auto* force = std::get_if<PointForce>(&load.element);
+    const auto* torque = std::get_if<PointTorque>(&load.element);
+    return (force && force->body == body) || (torque && torque->body == body);
+  });
+}
 
 /// Rows of the motions of a body's frame.
 auto rows_of(const BodyModel& body, const Eigen::MatrixXd& motions) {
@@ -359,29 +384,6 @@ std::vector<Finding> check_unconnected_bodies(const TrustedRun& run) {
   finding.is_serious = !finding.responses.empty();
   finding.bodies = names;
   return {finding};
-}
-
-std::set<std::string> grounded_bodies(const Scene& scene) {
-  const BodyGroups groups(scene);
-  std::set<std::string> grounded;
-  for (const Body& body : scene.bodies) {
-    if (groups.is_grounded(groups.of(body.name))) grounded.insert(body.name);
-  }
-  return grounded;
-}
-
-bool has_given_velocity(const Body& body, const std::vector<double>& design) {
-  const auto is_given = [&](const Number& number) { return resolve(number, design) != 0.0; };
-  return std::any_of(body.velocity.begin(), body.velocity.end(), is_given) ||
-         std::any_of(body.angular_velocity.begin(), body.angular_velocity.end(), is_given);
-}
-
-bool has_load(const Scene& scene, const std::string& body) {
-  return std::any_of(scene.loads.begin(), scene.loads.end(), [&](const Load& load) {
-    const auto* force = std::get_if<PointForce>(&load.element);
-    const auto* torque = std::get_if<PointTorque>(&load.element);
-    return (force && force->body == body) || (torque && torque->body == body);
-  });
 }
 
 }  // namespace pleuel

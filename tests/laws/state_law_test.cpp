@@ -1,7 +1,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/response/analysis.hpp"
-#include "core/trust/joint_findings.hpp"
+#include "core/trust/check_list.hpp"
 #include "sensitivity/finite_difference.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/laws/law_problems.hpp"

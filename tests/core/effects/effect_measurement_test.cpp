@@ -6,7 +6,7 @@
 #include "core/response/analysis.hpp"
 #include "core/response/effect_measurement.hpp"
 #include "core/scene/problem_reader.hpp"
-#include "core/trust/neglected_effects.hpp"
+#include "core/trust/check_list.hpp"
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/sample_scenes.hpp"
 #include "tests/support/test.hpp"

@@ -5,7 +5,6 @@
 #include "core/linear/modes.hpp"
 #include "core/response/analysis.hpp"
 #include "core/trust/check_list.hpp"
-#include "core/trust/model_variants.hpp"
 #include "tests/core/start/quasi_static_beam.hpp"
 #include "tests/core/trust/trust_scenes.hpp"
 #include "tests/support/at_start.hpp"

@@ -2,7 +2,7 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
-#include "core/trust/sideways_buckling.hpp"
+#include "core/trust/check_list.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/core/trust/trust_scenes.hpp"
 #include "tests/support/at_start.hpp"

@@ -1,5 +1,3 @@
-#include "core/trust/joint_findings.hpp"
-
 #include "core/base/error.hpp"
 #include "core/trust/check_list.hpp"
 #include "core/trust/fast_laws.hpp"

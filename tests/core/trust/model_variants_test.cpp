@@ -1,7 +1,6 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/response/effect_measurement.hpp"
-#include "core/trust/joint_findings.hpp"
-#include "core/trust/neglected_effects.hpp"
+#include "core/trust/check_list.hpp"
 #include "core/trust/resolution.hpp"
 #include "tests/core/trust/trust_scenes.hpp"
 #include "tests/support/at_start.hpp"

@@ -1,6 +1,5 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/trust/check_list.hpp"
-#include "core/trust/lint.hpp"
 #include "tests/core/trust/trust_scenes.hpp"
 #include "tests/support/parameter_name.hpp"
 #include "tests/support/problem_runs.hpp"

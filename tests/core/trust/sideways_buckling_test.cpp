@@ -1,10 +1,9 @@
-#include "core/trust/sideways_buckling.hpp"
-
 #include <utility>
 
 #include "core/base/error.hpp"
 #include "core/response/analysis.hpp"
 #include "core/scene/problem_reader.hpp"
+#include "core/trust/check_list.hpp"
 #include "tests/core/trust/trust_scenes.hpp"
 #include "tests/support/test.hpp"
 

@@ -1,5 +1,4 @@
 #include "core/trust/check_list.hpp"
-#include "core/trust/sideways_buckling.hpp"
 #include "tests/core/trust/trust_scenes.hpp"
 #include "tests/support/test.hpp"
 

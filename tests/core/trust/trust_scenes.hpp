@@ -12,8 +12,6 @@
 #include "core/trust/bent_beams.hpp"
 #include "core/trust/check_list.hpp"
 #include "core/trust/checks.hpp"
-#include "core/trust/model_variants.hpp"
-#include "core/trust/sideways_buckling.hpp"
 #include "tests/support/at_start.hpp"
 #include "tests/support/one_beam.hpp"
 

@@ -1,7 +1,4 @@
-#include "core/trust/unactuated_freedoms.hpp"
-
 #include "core/trust/check_list.hpp"
-#include "core/trust/joint_findings.hpp"
 #include "tests/core/trust/trust_scenes.hpp"
 #include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"
