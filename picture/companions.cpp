@@ -89,10 +89,9 @@ Companions observe(std::vector<ResponseSettings> settings, const Analysis& analy
   for (const ResponseSettings& one : settings) {
     companions.all.push_back({one, Eigen::VectorXd::Zero(instants)});
   }
-  State state;
   for (Eigen::Index i = 0; i < instants; ++i) {
     const int step = static_cast<int>(i) * stride;
-    analysis.trajectory.states->load(step, state);
+    const State state = analysis.trajectory.state_at(step);
     companions.time(i) = analysis.trajectory.time(step);
     for (std::size_t k = 0; k < responses.size(); ++k) {
       responses[k].history()->signal->observe(state, companions.all[k].history.segment(i, 1));

@@ -12,8 +12,7 @@ void differentiate(Mechanism& mechanism, const Trajectory& trajectory,
 
 void differentiate_until(int last_step, Mechanism& mechanism, const Trajectory& trajectory,
                          const SensitivityObserver& observer) {
-  State start;
-  trajectory.states->load(0, start);
+  const State start = trajectory.state_at(0);
   StateSensitivity initial = trajectory.periodic
                                  ? periodic_sensitivity(mechanism, trajectory)
                                  : initial_sensitivity(mechanism, initial_state(mechanism));

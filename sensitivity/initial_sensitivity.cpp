@@ -235,8 +235,7 @@ StateSensitivity periodic_sensitivity(Mechanism& mechanism, const Trajectory& tr
   StateSensitivity start = zero_sensitivity(*mechanism.system, mechanism.system->variables());
   StepDifferentiation motion(mechanism, trajectory, DerivativesOf::design);
   PeriodicCorrection progress;
-  State last;
-  trajectory.states->load(periodic.steps, last);
+  const State last = trajectory.state_at(periodic.steps);
   while (true) {
     motion.begin(start);
     while (motion.step() < periodic.steps) motion.advance();

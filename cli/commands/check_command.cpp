@@ -39,8 +39,7 @@ Examination examine(const ProblemFile& problem, const Eigen::VectorXd& x,
   const Stopwatch simulation;
   findings.analysis = analyze(problem, x);
   findings.simulation_seconds = simulation.seconds();
-  State initial;
-  findings.analysis->trajectory.states->load(0, initial);
+  const State initial = findings.analysis->trajectory.state_at(0);
   const Model& model = findings.analysis->model;
   findings.freedoms = rigid_degrees_of_freedom(model.mechanism, initial);
   findings.freedoms.blocked = blocked_drives(model.mechanism, initial, drive_rows(model));

@@ -132,8 +132,7 @@ std::string_view unit_of_coordinate(const Model& model, Eigen::Index coordinate)
 std::string assembly_text(const Analysis& analysis) {
   if (analysis.trajectory.periodic) return "";  // starts in the midst of its motion
   const Mechanism& mechanism = analysis.model.mechanism;
-  State initial;
-  analysis.trajectory.states->load(0, initial);
+  const State initial = analysis.trajectory.state_at(0);
   Eigen::VectorXd shift = difference(mechanism.rotations, initial.q, mechanism.guess.q).cwiseAbs();
   for (const int i : mechanism.elastic) shift(i) = 0.0;
   // Where members start deformed, frames of one beam stand along its curve.

@@ -28,9 +28,7 @@ Eigen::MatrixXd row_basis(const Scheme& scheme) {
 }
 
 Eigen::VectorXd first_increment(const Mechanism& mechanism, const Trajectory& trajectory) {
-  State start, end;
-  trajectory.states->load(0, start);
-  trajectory.states->load(1, end);
+  const State start = trajectory.state_at(0), end = trajectory.state_at(1);
   return difference(mechanism.rotations, end.q, start.q);
 }
 

@@ -117,13 +117,11 @@ class RepetitionCheck {
 RepetitionCheck check_repetition(Mechanism& mechanism, const Trajectory& trajectory, int steps,
                                  double period, Compared compared, int samples) {
   RepetitionCheck check(mechanism, period, compared);
-  State state, end;
-  trajectory.states->load(0, state);
-  trajectory.states->load(steps, end);
-  const Eigen::VectorXd turns = whole_turns(mechanism.angles, state.q, end.q);
+  const Eigen::VectorXd turns =
+      whole_turns(mechanism.angles, trajectory.state_at(0).q, trajectory.state_at(steps).q);
   const int stride = 1 + steps / samples;
   for (int step = 1; step <= steps; step += stride) {
-    trajectory.states->load(step, state);
+    State state = trajectory.state_at(step);
     state.time -= golden_share * trajectory.step_size(step);
     check.see(state, turns);
   }
@@ -134,9 +132,7 @@ RepetitionCheck check_repetition(Mechanism& mechanism, const Trajectory& traject
 
 std::string advice_to_be_exact(const Mechanism& mechanism, const Trajectory& trajectory) {
   constexpr double nearly = 1e-2, degree = std::numbers::pi / 180.0;
-  State start, end;
-  trajectory.states->load(0, start);
-  trajectory.states->load(trajectory.steps(), end);
+  const State start = trajectory.state_at(0), end = trajectory.state_at(trajectory.steps());
   const Eigen::VectorXd turns = whole_turns(mechanism.angles, start.q, end.q);
   for (const int angle : mechanism.angles) {
     const double turned = end.q(angle) - start.q(angle);

@@ -232,11 +232,9 @@ class PeriodicSearch {
 
   /// The state at the end, as one of the beginning.
   SchemeState end_of(const Trajectory& trajectory) const {
-    State start;
     SchemeState end;
-    trajectory.states->load(0, start);
     trajectory.states->load(trajectory.steps(), end);
-    end.q -= whole_turns(mechanism_.angles, start.q, end.q);
+    end.q -= whole_turns(mechanism_.angles, trajectory.state_at(0).q, end.q);
     end.w = trajectory.end_w;
     end.time = 0.0;
     return end;

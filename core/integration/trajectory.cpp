@@ -16,6 +16,12 @@ constexpr double small_change = 0.3;
 
 }  // namespace
 
+State Trajectory::state_at(int step) const {
+  State state;
+  states->load(step, state);
+  return state;
+}
+
 StateColumns& Trajectory::columns() const {
   auto* stored = dynamic_cast<StoredStates*>(states.get());
   if (!stored) throw std::logic_error("the states of the trajectory are not held in memory");

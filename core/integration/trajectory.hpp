@@ -70,6 +70,8 @@ struct Trajectory {
 
   int steps() const { return int_size(time) - 1; }
   bool is_projected() const { return formulation.is_projected; }
+  /// One of the states. Where steps must not allocate, `states` loads them into one that is there.
+  State state_at(int step) const;
   /// The states, where memory holds all of them.
   /// @throws std::logic_error if it does not
   StateColumns& columns() const;

@@ -236,9 +236,8 @@ namespace {
 
 std::vector<LargestDeformation> find_largest(const Model& model, const Trajectory& trajectory) {
   std::vector<LargestDeformation> all(model.bodies.size());
-  State state;
   for (int step = 0; step <= trajectory.steps(); ++step) {
-    trajectory.states->load(step, state);
+    const State state = trajectory.state_at(step);
     for (std::size_t i = 0; i < all.size(); ++i) {
       record_deformation(model.bodies[i], state, step, all[i]);
     }
@@ -322,7 +321,6 @@ std::vector<ConcernedBeam> find_slenderness(const TrustedRun& run) {
   const int half_waves = most_half_waves(run.problem);
   const auto& largest = largest_deformations(run);
   std::map<std::string, double> shares;
-  State state;
   for (std::size_t i = 0; i < model.bodies.size(); ++i) {
     const BodyModel& body = model.bodies[i];
     if (!body.is_beam() || !body.is_elastic) continue;
@@ -333,7 +331,7 @@ std::vector<ConcernedBeam> find_slenderness(const TrustedRun& run) {
       share = std::max(share, half_waves * half_waves * share_by_proportions(run, body.name));
     }
     if (largest[i].bending <= straight_beam) continue;
-    run.analysis.trajectory.states->load(largest[i].bending_step, state);
+    const State state = run.analysis.trajectory.state_at(largest[i].bending_step);
     share = std::max(share, shear_share(run.problem, run.x, model, body.name, state));
   }
   std::vector<ConcernedBeam> found;

@@ -146,10 +146,9 @@ CriticalInstants critical_instants(const Scene& scene, const Analysis& analysis)
   const Mechanism& mechanism = analysis.model.mechanism;
   double fastest = 0.0, last = 0.0, falls = 0.0;
   int when = -1;
-  State state;
   for (int i = 0; i < int_size(analysis.trajectory.time); ++i) {
     constexpr double more = 1.0 + 1e-6;
-    analysis.trajectory.states->load(i, state);
+    const State state = analysis.trajectory.state_at(i);
     beams.see(state);
     const double speed = fastest_turn(mechanism, state).omega.norm();
     falls += std::max(0.0, last * last - speed * speed);
@@ -164,8 +163,7 @@ CriticalInstants critical_instants(const Scene& scene, const Analysis& analysis)
   const bool is_any_imported = std::ranges::any_of(
       analysis.model.bodies, [](const BodyModel& body) { return body.is_imported(); });
   if (!mechanism.loads.empty() || !mechanism.springs.empty() || is_any_imported) return found;
-  analysis.trajectory.states->load(when, state);
-  if (is_rotor(mechanism, state)) return found;
+  if (is_rotor(mechanism, analysis.trajectory.state_at(when))) return found;
   found.harmless = harmless_share_of(beams, falls / (fastest * fastest));
   return found;
 }
@@ -269,8 +267,7 @@ bool is_firm_in_space(const ProblemFile& space, const TrustedRun& run,
   try {
     Model model = build_model(space.scene, space.effects, start, design);
     return std::ranges::none_of(instants.all, [&](int instant) {
-      State state;
-      run.analysis.trajectory.states->load(instant, state);
+      const State state = run.analysis.trajectory.state_at(instant);
       const std::optional<State> here = state_in_space(run.analysis.model, state, model);
       return !here || may_grow(model.mechanism, *here, instants.harmless);
     });

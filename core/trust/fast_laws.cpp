@@ -289,9 +289,8 @@ std::vector<Finding> check_fast_turning(const TrustedRun& run) {
   const Trajectory& trajectory = run.analysis.trajectory;
   double most = most_turned, step_size = 0.0, time = 0.0;
   const BodyModel* fastest = nullptr;
-  State state;
   for (int step = 1; step <= trajectory.steps(); ++step) {
-    trajectory.states->load(step, state);
+    const State state = trajectory.state_at(step);
     for (const BodyModel& body : run.analysis.model.bodies) {
       const BodyFrame& frame = body.frame;
       const double speed =

@@ -27,9 +27,10 @@ bool is_given(const Velocity& velocity, const Design<double>& design) {
 class InitialMotion {
  public:
   explicit InitialMotion(const TrustedRun& run)
-      : run_(run), design_(run.x.begin(), run.x.end()), asked_(run.analysis.model.mechanism.guess) {
-    run.analysis.trajectory.states->load(0, start_);
-  }
+      : run_(run),
+        design_(run.x.begin(), run.x.end()),
+        asked_(run.analysis.model.mechanism.guess),
+        start_(run.analysis.trajectory.state_at(0)) {}
 
   std::vector<Finding> find() {
     for (const Body& body : run_.problem.scene.bodies) {
@@ -91,9 +92,8 @@ class InitialMotion {
     const Trajectory& trajectory = run_.analysis.trajectory;
     const Eigen::VectorXd& scale = run_.analysis.model.mechanism.scale;
     double largest = 0.0;
-    State state;
     for (int i = 0; i <= instants; ++i) {
-      trajectory.states->load(i * trajectory.steps() / instants, state);
+      const State state = trajectory.state_at(i * trajectory.steps() / instants);
       largest = std::max(largest, state.v.cwiseQuotient(scale).lpNorm<Eigen::Infinity>());
     }
     return largest;

@@ -73,9 +73,8 @@ class CoordinateHistory {
   static void read(const TrustedRun& run, const ResponseSettings& settings,
                    Eigen::VectorXd& history) {
     const std::unique_ptr<Signal> signal = make_gauge_signal(settings, run.analysis.model);
-    State state;
     for (int i = 0; i < static_cast<int>(history.size()); ++i) {
-      run.analysis.trajectory.states->load(i, state);
+      const State state = run.analysis.trajectory.state_at(i);
       signal->observe(state, history.segment(i, 1));
     }
   }

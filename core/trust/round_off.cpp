@@ -240,9 +240,8 @@ class RoundOff {
     const int stride = has_map ? 1 : std::max(1, trajectory.steps() / enough_instants);
     const int instants = trajectory.steps() / stride + 1;
     Recorder recorder(responses, instants);
-    State state;
     for (int i = 0; i < instants; ++i) {
-      trajectory.states->load(i * stride, state);
+      const State state = trajectory.state_at(i * stride);
       recorder.see(i, state);
     }
     std::vector<Eigen::MatrixXd> observed = recorder.take(instants);

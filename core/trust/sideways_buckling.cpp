@@ -188,9 +188,8 @@ std::vector<std::vector<SidewaysBuckling>> members_of(const TrustedRun& run) {
 std::vector<Finding> check_sideways_buckling(const TrustedRun& run) {
   std::vector<std::vector<SidewaysBuckling>> members = members_of(run);
   if (members.empty()) return {};
-  State state;
   for (Eigen::Index i = 0; i < run.analysis.trajectory.time.size(); ++i) {
-    run.analysis.trajectory.states->load(static_cast<int>(i), state);
+    const State state = run.analysis.trajectory.state_at(static_cast<int>(i));
     for (auto& planes : members) {
       for (SidewaysBuckling& plane : planes) plane.see(state, run.analysis.trajectory.time(i));
     }
@@ -252,8 +251,7 @@ class LoadFactor {
   /// of bodies are held by what is no joint.
   double at(int instant) const {
     const Mechanism& mechanism = analysis_.model.mechanism;
-    State loaded;
-    analysis_.trajectory.states->load(instant, loaded);
+    const State loaded = analysis_.trajectory.state_at(instant);
     const State unloaded = without_forces(mechanism, loaded);
     return buckling_load_factor({free_->mechanism, unloaded}, {mechanism, loaded}, 1.0);
   }

@@ -173,8 +173,7 @@ struct Groups {
 /// One that mostly turns or moves bodies is no matter of elasticity (a pendulum that falls). What it
 /// grows beyond 1e6 is not followed.
 DisturbanceGrowth disturbance_growth(const Mechanism& mechanism, const Trajectory& trajectory) {
-  State at;
-  trajectory.states->load(0, at);
+  const State at = trajectory.state_at(0);
   Disturbances disturbances(mechanism);
   const StateSensitivity first = disturbances.at_rest(at);
   Groups groups(first, at.time);
@@ -272,9 +271,8 @@ Finding unfollowed(const GrowingMode& grows, double time, double step) {
 
 /// The first of some instants at which disturbances may grow in the coordinates of a model.
 std::optional<int> first_doubtful(const CriticalInstants& instants, const Analysis& analysis) {
-  State state;
   for (const int i : instants.all) {
-    analysis.trajectory.states->load(i, state);
+    const State state = analysis.trajectory.state_at(i);
     if (may_grow(analysis.model.mechanism, state, instants.harmless)) return i;
   }
   return std::nullopt;
@@ -380,9 +378,7 @@ bool is_in_equilibrium(const Mechanism& mechanism, const State& state) {
 }
 
 bool stays_at_rest(const Mechanism& mechanism, const Trajectory& trajectory) {
-  State last;
-  trajectory.states->load(trajectory.steps(), last);
-  return is_in_equilibrium(mechanism, last);
+  return is_in_equilibrium(mechanism, trajectory.state_at(trajectory.steps()));
 }
 
 /// Of the start, where it is an equilibrium and the file asks for one, or for small vibrations about one, or the
@@ -395,9 +391,8 @@ std::vector<Finding> judge_start(const TrustedRun& run) {
   const bool is_large = model.mechanism.system->coordinates() > most_judged_coordinates;
   if (is_large || !analysis.modes_left_out.empty()) return {};
   if (std::ranges::any_of(run.problem.scene.bodies, is_held)) return {};
-  State state;
-  analysis.trajectory.states->load(0, state);
-  if (!names.empty()) state = analysis.vibrating->initial.state;
+  const State state =
+      names.empty() ? analysis.trajectory.state_at(0) : analysis.vibrating->initial.state;
   if (!is_in_equilibrium(model.mechanism, state)) return {};
   const bool is_equilibrium = run.problem.simulation.quasi_static_start ||
                               stays_at_rest(analysis.model.mechanism, analysis.trajectory);

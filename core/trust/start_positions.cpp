@@ -98,8 +98,7 @@ std::vector<Finding> check_open_positions(const TrustedRun& run) {
   // A motion that repeats itself is not told where it begins.
   if (run.analysis.trajectory.periodic) return {};
   const Mechanism& asked = run.analysis.model.mechanism;
-  State begin;
-  run.analysis.trajectory.states->load(0, begin);
+  const State begin = run.analysis.trajectory.state_at(0);
   if (asked.scale.size() == 0 ||
       placement_change(asked, begin.q, asked.guess.q).maxCoeff() <= small_placement) {
     return {};

@@ -34,9 +34,8 @@ bool begins_with_a_shock(const Analysis& analysis) {
   constexpr int instants = 4;
   const Mechanism& mechanism = analysis.model.mechanism;
   const Trajectory& trajectory = analysis.trajectory;
-  State state;
   const auto largest_at = [&](int step) {
-    trajectory.states->load(step, state);
+    const State state = trajectory.state_at(step);
     double largest = 0.0;
     for (const int i : mechanism.elastic) {
       largest = std::max(largest, std::abs(state.a(i)) / mechanism.scale(i));

@@ -30,8 +30,7 @@ class JumpFinder {
 
   /// The first instant: nothing is accelerated yet, and nothing holds.
   SuddenJump start() const {
-    State state;
-    trajectory_.states->load(0, state);
+    State state = trajectory_.state_at(0);
     state.time += shortly * step_behind(0);
     state.a.setZero();
     state.lambda.setZero();
@@ -40,15 +39,12 @@ class JumpFinder {
 
   /// Between the end of a motion that repeats itself and its beginning.
   SuddenJump seam() const {
-    State at;
-    trajectory_.states->load(0, at);
+    const State at = trajectory_.state_at(0);
     return jump_of(0, at, at, trajectory_.time(trajectory_.steps()), at.time);
   }
 
   SuddenJump jump_at(int step) const {
-    State before, at;
-    trajectory_.states->load(step - 1, before);
-    trajectory_.states->load(step, at);
+    const State before = trajectory_.state_at(step - 1), at = trajectory_.state_at(step);
     return jump_of(step, before, at, at.time, at.time);
   }
 

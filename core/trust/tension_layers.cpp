@@ -103,9 +103,8 @@ std::vector<Finding> check_tension_layers(const TrustedRun& run) {
     for (const BendingPlane plane : bending_planes(part)) {
       planes.emplace_back(body.name, run.analysis.model, plane);
     }
-    State state;
     for (Eigen::Index i = 0; i < trajectory.time.size(); i += stride) {
-      trajectory.states->load(static_cast<int>(i), state);
+      const State state = trajectory.state_at(static_cast<int>(i));
       for (TautPlane& plane : planes) plane.see(state);
     }
     std::optional<Tautness> worst;

@@ -152,8 +152,7 @@ class UnresolvedTransients {
     const int samples =
         std::clamp(static_cast<int>(std::ceil(length / fast.shortest_period() * samples_of_period)),
                    3, most_samples);
-    State base = jump.before;
-    if (is_later) trajectory_.states->load(range.first, base);
+    const State base = is_later ? trajectory_.state_at(range.first) : jump.before;
     Transient transient;
     transient.time = Eigen::VectorXd::LinSpaced(samples, from, from + length);
     const Eigen::VectorXd offset = offset_of(response, is_later ? range.first : before(jump), base);

@@ -38,9 +38,7 @@ struct AtStart {
 
 /// A state of a trajectory.
 inline State state_of(const Trajectory& trajectory, int step) {
-  State state;
-  trajectory.states->load(step, state);
-  return state;
+  return trajectory.state_at(step);
 }
 inline State last_state(const Trajectory& trajectory) {
   return state_of(trajectory, trajectory.steps());

@@ -188,9 +188,7 @@ void check(const Pair& pair, EffectChoice spatial) {
   EffectSettings effects{.spatial_motion = spatial};
   Model model = build_model(scene_of(pair, spatial), effects, {}, {});
   const Trajectory trajectory = simulate(model.mechanism, {0.1, 1e-3, 0.8});
-  State start, end;
-  trajectory.states->load(0, start);
-  trajectory.states->load(trajectory.steps(), end);
+  const State start = trajectory.state_at(0), end = trajectory.state_at(trajectory.steps());
 
   System& system = *model.mechanism.system;
   System::Matrix matrix = system.make_matrix();

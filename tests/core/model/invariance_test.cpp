@@ -242,9 +242,8 @@ Motions motions_of(ReferenceCondition frame, double young) {
   const BodyModel &rod = model.body("rod"), &slider = model.body("slider");
   Motions result;
   result.places.resize(8, trajectory.steps() + 1);
-  State state;
   for (int step = 0; step <= trajectory.steps(); ++step) {
-    trajectory.states->load(step, state);
+    const State state = trajectory.state_at(step);
     const Eigen::Vector3d start = position_of(rod, state, 0.0),
                           middle = position_of(rod, state, 0.5), end = position_of(rod, state, 1.0),
                           side = position_of(rod, state, 0.7);

@@ -208,9 +208,8 @@ Eigen::MatrixXd places_of(const SampleScene& sample, int* coordinates = nullptr)
   options.newton_tolerance = 1e-13;
   const Trajectory trajectory = simulate(model.mechanism, options);
   Eigen::MatrixXd places(15, trajectory.steps() + 1);
-  State state;
   for (int step = 0; step <= trajectory.steps(); ++step) {
-    trajectory.states->load(step, state);
+    const State state = trajectory.state_at(step);
     places.col(step) << position_of(model.body("crank"), state, 0.6),
         position_of(model.body("rod"), state, 0.0), position_of(model.body("rod"), state, 0.55),
         position_of(model.body("flag"), state, 0.0), position_of(model.body("arm"), state, 1.0);

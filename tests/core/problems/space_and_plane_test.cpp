@@ -61,9 +61,8 @@ ProblemFile problem_of(Json document, const char* spatial_motion) {
 double largest_rotation(const Analysis& analysis) {
   const BodyModel& boom = analysis.model.body("boom");
   double largest = 0.0;
-  State state;
   for (int step = 0; step <= analysis.trajectory.steps(); ++step) {
-    analysis.trajectory.states->load(step, state);
+    const State state = analysis.trajectory.state_at(step);
     const Eigen::VectorXd d = stacked_displacements(boom, state);
     for (Eigen::Index i = 0; i < d.size(); i += 6) {
       largest = std::max(largest, d.segment<3>(i + 3).norm());
