@@ -13,8 +13,8 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/base/int_size.hpp"
-#include "core/frame/body_frame.hpp"
 #include "core/mobility/lock.hpp"
+#include "core/model/body_frames.hpp"
 #include "core/response/signal_of_body.hpp"
 
 namespace pleuel {
@@ -128,7 +128,7 @@ class BodySampler {
     if (!has_surface_) return;
     const BodyModel& body = *parts_.front();
     motion_.coordinates.col(instant) = state.q.segment(body.elastic_offset(), body.elastic_size());
-    motion_.origins.col(instant) = frame_of(body.frame, state).r;
+    motion_.origins.col(instant) = frame_motion(body.frame, state).r;
   }
 
   BodyTrack take() { return std::move(motion_); }
@@ -175,15 +175,8 @@ class BodySampler {
     }
   }
 
-  static FrameMotion<double> frame_of(const BodyFrame& frame, const State& state) {
-    const Eigen::VectorXd q = state.q.segment(frame.offset, frame.size()),
-                          v = state.v.segment(frame.offset, frame.size()),
-                          a = state.a.segment(frame.offset, frame.size());
-    return frame_motion<double>(frame, q, v, a);
-  }
-
   static Eigen::Vector4d quaternion_of(const BodyFrame& frame, const State& state) {
-    return Eigen::Quaterniond(Eigen::Matrix3d(frame_of(frame, state).A)).normalized().coeffs();
+    return Eigen::Quaterniond(Eigen::Matrix3d(frame_motion(frame, state).A)).normalized().coeffs();
   }
 
   BodyTrack motion_;
@@ -223,14 +216,6 @@ namespace {
 constexpr double turn_of_frame = 4.0 * std::numbers::pi / 180.0;  ///< [rad]
 constexpr int fewest = 150;
 
-Eigen::Matrix3d rotation_of(const BodyModel& body, const State& state) {
-  const auto own = [&](const Eigen::VectorXd& all) -> Eigen::VectorXd {
-    return all.segment(body.frame.offset, body.frame.size());
-  };
-  const Eigen::VectorXd q = own(state.q), v = own(state.v), a = own(state.a);
-  return frame_motion<double>(body.frame, q, v, a).A;
-}
-
 double angle_between(const Eigen::Matrix3d& before, const Eigen::Matrix3d& after) {
   const double cosine = ((before.transpose() * after).trace() - 1.0) / 2.0;
   return std::acos(std::clamp(cosine, -1.0, 1.0));
@@ -242,11 +227,12 @@ double largest_turn(const Analysis& analysis) {
   const int stride = std::max(1, steps / 800);
   std::vector<Eigen::Matrix3d> before;
   std::vector<double> turned(analysis.model.bodies.size(), 0.0);
-  State state;
   for (int step = 0; step <= steps; step += stride) {
-    analysis.trajectory.states->load(step, state);
+    const State state = analysis.trajectory.state_at(step);
     std::vector<Eigen::Matrix3d> now;
-    for (const BodyModel& body : analysis.model.bodies) now.push_back(rotation_of(body, state));
+    for (const BodyModel& body : analysis.model.bodies) {
+      now.push_back(frame_motion(body.frame, state).A);
+    }
     for (std::size_t i = 0; i < before.size(); ++i) turned[i] += angle_between(before[i], now[i]);
     before = std::move(now);
   }

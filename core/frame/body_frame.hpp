@@ -55,6 +55,13 @@ inline BodyFrame ground_frame() {
   return frame;
 }
 
+/// Position and orientation of a body.
+template <class Scalar>
+struct Pose {
+  Vector3<Scalar> origin;
+  Matrix3<Scalar> rotation;  ///< body to global axes
+};
+
 /// Position, velocity and acceleration of a frame, with the derivatives that forces need.
 template <class Scalar>
 struct FrameMotion {

@@ -9,7 +9,7 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/quoted.hpp"
-#include "core/model/model.hpp"
+#include "core/model/body_frames.hpp"
 
 namespace pleuel {
 
@@ -38,15 +38,7 @@ std::vector<std::string> moving_bodies(const Model& model, const RigidPath& path
   const RigidConstraints constraints(model);
   const Eigen::VectorXd motion =
       constraints.expand(path.still_moves).cwiseQuotient(model.mechanism.scale).cwiseAbs();
-  std::vector<std::string> names;
-  for (const BodyModel& body : model.bodies) {
-    if (body.frame.size() == 0) continue;
-    const double speed =
-        motion.segment(body.frame.offset, body.frame.size()).lpNorm<Eigen::Infinity>();
-    if (speed <= moves * motion.lpNorm<Eigen::Infinity>()) continue;
-    if (names.empty() || names.back() != body.name) names.push_back(body.name);
-  }
-  return names;
+  return moved_bodies(model, motion, moves * motion.lpNorm<Eigen::Infinity>());
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "core/base/eager_matrices.hpp"
+#include "core/model/body_frames.hpp"
 
 namespace pleuel {
 
@@ -96,12 +97,6 @@ double kinetic_energy(const FrameMotion<double>& frame, double mass,
   const double turning = second.trace() * omega.squaredNorm() - omega.dot(second * omega);
   return 0.5 * mass * velocity.squaredNorm() + velocity.dot(omega.cross(first) + first_rate) +
          0.5 * turning + omega.dot(spin) + 0.5 * elastic;
-}
-
-FrameMotion<double> frame_of(const BodyModel& body, const State& state) {
-  const int offset = body.frame.offset, size = body.frame.size();
-  return frame_motion<double>(body.frame, state.q.segment(offset, size),
-                              state.v.segment(offset, size), state.a.segment(offset, size));
 }
 
 /// Weighted derivatives of T and of the weight's potential by the integrals over the body.
@@ -203,7 +198,7 @@ void add_frame_gradient(const BodyModel& body, const FrameMotion<double>& frame,
 
 BodyEnergy body_energy(const BodyModel& body, const Invariants<double>& invariants,
                        const Vector3d& gravity, const State& state) {
-  const auto frame = frame_of(body, state);
+  const auto frame = frame_motion(body.frame, state);
   const auto q = state.q.segment(body.elastic_offset(), invariants.size());
   const auto v = state.v.segment(body.elastic_offset(), invariants.size());
   const ElasticForms forms(invariants, q, v);
@@ -219,7 +214,7 @@ BodyEnergy body_energy(const BodyModel& body, const Invariants<double>& invarian
 void add_energy_gradient(const BodyModel& body, const Vector3d& gravity, const State& state,
                          const EnergyWeights& weights, Eigen::VectorXd& q, Eigen::VectorXd& v) {
   const Invariants<double>& invariants = body.invariants;
-  const auto frame = frame_of(body, state);
+  const auto frame = frame_motion(body.frame, state);
   const int offset = body.elastic_offset(), size = invariants.size();
   const auto q_f = state.q.segment(offset, size), v_f = state.v.segment(offset, size);
   const MassDistribution distribution =

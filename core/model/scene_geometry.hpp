@@ -196,14 +196,7 @@ inline const Material& find_material(const Scene& scene, const std::string& name
   return *found;
 }
 
-/// Position and orientation of a body at t = 0.
-template <class Scalar>
-struct Pose {
-  Vector3<Scalar> origin;
-  Matrix3<Scalar> rotation;  ///< body to global axes
-};
-
-/// Of a beam, or of a body that lies as one (core/scene/body_chart.hpp).
+/// At t = 0, of a beam, or of a body that lies as one (core/scene/body_chart.hpp).
 template <class Scalar, class Beam>
 Pose<Scalar> beam_pose(const Beam& body, const Design<Scalar>& design) {
   return {resolve_point(body.from, design), beam_axes(body.from, body.to, body.reference, design)};

@@ -1,6 +1,7 @@
 #include "core/model/state_in_space.hpp"
 
 #include "core/base/rotation_vector.hpp"
+#include "core/model/body_frames.hpp"
 #include "core/start/initial_state.hpp"
 
 namespace pleuel {
@@ -8,10 +9,7 @@ namespace pleuel {
 namespace {
 
 void set_frame(const BodyModel& planar, const State& from, const BodyFrame& frame, State& to) {
-  const int first = planar.frame.offset, size = planar.frame.size();
-  const FrameMotion<double> motion =
-      frame_motion<double>(planar.frame, from.q.segment(first, size), from.v.segment(first, size),
-                           from.a.segment(first, size));
+  const FrameMotion<double> motion = frame_motion(planar.frame, from);
   const int translations = frame.translations();
   to.q.segment(frame.offset, translations) = frame.basis.transpose() * (motion.r - frame.origin);
   to.v.segment(frame.offset, translations) = frame.basis.transpose() * motion.r_dot;

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "core/frame/body_frame.hpp"
+#include "core/model/body_frames.hpp"
 #include "core/model/body_point.hpp"
 #include "core/response/signal.hpp"
 
@@ -39,10 +39,7 @@ class BodyState {
   auto v() const { return elastic(state_.v); }
   auto a() const { return elastic(state_.a); }
 
-  FrameMotion<double> frame() const {
-    return frame_motion<double>(body_.frame, of_frame(state_.q), of_frame(state_.v),
-                                of_frame(state_.a));
-  }
+  FrameMotion<double> frame() const { return frame_motion(body_.frame, state_); }
 
   /// The frame with its coordinates and their rates as the first directions.
   FrameMotion<WideDual> seeded_frame(const SeedGroup& seed) const {

@@ -9,6 +9,7 @@
 #include "core/base/int_size.hpp"
 #include "core/base/rotation_vector.hpp"
 #include "core/beam/elastic_basis.hpp"
+#include "core/model/body_frames.hpp"
 
 namespace pleuel {
 
@@ -56,9 +57,7 @@ void add_body(const BodyModel& body, const State& state, const Eigen::Vector3d& 
               Eigen::MatrixXd& sum) {
   const BodyFrame& frame = body.frame;
   const int offset = frame.offset, size = frame.size(), n = body.elastic_size();
-  const auto motion =
-      frame_motion<double>(frame, state.q.segment(offset, size), state.v.segment(offset, size),
-                           state.a.segment(offset, size));
+  const FrameMotion<double> motion = frame_motion(frame, state);
   const Eigen::Vector3d e = motion.A.transpose() * d;
   const IntegralsAlong integrals(body.invariants, state.q.segment(offset + size, n), e);
   const int moves = frame.translations(), turns = frame.rotations();

@@ -10,7 +10,7 @@
 #include "core/base/error.hpp"
 #include "core/base/quoted.hpp"
 #include "core/model/body_energy.hpp"
-#include "core/model/model.hpp"
+#include "core/model/body_frames.hpp"
 #include "core/start/redundancy.hpp"
 
 namespace pleuel {
@@ -200,16 +200,6 @@ std::vector<std::string> joints_of(const NearRedundancy& near, const Model& mode
   return names;
 }
 
-std::vector<std::string> bodies_of(const NearRedundancy& near, const Model& model) {
-  std::vector<std::string> names;
-  for (const BodyModel& body : model.bodies) {
-    const auto part = near.motion.segment(body.frame.offset, body.frame.size());
-    if (part.lpNorm<Eigen::Infinity>() <= visible) continue;
-    if (names.empty() || names.back() != body.name) names.push_back(body.name);
-  }
-  return names;
-}
-
 }  // namespace
 
 std::string Misalignment::text() const {
@@ -228,7 +218,8 @@ std::vector<Misalignment> find_misalignments(const Model& model, const State& st
   std::vector<Misalignment> found;
   for (const NearRedundancy& near :
        nearly_redundant_constraints(model.mechanism, state, drive_rows(model), largest)) {
-    Misalignment misalignment{joints_of(near, model), bodies_of(near, model), near.misalignment};
+    Misalignment misalignment{joints_of(near, model), moved_bodies(model, near.motion, visible),
+                              near.misalignment};
     const auto same = std::find_if(found.begin(), found.end(), [&](const Misalignment& other) {
       return other.joints == misalignment.joints;
     });

@@ -11,9 +11,8 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/find_named.hpp"
-#include "core/frame/body_frame.hpp"
 #include "core/mobility/lock.hpp"
-#include "core/model/model.hpp"
+#include "core/model/body_frames.hpp"
 #include "core/model/scene_geometry.hpp"
 #include "core/response/monitors.hpp"
 #include "core/start/degrees_of_freedom.hpp"
@@ -31,42 +30,18 @@ constexpr double locking = 3e-2;
 /// [rad], or of the mechanism's size.
 constexpr double idle_way = 1e-3;
 
-struct BodyPose {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-};
-
-BodyPose pose_of(const std::string& body, const Model& model, const State& state) {
-  if (body == ground_name) return {};
-  const BodyFrame& frame = model.parts(body).front()->frame;
-  const auto part = [&](const Eigen::VectorXd& of) {
-    return of.segment(frame.offset, frame.size());
-  };
-  const FrameMotion<double> motion =
-      frame_motion<double>(frame, part(state.q), part(state.v), part(state.a));
-  return {motion.r, motion.A};
-}
-
-/// Of the second body of a joint as the first one sees it.
-BodyPose relative_pose(const Joint& joint, const Model& model, const State& state) {
-  const BodyPose first = pose_of(joint.bodies[0], model, state),
-                 second = pose_of(joint.bodies[1], model, state);
-  return {first.rotation.transpose() * (second.position - first.position),
-          first.rotation.transpose() * second.rotation};
-}
-
 /// Whether the bodies of a joint move against each other.
 bool moves(const Joint& joint, const TrustedRun& run) {
   const Trajectory& trajectory = run.analysis.trajectory;
-  const Model& model = run.analysis.model;
-  const double size = model.mechanism.scale.maxCoeff();
-  State state;
-  trajectory.states->load(0, state);
-  const BodyPose start = relative_pose(joint, model, state);
+  const double size = run.analysis.model.mechanism.scale.maxCoeff();
+  const auto pose_at = [&](int step) {
+    return relative_pose(run.analysis.model, joint.bodies[0], joint.bodies[1],
+                         trajectory.state_at(step));
+  };
+  const Pose<double> start = pose_at(0);
   for (int step = 1; step <= trajectory.steps(); ++step) {
-    trajectory.states->load(step, state);
-    const BodyPose pose = relative_pose(joint, model, state);
-    const double way = (pose.position - start.position).lpNorm<Eigen::Infinity>() / size;
+    const Pose<double> pose = pose_at(step);
+    const double way = (pose.origin - start.origin).lpNorm<Eigen::Infinity>() / size;
     const double turn = (pose.rotation - start.rotation).lpNorm<Eigen::Infinity>();
     if (std::max(way, turn) > idle_way) return true;
   }
@@ -85,8 +60,7 @@ bool any_moves(const std::vector<std::string>& names, const TrustedRun& run) {
 }  // namespace
 
 std::vector<Finding> check_misaligned_joints(const TrustedRun& run) {
-  State start;
-  run.analysis.trajectory.states->load(0, start);
+  const State start = run.analysis.trajectory.state_at(0);
   const Model& model = run.analysis.model;
   std::vector<Finding> findings;
   for (const Misalignment& found : find_misalignments(model, start, locking)) {
@@ -98,54 +72,24 @@ std::vector<Finding> check_misaligned_joints(const TrustedRun& run) {
 
 namespace {
 
-/// The angle about a joint's axis by which the frame of its second body has turned against that of
-/// the first since the start; that of deformation is left out. In (−π, π].
-class JointAngle {
- public:
-  JointAngle(const Model& model, const Joint& joint, const State& start)
-      : first_(frame_of(model, joint.bodies[0])), second_(frame_of(model, joint.bodies[1])) {
-    const Eigen::Vector3d axis = to_vector(joint.axis).normalized();
-    const Eigen::Vector3d across = axis.unitOrthogonal();
-    const Eigen::Matrix3d one = rotation(first_, start), other = rotation(second_, start);
-    from_ = one.transpose() * across;
-    beside_ = one.transpose() * axis.cross(across);
-    turned_ = other.transpose() * across;
-  }
-
-  double at(const State& state) const {
-    const Eigen::Matrix3d one = rotation(first_, state);
-    const Eigen::Vector3d now = rotation(second_, state) * turned_;
-    return std::atan2(now.dot(one * beside_), now.dot(one * from_));
-  }
-
- private:
-  static std::optional<BodyFrame> frame_of(const Model& model, const std::string& body) {
-    if (body == ground_name) return std::nullopt;
-    return model.parts(body).front()->frame;
-  }
-
-  static Eigen::Matrix3d rotation(const std::optional<BodyFrame>& frame, const State& state) {
-    if (!frame) return Eigen::Matrix3d::Identity();
-    const auto of = [&](const Eigen::VectorXd& all) {
-      return Coordinates<double>(all.segment(frame->offset, frame->size()));
-    };
-    return frame_motion<double>(*frame, of(state.q), of(state.v), of(state.a)).A;
-  }
-
-  std::optional<BodyFrame> first_, second_;
-  Eigen::Vector3d from_, beside_, turned_;
-};
-
-/// The first time at which the angle jumps from one end of its range to the other.
+/// The first time at which the angle of a joint jumps from one end of its range to the other. It is that
+/// about its axis by which the frame of its second body has turned against that of the first since the
+/// start, in (−π, π]; that of deformation is left out.
 std::optional<double> jump_of(const TrustedRun& run, const Joint& joint) {
+  const Model& model = run.analysis.model;
   const Trajectory& trajectory = run.analysis.trajectory;
-  State state;
-  trajectory.states->load(0, state);
-  const JointAngle angle(run.analysis.model, joint, state);
+  const auto turn_at = [&](const State& state) {
+    return relative_pose(model, joint.bodies[0], joint.bodies[1], state).rotation;
+  };
+  const State start = trajectory.state_at(0);
+  const Eigen::Matrix3d axes = frame_motion(frame_of(model, joint.bodies[0]), start).A;
+  const Eigen::Vector3d axis = axes.transpose() * to_vector(joint.axis).normalized();
+  const Eigen::Vector3d from = axis.unitOrthogonal(), beside = axis.cross(from);
+  const Eigen::Vector3d turned = turn_at(start).transpose() * from;
   double before = 0.0;
   for (int step = 1; step <= trajectory.steps(); ++step) {
-    trajectory.states->load(step, state);
-    const double now = angle.at(state);
+    const Eigen::Vector3d at = turn_at(trajectory.state_at(step)) * turned;
+    const double now = std::atan2(at.dot(beside), at.dot(from));
     if (std::abs(now - before) > std::numbers::pi) return trajectory.time(step);
     before = now;
   }
@@ -249,8 +193,7 @@ std::string blocked_drives_text(const Model& model, const State& state) {
 }
 
 std::vector<Finding> check_blocked_drives(const TrustedRun& run) {
-  State start;
-  run.analysis.trajectory.states->load(0, start);
+  const State start = run.analysis.trajectory.state_at(0);
   const std::string text = blocked_drives_text(run.analysis.model, start);
   if (!text.empty()) return {{text}};
   if (run.analysis.rigid_path.end != RigidPath::End::bends) return {};
@@ -280,8 +223,7 @@ std::vector<Finding> check_undetermined_reactions(const TrustedRun& run) {
     return {};
   }
   const Trajectory& trajectory = run.analysis.trajectory;
-  State state;
-  trajectory.states->load(trajectory.steps() / 2, state);
+  const State state = trajectory.state_at(trajectory.steps() / 2);
   Finding finding;
   std::string names;
   for (const std::size_t i : asked_parts(run.problem)) {

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "core/base/eager_matrices.hpp"
+#include "core/model/body_frames.hpp"
 #include "core/model/imported_constants.hpp"
 #include "core/model/scene_geometry.hpp"
 #include "core/scene/body_source.hpp"
@@ -70,42 +70,6 @@ namespace {
 /// Of the length of a beam: no more than the distance to a node may be.
 constexpr double short_way = 0.02;
 
-/// A point that moves with the frame of a body, deformation left out.
-class FramePoint {
- public:
-  FramePoint(const Model& model, const std::string& body, const Eigen::Vector3d& at,
-             const State& start) {
-    if (body != ground_name) frame_ = model.parts(body).front()->frame;
-    const auto [origin, axes] = pose(start);
-    local_ = axes.transpose() * (at - origin);
-  }
-
-  Eigen::Vector3d at(const State& state) const {
-    const auto [origin, axes] = pose(state);
-    return origin + axes * local_;
-  }
-
-  /// Of another point, in the axes of this body, from its origin.
-  Eigen::Vector3d local(const Eigen::Vector3d& point, const State& state) const {
-    const auto [origin, axes] = pose(state);
-    return axes.transpose() * (point - origin);
-  }
-
- private:
-  Pose<double> pose(const State& state) const {
-    if (!frame_) return {Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity()};
-    const auto of = [&](const Eigen::VectorXd& all) {
-      return Coordinates<double>(all.segment(frame_->offset, frame_->size()));
-    };
-    const FrameMotion<double> motion =
-        frame_motion<double>(*frame_, of(state.q), of(state.v), of(state.a));
-    return {motion.r, motion.A};
-  }
-
-  std::optional<BodyFrame> frame_;
-  Eigen::Vector3d local_;
-};
-
 /// Whether forces of a joint act on this body where the other one is.
 bool has_contact(const Joint& joint, std::size_t side) {
   const JointKind& kind = kind_of(joint.type);
@@ -118,14 +82,15 @@ double way_along(const TrustedRun& run, const Joint& joint, std::size_t side, do
   const Trajectory& trajectory = run.analysis.trajectory;
   const Design<double> design(run.x.begin(), run.x.end());
   const Eigen::Vector3d at = resolve_point(joint.at, design);
-  State state;
-  trajectory.states->load(0, state);
-  const FramePoint beam(run.analysis.model, joint.bodies[side], at, state);
-  const FramePoint other(run.analysis.model, joint.bodies[1 - side], at, state);
+  const std::string &beam = joint.bodies[side], &slider = joint.bodies[1 - side];
+  const FrameMotion<double> start =
+      frame_motion(frame_of(run.analysis.model, slider), trajectory.state_at(0));
+  const Eigen::Vector3d local = start.A.transpose() * (at - start.r);
   double least = length, most = 0.0;
   for (int step = 0; step <= trajectory.steps(); ++step) {
-    trajectory.states->load(step, state);
-    const double x = std::clamp(beam.local(other.at(state), state).x(), 0.0, length);
+    const Pose<double> pose =
+        relative_pose(run.analysis.model, beam, slider, trajectory.state_at(step));
+    const double x = std::clamp((pose.origin + pose.rotation * local).x(), 0.0, length);
     least = std::min(least, x);
     most = std::max(most, x);
   }

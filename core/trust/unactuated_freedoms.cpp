@@ -9,7 +9,7 @@
 #include "core/base/find_named.hpp"
 #include "core/base/quoted.hpp"
 #include "core/model/body_energy.hpp"
-#include "core/model/model.hpp"
+#include "core/model/body_frames.hpp"
 #include "core/scene/body_groups.hpp"
 #include "core/scene/joint_kind.hpp"
 #include "core/scene/response_kind.hpp"
@@ -61,11 +61,11 @@ auto rows_of(const BodyModel& body, const Eigen::MatrixXd& motions) {
 
 /// The state of the trajectory with the fewest free motions: no dead centre.
 State least_free_state(const Analysis& analysis) {
-  State best, state;
+  State best;
   int fewest = 0;
   const int steps = analysis.trajectory.steps();
   for (int i = 0; i <= 4; ++i) {
-    analysis.trajectory.states->load(i * steps / 4, state);
+    const State state = analysis.trajectory.state_at(i * steps / 4);
     const int free = rigid_degrees_of_freedom(analysis.model.mechanism, state).free();
     if (i > 0 && free >= fewest) continue;
     best = state;
@@ -154,10 +154,9 @@ class IdleFreedoms {
 
   bool moves(const BodyModel& body) const {
     const Trajectory& trajectory = run_.analysis.trajectory;
-    State state, start;
-    trajectory.states->load(0, start);
+    const State start = trajectory.state_at(0);
     for (int step = 0; step <= trajectory.steps(); ++step) {
-      trajectory.states->load(step, state);
+      const State state = trajectory.state_at(step);
       const auto change = (state.q - start.q).cwiseQuotient(model_.mechanism.scale).eval();
       if (change.segment(body.frame.offset, body.frame.size()).lpNorm<Eigen::Infinity>() >
           idle_speed) {
@@ -268,13 +267,7 @@ class IdleFreedoms {
 
   /// The bodies that move while all other coordinates are held.
   std::vector<std::string> names_of(const std::vector<int>& coordinates) const {
-    const Eigen::MatrixXd motions = motions_->some(coordinates);
-    std::vector<std::string> names;
-    for (const BodyModel& body : model_.bodies) {
-      if (rows_of(body, motions).lpNorm<Eigen::Infinity>() <= visible) continue;
-      if (names.empty() || names.back() != body.name) names.push_back(body.name);
-    }
-    return names;
+    return moved_bodies(model_, motions_->some(coordinates), visible);
   }
 
   std::string count_text(const std::vector<int>& coordinates) const {
