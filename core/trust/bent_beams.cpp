@@ -195,29 +195,28 @@ double elongation_of(const BodyModel& body, const Eigen::MatrixXd& nodal, int el
 
 namespace {
 
-void keep_larger(double value, int step, double& largest, int& at) {
-  if (value <= largest) return;
-  largest = value;
-  at = step;
+void keep_bending(double value, int step, LargestDeformation& largest) {
+  if (value <= largest.bending) return;
+  largest.bending = value;
+  largest.bending_step = step;
 }
 
 void record_beam(const BodyModel& body, const State& state, int step, LargestDeformation& largest) {
   const Eigen::MatrixXd nodal = nodal_displacements(body, state);
   const double bending = std::sqrt(nodal.bottomRows(2).colwise().squaredNorm().maxCoeff());
-  keep_larger(bending, step, largest.bending, largest.bending_step);
-  keep_larger(nodal.row(3).cwiseAbs().maxCoeff(), step, largest.twist, largest.twist_step);
+  keep_bending(bending, step, largest);
+  largest.twist = std::max(largest.twist, nodal.row(3).cwiseAbs().maxCoeff());
   if (nodal.row(0).isZero(0.0)) return;
   for (int e = 0; e + 1 < nodal.cols(); ++e) {
     const double length = body.beam.elements[e].length;
-    keep_larger(std::abs(elongation_of(body, nodal, e)) / length, step, largest.strain,
-                largest.strain_step);
+    largest.strain = std::max(largest.strain, std::abs(elongation_of(body, nodal, e)) / length);
   }
 }
 
 void record_imported(const BodyModel& body, const State& state, int step,
                      LargestDeformation& largest) {
   const double turned = nodal_displacements(body, state).bottomRows(3).colwise().norm().maxCoeff();
-  keep_larger(turned, step, largest.bending, largest.bending_step);
+  keep_bending(turned, step, largest);
 }
 
 }  // namespace

@@ -21,9 +21,9 @@ std::vector<std::size_t> asked_responses(const ProblemFile& problem);
 /// Those of them that are no expressions, and what their expressions are made from, each once.
 std::vector<std::size_t> asked_parts(const ProblemFile& problem);
 
-/// Instants (steps of a trajectory) at which a beam is deformed most, and how far.
+/// How far a beam is deformed at most.
 struct LargestDeformation {
-  int bending_step = 0, twist_step = 0, strain_step = 0;
+  int bending_step = 0;  ///< instant (step of the trajectory) at which it bends most
   double bending = 0.0;  ///< rotation against the frame, without twist [rad]
   double twist = 0.0;    ///< about the axis [rad]
   double strain = 0.0;   ///< |Δu|/ℓ of an element
