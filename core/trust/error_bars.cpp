@@ -47,10 +47,14 @@ bool is_there(const std::optional<double>& value) {
   return value && std::isfinite(*value);
 }
 
+/// The index of the first of increasing times that is not before a time.
+Eigen::Index first_from(const Eigen::VectorXd& times, double time) {
+  return std::lower_bound(times.begin(), times.end(), time) - times.begin();
+}
+
 /// Of increasing times the index of the nearest one; between two the first.
 Eigen::Index nearest(const Eigen::VectorXd& times, double time) {
-  const double* found = std::lower_bound(times.data(), times.data() + times.size(), time);
-  const Eigen::Index index = found - times.data();
+  const Eigen::Index index = first_from(times, time);
   if (index == 0) return 0;
   if (index == times.size()) return index - 1;
   return time - times(index - 1) <= times(index) - time ? index - 1 : index;
@@ -238,11 +242,6 @@ ErrorBar error_bar(const Evidence& evidence) {
   return bar;
 }
 
-ErrorBar error_bar(const Analysis& analysis, std::size_t response, const JudgingRuns& runs,
-                   double order) {
-  return error_bar(evidence_of(analysis, response, runs, order));
-}
-
 namespace {
 
 /// Orders from here on say what is left.
@@ -256,10 +255,8 @@ struct Curve {
 
 /// Straight between the instants.
 double value_at(const Curve& curve, double time) {
-  const double* begin = curve.time.data();
-  const double* end = begin + curve.time.size();
-  const Eigen::Index next = std::clamp<Eigen::Index>(std::lower_bound(begin, end, time) - begin, 1,
-                                                     curve.time.size() - 1);
+  const Eigen::Index next =
+      std::clamp<Eigen::Index>(first_from(curve.time, time), 1, curve.time.size() - 1);
   const double before = curve.time(next - 1);
   const double share = std::clamp((time - before) / (curve.time(next) - before), 0.0, 1.0);
   return (1.0 - share) * curve.values(next - 1) + share * curve.values(next);
@@ -292,55 +289,28 @@ bool is_there(const RefinedRun* run) {
   return run != nullptr && !run->has_failed();
 }
 
-class WidthsInTime {
- public:
-  explicit WidthsInTime(const Eigen::VectorXd& time)
-      : time_(time), half_width_(Eigen::VectorXd::Zero(time.size())) {}
-
-  /// Adds `factor` times the largest of a curve near each instant.
-  void add(const Curve& curve, double factor) { half_width_ += factor * envelope(curve); }
-
-  /// Adds what is left by steps: of the differences, or of what those of the coarser runs promise
-  /// of them where that is more, as where differences are small by accident.
-  void add_steps(const Curve& of_twice, const std::optional<Curve>& of_four, double promised) {
-    const double order = of_four ? observed_order(of_twice, *of_four, promised) : 0.0;
-    Eigen::VectorXd difference = envelope(of_twice);
-    if (order < least_order) {
-      half_width_ += safety::of_seen * difference;
-      return;
-    }
-    const double growth = std::pow(2.0, order);
-    difference = difference.cwiseMax(envelope(*of_four) / growth);
-    half_width_ += safety::of_seen / (growth - 1.0) * difference;
+/// The largest of a curve near each instant.
+Eigen::VectorXd envelope(const Curve& curve, const Eigen::VectorXd& time) {
+  Eigen::VectorXd largest(time.size());
+  for (Eigen::Index i = 0; i < time.size(); ++i) {
+    const Eigen::Index at = first_from(curve.time, time(i));
+    const Eigen::Index first = std::max<Eigen::Index>(at - reach, 0);
+    const Eigen::Index last = std::min(at + reach, curve.time.size() - 1);
+    largest(i) = curve.values.segment(first, last - first + 1).maxCoeff();
   }
+  return largest;
+}
 
-  void add(const Comparison& comparison, const Response& response, std::size_t index,
-           double factor) {
-    if (!is_there(comparison.run) || !is_there(comparison.beside)) return;
-    add(difference(curve_of(response, *comparison.run, index),
-                   curve_of(response, *comparison.beside, index)),
-        factor);
-  }
-
-  Eigen::VectorXd half_width() && { return std::move(half_width_); }
-
- private:
-  Eigen::VectorXd envelope(const Curve& curve) const {
-    const double* begin = curve.time.data();
-    const double* end = begin + curve.time.size();
-    Eigen::VectorXd largest(time_.size());
-    for (Eigen::Index i = 0; i < time_.size(); ++i) {
-      const Eigen::Index at = std::lower_bound(begin, end, time_(i)) - begin;
-      const Eigen::Index first = std::max<Eigen::Index>(at - reach, 0);
-      const Eigen::Index last = std::min(at + reach, curve.time.size() - 1);
-      largest(i) = curve.values.segment(first, last - first + 1).maxCoeff();
-    }
-    return largest;
-  }
-
-  const Eigen::VectorXd& time_;
-  Eigen::VectorXd half_width_;
-};
+/// What is left by steps: of the differences, or of what those of the coarser runs promise of them where
+/// that is more, as where differences are small by accident.
+Eigen::VectorXd left_by_steps(const Curve& of_twice, const std::optional<Curve>& of_four,
+                              double promised, const Eigen::VectorXd& time) {
+  const double order = of_four ? observed_order(of_twice, *of_four, promised) : 0.0;
+  const Eigen::VectorXd difference = envelope(of_twice, time);
+  if (order < least_order) return safety::of_seen * difference;
+  const double growth = std::pow(2.0, order);
+  return safety::of_seen / (growth - 1.0) * difference.cwiseMax(envelope(*of_four, time) / growth);
+}
 
 }  // namespace
 
@@ -358,15 +328,18 @@ std::vector<Eigen::VectorXd> error_bands(const Analysis& analysis, const Judging
     if (is_there(runs.four_steps)) {
       of_four = difference(twice, curve_of(response, *runs.four_steps, i));
     }
-    WidthsInTime band(now.time);
-    band.add_steps(of_twice, of_four, order);
-    band.add(runs.more_elements, response, i, safety::of_more);
-    if (!is_there(runs.more_elements.run)) {
-      band.add(runs.fewer_elements, response, i, safety::of_fewer);
-    }
-    band.add(runs.modes, response, i, safety::of_modes);
-    band.add(runs.newton, response, i, safety::of_newton);
-    bands[i] = std::move(band).half_width();
+    Eigen::VectorXd& band = bands[i];
+    band = left_by_steps(of_twice, of_four, order, now.time);
+    const auto add = [&](const Comparison& comparison, double factor) {
+      if (!is_there(comparison.run) || !is_there(comparison.beside)) return;
+      const Curve apart = difference(curve_of(response, *comparison.run, i),
+                                     curve_of(response, *comparison.beside, i));
+      band += factor * envelope(apart, now.time);
+    };
+    add(runs.more_elements, safety::of_more);
+    if (!is_there(runs.more_elements.run)) add(runs.fewer_elements, safety::of_fewer);
+    add(runs.modes, safety::of_modes);
+    add(runs.newton, safety::of_newton);
   }
   return bands;
 }

@@ -95,10 +95,6 @@ ErrorPart mode_part(const Evidence& evidence);
 /// The bar of a value. Where a run is missing or failed, what it would tell is not resolved.
 ErrorBar error_bar(const Evidence& evidence);
 
-/// That of one response.
-ErrorBar error_bar(const Analysis& analysis, std::size_t response, const JudgingRuns& runs,
-                   double order);
-
 /// How far the shown history of each response (history_reduction.hpp) may be from that of arbitrarily
 /// fine steps and elements, at each instant: error bars (error_bars.hpp) of histories. At an
 /// instant of the run with twice the step the bound is what the runs differ by there, or at the

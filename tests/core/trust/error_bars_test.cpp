@@ -124,7 +124,7 @@ TEST_F(ErrorBarOfAValue, AddsUpItsParts) {
   runs.four_steps = &four;
   runs.fewer_elements = {&fewer, &twice};
   runs.newton = {&exact, &four};
-  const ErrorBar bar = error_bar(analysis_, 0, runs, 2);
+  const ErrorBar bar = error_bar(evidence_of(analysis_, 0, runs, 2));
   EXPECT_NEAR(bar.step.change, -0.1, 1e-12);      // 10, 10.3, 11.5: order 2 towards 9.9
   EXPECT_NEAR(bar.elements.change, -0.2, 1e-12);  // half the elements have four times the error
   EXPECT_NEAR(bar.newton.change, 0.02, 1e-12);
@@ -140,7 +140,7 @@ TEST_F(ErrorBarOfAValue, PrefersFinerRuns) {
   runs.half_step = &half;
   runs.twice_step = &twice;
   runs.more_elements = {&more, &found};
-  const ErrorBar bar = error_bar(analysis_, 0, runs, 2);
+  const ErrorBar bar = error_bar(evidence_of(analysis_, 0, runs, 2));
   EXPECT_NEAR(bar.step.change, -0.1 - 0.1 / 3, 1e-12);
   EXPECT_GE(bar.step.bound, 0.1 + 0.1 / 3);
   EXPECT_NEAR(bar.elements.change, -0.4, 1e-12);
@@ -153,12 +153,12 @@ TEST_F(ErrorBarOfAValue, TakesThreeTimesTheLastChangeWhereNothingFalls) {
   JudgingRuns runs;
   runs.half_step = &half;
   runs.twice_step = &twice;
-  const ErrorBar coarse = error_bar(analysis_, 0, runs, 2);
+  const ErrorBar coarse = error_bar(evidence_of(analysis_, 0, runs, 2));
   EXPECT_NEAR(coarse.step.bound, 6.0, 1e-12);
   EXPECT_FALSE(coarse.is_resolved());
   runs.twice_step = &far;
   runs.half_step = &near;
-  const ErrorBar fine = error_bar(analysis_, 0, runs, 2);
+  const ErrorBar fine = error_bar(evidence_of(analysis_, 0, runs, 2));
   EXPECT_NEAR(fine.step.bound, 0.3, 1e-12);
   EXPECT_TRUE(fine.is_resolved());  // 3 % need no order
 }
@@ -170,7 +170,7 @@ TEST_F(ErrorBarOfAValue, AsksAQuarterOfTheStep) {
   runs.quarter_step = &quarter;
   runs.half_step = &half;
   runs.twice_step = &twice;
-  const ErrorBar bar = error_bar(analysis_, 0, runs, 2);
+  const ErrorBar bar = error_bar(evidence_of(analysis_, 0, runs, 2));
   EXPECT_TRUE(bar.is_resolved());
   EXPECT_NEAR(bar.step.change, 0.125 + 0.025 / 3, 1e-12);
   EXPECT_GE(bar.step.bound, 0.133);
@@ -185,14 +185,14 @@ TEST_F(ErrorBarOfAValue, PrefersMoreElementsToFewer) {
   runs.twice_step = &twice;
   runs.four_steps = &four;
   runs.fewer_elements = {&fewer, &twice};
-  EXPECT_NEAR(error_bar(analysis_, 0, runs, 2).elements.bound, 0.2, 1e-12);
+  EXPECT_NEAR(error_bar(evidence_of(analysis_, 0, runs, 2)).elements.bound, 0.2, 1e-12);
   runs.more_elements = {&more, &twice};
-  EXPECT_NEAR(error_bar(analysis_, 0, runs, 2).elements.change, 0.04, 1e-12);
-  EXPECT_NEAR(error_bar(analysis_, 0, runs, 2).elements.bound, 0.06, 1e-12);
+  EXPECT_NEAR(error_bar(evidence_of(analysis_, 0, runs, 2)).elements.change, 0.04, 1e-12);
+  EXPECT_NEAR(error_bar(evidence_of(analysis_, 0, runs, 2)).elements.bound, 0.06, 1e-12);
   runs.fewer_elements = {&other_side, &twice};
-  EXPECT_NEAR(error_bar(analysis_, 0, runs, 2).elements.bound, 0.15, 1e-12);
+  EXPECT_NEAR(error_bar(evidence_of(analysis_, 0, runs, 2)).elements.bound, 0.15, 1e-12);
   runs.fewer_elements = {&far, &twice};
-  EXPECT_NEAR(error_bar(analysis_, 0, runs, 2).elements.bound, 0.14, 1e-12);
+  EXPECT_NEAR(error_bar(evidence_of(analysis_, 0, runs, 2)).elements.bound, 0.14, 1e-12);
 }
 
 /// 10, 10.3, 11.5 and 20, 19.7, 18.5: as a sum nothing changes, each for itself does.
@@ -219,13 +219,13 @@ TEST_F(ErrorBarOfAValue, IsNotResolvedWhereARunFailed) {
   const RefinedRun broken = failed();
   JudgingRuns runs;
   runs.twice_step = &broken;
-  EXPECT_FALSE(error_bar(analysis_, 0, runs, 2).is_resolved());
+  EXPECT_FALSE(error_bar(evidence_of(analysis_, 0, runs, 2)).is_resolved());
   const RefinedRun twice = run(10.0), four = run(10.0);
   runs.twice_step = &twice;
   runs.four_steps = &four;
-  EXPECT_TRUE(error_bar(analysis_, 0, runs, 2).is_resolved());
+  EXPECT_TRUE(error_bar(evidence_of(analysis_, 0, runs, 2)).is_resolved());
   runs.fewer_elements = {&broken, &twice};
-  EXPECT_FALSE(error_bar(analysis_, 0, runs, 2).is_resolved());
+  EXPECT_FALSE(error_bar(evidence_of(analysis_, 0, runs, 2)).is_resolved());
 }
 
 /// As of a mass and the limits that decide on it: the constant takes no evidence away.
@@ -250,7 +250,7 @@ TEST_F(ErrorBarOfAValue, IsExactOfAConstantWhereStepsFailed) {
   const RefinedRun broken = failed();
   JudgingRuns runs;
   runs.half_step = runs.twice_step = runs.four_steps = &broken;
-  const ErrorBar bar = error_bar(analysis_, 0, runs, 2);
+  const ErrorBar bar = error_bar(evidence_of(analysis_, 0, runs, 2));
   EXPECT_TRUE(bar.is_resolved());
   EXPECT_EQ(bar.bound(), 0.0);
 }
