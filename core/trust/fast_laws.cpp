@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -26,31 +27,6 @@ constexpr double most_missed_share = 1e-2;
 /// Of the direction of what a drive turns: forces of a crank contain twice its frequency, too. 32
 /// steps a revolution.
 constexpr double most_missed_direction = 5e-3;
-
-void add_law(const MissedSubject& subject, const TimeFunction& function, const TimeLaw<double>& law,
-             const Eigen::VectorXd& time, std::vector<Finding>& findings) {
-  const MissedValues missed = missed_by(
-      time,
-      [&](double t) -> ObservedValues {
-        return {law.at(t).value, 0.0};
-      },
-      sharp_times(function, time(time.size() - 1)));
-  add_missed(subject, missed, missed.scale, findings);
-}
-
-void add_load(const std::string& name, const TimeFunction& function, const Design<double>& design,
-              const Eigen::VectorXd& time, std::vector<Finding>& findings) {
-  if (depends_on_state(function)) return;
-  add_law({fmt::format("the load \"{}\"", name), "value", most_missed_share}, function,
-          resolve_time_law(function, design), time, findings);
-}
-
-/// What the motor of a load follows.
-void add_target(const std::string& name, const TimeFunction& target, const Design<double>& design,
-                const Eigen::VectorXd& time, std::vector<Finding>& findings) {
-  add_law({fmt::format("the motor of the load \"{}\"", name), "target", most_missed_share}, target,
-          resolve_time_law(target, design, LawOf::motion), time, findings);
-}
 
 /// The first time within the simulation at which the speed of straight lines or of a formula jumps.
 std::optional<double> speed_jump(const TimeFunction& motion, const TimeLaw<double>& law,
@@ -95,21 +71,12 @@ void add_drive(const Joint& joint, const TimeLaw<double>& law, const Eigen::Vect
   const std::vector<double> knots = sharp_times(joint.drive->motion, time(time.size() - 1));
   if (joint.drive->coordinate == DrivenCoordinate::angle) {
     const MissedValues turned = missed_by(
-        time,
-        [&](double t) -> ObservedValues {
-          const double angle = law.at(t).value;
-          return {std::cos(angle), std::sin(angle)};
-        },
-        knots);
+        time, [&](double t) { return std::polar(1.0, law.at(t).value); }, knots);
     add_missed({who, "direction", most_missed_direction}, turned, 1.0, findings);
     if (turned.largest > most_missed_direction) return;
   }
   const MissedValues moved = missed_by(
-      time,
-      [&](double t) -> ObservedValues {
-        return {law.at(t).acceleration, 0.0};
-      },
-      knots);
+      time, [&](double t) { return law.at(t).acceleration; }, knots);
   add_missed({who, "acceleration", most_missed_share}, moved, moved.scale, findings);
 }
 
@@ -121,17 +88,26 @@ std::vector<Finding> find_fast_laws(const Scene& scene, const Design<double>& de
     if (!joint.drive) continue;
     add_drive(joint, resolve_time_law(joint.drive->motion, design, LawOf::motion), time, findings);
   }
-  const auto add = [&](const std::string& name, const TimeFunction& function) {
-    add_load(name, function, design, time, findings);
+  const auto add = [&](const std::string& who, const char* what, const TimeFunction& function,
+                       LawOf purpose) {
+    if (depends_on_state(function)) return;
+    const TimeLaw<double> law = resolve_time_law(function, design, purpose);
+    const MissedValues missed = missed_by(
+        time, [&](double t) { return law.at(t).value; },
+        sharp_times(function, time(time.size() - 1)));
+    add_missed({who, what, most_missed_share}, missed, missed.scale, findings);
   };
   for (const Load& load : scene.loads) {
+    const std::string who = fmt::format("the load \"{}\"", load.name);
     if (const auto* force = std::get_if<PointForce>(&load.element)) {
-      add(load.name, force->value);
+      add(who, "value", force->value, LawOf::load);
     } else if (const auto* torque = std::get_if<PointTorque>(&load.element)) {
-      add(load.name, torque->value);
+      add(who, "value", torque->value, LawOf::load);
     } else if (const auto* joint = std::get_if<JointForce>(&load.element)) {
-      if (joint->motor) add(load.name, *joint->motor);
-      if (joint->control) add_target(load.name, joint->control->target, design, time, findings);
+      if (joint->motor) add(who, "value", *joint->motor, LawOf::load);
+      if (joint->control) {
+        add("the motor of " + who, "target", joint->control->target, LawOf::motion);
+      }
     }
   }
   return findings;
@@ -162,8 +138,10 @@ constexpr double golden_ratio = 0.6180339887498949;
 /// A jump at an instant belongs to neither side [steps].
 constexpr double beside = 1e-6;
 
-ObservedValues between(const ObservedValues& begin, const ObservedValues& end, double share) {
-  return {begin[0] + share * (end[0] - begin[0]), begin[1] + share * (end[1] - begin[1])};
+using Observed = std::complex<double>;
+
+Observed between(Observed begin, Observed end, double share) {
+  return begin + share * (end - begin);
 }
 
 double median(std::vector<double> values) {
@@ -172,31 +150,26 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-double distance(const ObservedValues& one, const ObservedValues& other) {
-  return std::hypot(one[0] - other[0], one[1] - other[1]);
-}
-
 }  // namespace
 
 MissedValues missed_by(const Eigen::VectorXd& time, const ObservedFunction& value,
                        const std::vector<double>& knots) {
-  const ObservedValues origin = {0.0, 0.0};
   MissedValues missed;
   std::vector<double> of_steps(time.size() - 1, 0.0), of_halves = of_steps;
   double place = 0.0;
   auto knot = knots.begin();
   for (Eigen::Index i = 0; i + 1 < time.size(); ++i) {
     const double h = time(i + 1) - time(i);
-    const ObservedValues begin = value(time(i) + beside * h), middle = value(time(i) + 0.5 * h),
-                         end = value(time(i + 1) - beside * h);
-    missed.scale = std::max({missed.scale, distance(begin, origin), distance(end, origin)});
+    const Observed begin = value(time(i) + beside * h), middle = value(time(i) + 0.5 * h),
+                   end = value(time(i + 1) - beside * h);
+    missed.scale = std::max({missed.scale, std::abs(begin), std::abs(end)});
     const auto look = [&](double at) {
-      const ObservedValues here = value(time(i) + (beside + (1.0 - 2.0 * beside) * at) * h);
-      missed.scale = std::max(missed.scale, distance(here, origin));
-      const double away = distance(here, between(begin, end, at));
-      const ObservedValues of_half =
+      const Observed here = value(time(i) + (beside + (1.0 - 2.0 * beside) * at) * h);
+      missed.scale = std::max(missed.scale, std::abs(here));
+      const double away = std::abs(here - between(begin, end, at));
+      const Observed of_half =
           at < 0.5 ? between(begin, middle, 2.0 * at) : between(middle, end, 2.0 * at - 1.0);
-      of_halves[i] = std::max(of_halves[i], distance(here, of_half));
+      of_halves[i] = std::max(of_halves[i], std::abs(here - of_half));
       of_steps[i] = std::max(of_steps[i], away);
       if (away <= missed.largest) return;
       missed.largest = away;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <array>
+#include <complex>
 #include <functional>
 #include <string>
 #include <vector>
@@ -22,9 +22,8 @@ std::vector<Finding> check_fast_laws_before(const ProblemFile& problem);
 
 // What happens between the instants of a simulation, which sees the instants only.
 
-/// A function of time, of two components.
-using ObservedValues = std::array<double, 2>;
-using ObservedFunction = std::function<ObservedValues(double time)>;
+/// A number, or a direction in a plane.
+using ObservedFunction = std::function<std::complex<double>(double time)>;
 
 /// How far a function of time is from the straight lines between the instants, and where most.
 struct MissedValues {

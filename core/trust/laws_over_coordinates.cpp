@@ -176,9 +176,9 @@ class LawBetweenInstants {
   MissedValues at_frozen_rates(const std::vector<double>& knots) {
     return missed_by(
         time_,
-        [this](double t) -> ObservedValues {
+        [this](double t) {
           const auto [step, share] = place_of(t);
-          return {value(t, step, share, history_.rate(step - 1)), 0.0};
+          return value(t, step, share, history_.rate(step - 1));
         },
         knots);
   }
@@ -187,13 +187,13 @@ class LawBetweenInstants {
   MissedValues beyond_ends(const std::vector<double>& knots) {
     return missed_by(
         time_,
-        [this](double t) -> ObservedValues {
+        [this](double t) {
           const auto [step, share] = place_of(t);
           const double begin = value(time_(step - 1), step, 0.0, history_.rate(step - 1)),
                        end = value(time_(step), step, 1.0, history_.rate(step));
           const double found = value(t, step, share, history_.rate_at(step, share));
           const double within = std::clamp(found, std::min(begin, end), std::max(begin, end));
-          return {begin + share * (end - begin) + found - within, 0.0};
+          return begin + share * (end - begin) + found - within;
         },
         knots);
   }
