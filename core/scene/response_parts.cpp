@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "core/base/find_named.hpp"
 #include "core/scene/load_cases.hpp"
 
 namespace pleuel {
@@ -37,6 +38,25 @@ std::vector<std::size_t> parts_of(const ProblemFile& problem, std::size_t respon
   return all_parts(problem, response, [&](std::size_t one) {
     return problem.responses[one].type == ResponseType::expression;
   });
+}
+
+std::vector<std::string> names_made_of(
+    const ProblemFile& problem, const std::function<bool(const ResponseSettings&)>& is_meant) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < problem.responses.size(); ++i) {
+    const auto is_part = [&](std::size_t part) { return is_meant(problem.responses[part]); };
+    if (std::ranges::any_of(parts_of(problem, i), is_part)) {
+      names.push_back(problem.responses[i].name);
+    }
+  }
+  return names;
+}
+
+std::vector<std::string> bodies_about(const ResponseSettings& response, const Scene& scene) {
+  std::vector<std::string> about = response.bodies;
+  const Joint* joint = find_named(scene.joints, response.joint);
+  if (joint != nullptr) about.insert(about.end(), joint->bodies.begin(), joint->bodies.end());
+  return about;
 }
 
 std::vector<std::size_t> parts_in_cases(const ProblemFile& joined, std::size_t response) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
+#include <string>
 #include <vector>
 
 #include "core/scene/kind_table.hpp"
@@ -11,6 +13,13 @@ namespace pleuel {
 /// Indices of the responses that a response is made from and that are no expressions themselves, in
 /// increasing order; of one that is no expression its own.
 std::vector<std::size_t> parts_of(const ProblemFile& problem, std::size_t response);
+
+/// Names of the responses that are made of one which a condition holds for.
+std::vector<std::string> names_made_of(
+    const ProblemFile& problem, const std::function<bool(const ResponseSettings&)>& is_meant);
+
+/// Names of the bodies that a response is about, those of its joint with it; none of the whole mechanism.
+std::vector<std::string> bodies_about(const ResponseSettings& response, const Scene& scene);
 
 /// Of a response of a joined problem: those of single cases (load_cases.hpp).
 std::vector<std::size_t> parts_in_cases(const ProblemFile& joined, std::size_t response);

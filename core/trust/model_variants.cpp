@@ -12,6 +12,7 @@
 #include "core/base/number_text.hpp"
 #include "core/base/quoted.hpp"
 #include "core/scene/body_groups.hpp"
+#include "core/scene/response_parts.hpp"
 #include "core/trust/bent_beams.hpp"
 #include "core/trust/check_list.hpp"
 #include "core/trust/coarse_runs.hpp"
@@ -297,9 +298,7 @@ class VariantRun {
 
   /// Whether a beam is tied to what a response is about.
   bool depends_on(const ResponseSettings& response, const std::string& beam) const {
-    Names about = response.bodies;
-    const Joint* joint = find_named(run_.problem.scene.joints, response.joint);
-    if (joint != nullptr) about.insert(about.end(), joint->bodies.begin(), joint->bodies.end());
+    Names about = bodies_about(response, run_.problem.scene);
     std::erase(about, ground_name);
     return about.empty() || std::ranges::any_of(about, [&](const std::string& other) {
              return groups_.of(other) == groups_.of(beam);

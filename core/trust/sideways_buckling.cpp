@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/base/int_size.hpp"
 #include "core/linear/elastic_stability.hpp"
 #include "core/response/lateral_buckling_signal.hpp"
 #include "core/trust/check_list.hpp"
@@ -262,17 +261,11 @@ class LoadFactor {
 };
 
 /// When a history is largest, within the window of its response.
-int instant_of_peak(const TrustedRun& run, std::size_t response) {
-  const ResponseSettings& settings = run.problem.responses[response];
-  const Eigen::VectorXd& time = run.analysis.trajectory.time;
-  const Eigen::MatrixXd& history = run.analysis.histories[response];
-  int peak = -1;
-  for (int n = 0; n < int_size(time); ++n) {
-    const bool is_within =
-        time(n) >= settings.from.value_or(time(n)) && time(n) <= settings.to.value_or(time(n));
-    if (is_within && (peak < 0 || history(0, n) > history(0, peak))) peak = n;
-  }
-  return peak;
+int instant_of_peak(const Analysis& analysis, std::size_t response) {
+  const StepRange range = analysis.responses[response].steps(analysis.trajectory.time);
+  Eigen::Index peak = 0;
+  analysis.histories[response].row(0).segment(range.first, range.steps()).maxCoeff(&peak);
+  return range.first + static_cast<int>(peak);
 }
 
 /// The smallest upper limit on a response, or one half.
@@ -300,8 +293,7 @@ std::vector<Finding> check_promised_buckling(const TrustedRun& run) {
   for (std::size_t i = 0; i < responses.size(); ++i) {
     const ResponseSettings& response = responses[i];
     if (response.type != ResponseType::buckling) continue;
-    const int peak = instant_of_peak(run, i);
-    if (peak < 0) continue;
+    const int peak = instant_of_peak(run.analysis, i);
     const double promised = run.analysis.histories[i](0, peak);
     const double factor = load_factor.at(peak);
     const double allowed = largest_allowed(run.problem, response.name);

@@ -188,17 +188,10 @@ bool is_limited(const ProblemFile& problem, const ResponseSettings& response, do
 }
 
 /// The furthest that a history goes to one side, within the window of its response.
-double furthest(const TrustedRun& run, std::size_t response, double side) {
-  const ResponseSettings& settings = run.problem.responses[response];
-  const Eigen::VectorXd& time = run.analysis.trajectory.time;
-  const Eigen::MatrixXd& history = run.analysis.histories[response];
-  double far = 0.0;
-  for (Eigen::Index n = 0; n < history.cols(); ++n) {
-    const bool is_within =
-        time(n) >= settings.from.value_or(time(n)) && time(n) <= settings.to.value_or(time(n));
-    if (is_within) far = std::max(far, side * history(0, n));
-  }
-  return far;
+double furthest(const Analysis& analysis, std::size_t response, double side) {
+  const StepRange range = analysis.responses[response].steps(analysis.trajectory.time);
+  const auto seen = analysis.histories[response].row(0).segment(range.first, range.steps());
+  return std::max(0.0, side > 0.0 ? seen.maxCoeff() : -seen.minCoeff());
 }
 
 }  // namespace
@@ -213,7 +206,7 @@ std::vector<Finding> check_other_side(const TrustedRun& run) {
     if (response.over_time != OverTime::max && response.over_time != OverTime::min) continue;
     const double side = response.over_time == OverTime::max ? 1.0 : -1.0;
     const double reach = reach_of(limit, response, side);
-    const double beyond = furthest(run, *index, -side);
+    const double beyond = furthest(run.analysis, *index, -side);
     const bool is_beyond = reach > 0.0 && beyond > reach;
     if (!is_beyond || is_limited(run.problem, response, -side)) continue;
     const ShownUnit unit = unit_of(response);

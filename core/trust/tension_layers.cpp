@@ -69,8 +69,7 @@ class TautPlane {
 
 /// What is made from bending moments of a body.
 std::vector<std::string> bent_responses(const ProblemFile& problem, const std::string& body) {
-  const auto is_bent = [&](std::size_t part) {
-    const ResponseSettings& response = problem.responses[part];
+  return names_made_of(problem, [&](const ResponseSettings& response) {
     const bool is_of_moments =
         (response.type == ResponseType::stress && response.part != StressPart::axial) ||
         (response.type == ResponseType::section_force &&
@@ -78,14 +77,7 @@ std::vector<std::string> bent_responses(const ProblemFile& problem, const std::s
         response.type == ResponseType::fatigue || response.type == ResponseType::fatigue_damage;
     return is_of_moments &&
            std::find(response.bodies.begin(), response.bodies.end(), body) != response.bodies.end();
-  };
-  std::vector<std::string> found;
-  for (std::size_t i = 0; i < problem.responses.size(); ++i) {
-    const std::vector<std::size_t> parts = parts_of(problem, i);
-    if (std::any_of(parts.begin(), parts.end(), is_bent))
-      found.push_back(problem.responses[i].name);
-  }
-  return found;
+  });
 }
 
 }  // namespace

@@ -305,30 +305,11 @@ class IdleFreedoms {
 
   /// Responses of the bodies, of their joints, and of the whole mechanism.
   std::vector<std::string> concerned(const std::vector<std::string>& names) const {
-    const auto is_one = [&](const std::string& name) {
-      return std::find(names.begin(), names.end(), name) != names.end();
-    };
-    const auto is_concerned = [&](std::size_t part) {
-      const ResponseSettings& response = run_.problem.responses[part];
-      if (response.type == ResponseType::mass) return false;
-      bool is_of_one = response.joint.empty()
-                           ? response.bodies.empty() ||
-                                 std::any_of(response.bodies.begin(), response.bodies.end(), is_one)
-                           : false;
-      for (const Joint& joint : run_.problem.scene.joints) {
-        if (joint.name != response.joint) continue;
-        is_of_one = is_one(joint.bodies[0]) || is_one(joint.bodies[1]);
-      }
-      return is_of_one;
-    };
-    std::vector<std::string> found;
-    for (std::size_t i = 0; i < run_.problem.responses.size(); ++i) {
-      const std::vector<std::size_t> parts = parts_of(run_.problem, i);
-      if (std::any_of(parts.begin(), parts.end(), is_concerned)) {
-        found.push_back(run_.problem.responses[i].name);
-      }
-    }
-    return found;
+    return names_made_of(run_.problem, [&](const ResponseSettings& response) {
+      const std::vector<std::string> about = bodies_about(response, run_.problem.scene);
+      return response.type != ResponseType::mass &&
+             (about.empty() || std::ranges::find_first_of(about, names) != about.end());
+    });
   }
 
   const TrustedRun& run_;
