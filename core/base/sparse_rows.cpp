@@ -337,6 +337,13 @@ Index rank_of_rows(SparseRows rows, double threshold) {
   return rank;
 }
 
+Index rank_added_by(const std::vector<int>& added, SparseRows rows, double threshold) {
+  const Index all = rank_of_rows(rows, threshold);
+  for (const int row : added) rows.row(row) *= 0.0;
+  rows.prune(0.0);
+  return all - rank_of_rows(std::move(rows), threshold);
+}
+
 MatrixXd null_space_of_rows(SparseRows rows, double threshold, Index most) {
   normalize(rows);
   std::vector<MatrixXd> spaces;

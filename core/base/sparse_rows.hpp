@@ -52,6 +52,9 @@ RankedRows rank_rows(SparseRows rows, double negligible);
 /// @throws SimulationError  if a number is not finite
 Eigen::Index rank_of_rows(SparseRows rows, double threshold);
 
+/// By how much some of the rows raise the rank of the others.
+Eigen::Index rank_added_by(const std::vector<int>& added, SparseRows rows, double threshold);
+
 /// Columns: an orthonormal basis of { x : rows x = 0 }.
 /// @param most  of a large block, whose basis takes their number squared, so many generic ones
 /// @throws SimulationError  if a number is not finite

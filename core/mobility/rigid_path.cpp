@@ -226,18 +226,11 @@ class Follower {
 
   /// Whether joints, or other drives, hold already what some drives would move.
   bool drives_move_nothing(const Eigen::VectorXd& q) const {
-    SparseRows all = jacobian_at(q, 0.0);
-    SparseRows joints = all;
-    int drives = 0;
+    std::vector<int> drives;
     for (int row = 0; row < constraints_.rows(); ++row) {
-      if (!constraints_.is_drive()[row]) continue;
-      joints.row(row) *= 0.0;
-      ++drives;
+      if (constraints_.is_drive()[row]) drives.push_back(row);
     }
-    joints.prune(0.0);
-    return rank_of_rows(std::move(all), clearly_independent) -
-               rank_of_rows(std::move(joints), clearly_independent) <
-           drives;
+    return rank_added_by(drives, jacobian_at(q, 0.0), clearly_independent) < std::ssize(drives);
   }
 
   /// Goes on where joints are hardly apart, as of dimensions that are rounded.

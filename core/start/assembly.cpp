@@ -167,6 +167,41 @@ void assembly_matrix(const Mechanism& mechanism, const State& state, System::Mat
   }
 }
 
+SparseRows scaled_constraints(const Mechanism& mechanism, const State& state,
+                              const Eigen::VectorXd& scale) {
+  System& system = *mechanism.system;
+  const int n = system.coordinates();
+  System::Matrix matrix = system.make_matrix();
+  system.tangent(state, {.q = 1.0}, ConstraintLevel::position, matrix);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int column = 0; column < n; ++column) {
+    if (scale(column) == 0.0) continue;
+    for (System::Matrix::InnerIterator entry(matrix, column); entry; ++entry) {
+      if (entry.row() < n) continue;
+      entries.emplace_back(entry.row() - n, column, scale(column) * entry.value());
+    }
+  }
+  SparseRows rows(system.multipliers(), n);
+  rows.setFromTriplets(entries.begin(), entries.end());
+  return rows;
+}
+
+bool close_constraints(const Mechanism& mechanism, const Eigen::VectorXd& scale,
+                       const std::vector<int>& rows, double tolerance, State& state) {
+  constexpr int most_iterations = 20;
+  Eigen::VectorXd residual;
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    mechanism.system->residual(state, ConstraintLevel::position, residual);
+    const Eigen::VectorXd all = residual.tail(mechanism.system->multipliers()), open = all(rows);
+    if (open.size() == 0 || open.lpNorm<Eigen::Infinity>() <= tolerance) return true;
+    const SparseRows kept = select_rows(scaled_constraints(mechanism, state, scale), rows);
+    const Eigen::VectorXd step = least_norm_solution(kept, open), before = state.q;
+    advance(mechanism.rotations, before, -scale.cwiseProduct(step), state.q);
+    if (!state.q.allFinite()) return false;
+  }
+  return false;
+}
+
 InitialState assemble(Mechanism& mechanism, LinearSolver& solver, System::Matrix& matrix) {
   InitialState initial;
   initial.state = mechanism.guess;

@@ -1,5 +1,10 @@
 #pragma once
 
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/base/sparse_rows.hpp"
 #include "core/mechanism/linear_solver.hpp"
 #include "core/mechanism/mechanism.hpp"
 
@@ -22,6 +27,18 @@ void projection_matrix(const Mechanism& mechanism, const State& state, System::M
 
 /// The same with the whole W: the matrix of assembly, up to curvature.
 void assembly_matrix(const Mechanism& mechanism, const State& state, System::Matrix& matrix);
+
+/// Φ_q with respect to coordinates over a scale, m × n: also of constraints that are left out, but
+/// nothing of coordinates whose scale is zero.
+SparseRows scaled_constraints(const Mechanism& mechanism, const State& state,
+                              const Eigen::VectorXd& scale);
+
+/// Closes some of the constraints by the least motion in coordinates over a scale; those whose scale is
+/// zero stay. @returns whether that succeeds
+/// @param rows       of the constraints
+/// @param tolerance  of each [rad, m]
+bool close_constraints(const Mechanism& mechanism, const Eigen::VectorXd& scale,
+                       const std::vector<int>& rows, double tolerance, State& state);
 
 /// Factorizes a matrix of the start. @throws SimulationError if it is singular
 /// @param what  is solved for, for the message: "positions"

@@ -1,5 +1,6 @@
 #include "core/start/degrees_of_freedom.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <vector>
@@ -33,25 +34,26 @@ std::vector<int> rigid_coordinates(const Mechanism& mechanism) {
   return rigid;
 }
 
+/// The scale of rigid coordinates, zero of elastic ones.
+Eigen::VectorXd rigid_scale(const Mechanism& mechanism) {
+  Eigen::VectorXd scale = mechanism.scale;
+  for (const int i : mechanism.elastic) scale(i) = 0.0;
+  return scale;
+}
+
 /// Φ_q with respect to rigid coordinates over their scale.
-SparseRows rigid_jacobian(const Mechanism& mechanism, const State& state,
-                          const std::vector<int>& rigid) {
-  const System& system = *mechanism.system;
-  System::Matrix matrix = system.make_matrix();
-  projection_matrix(mechanism, state, matrix);
-  std::vector<bool> is_left_out(system.multipliers(), false);
-  for (const int row : system.left_out()) is_left_out[row] = true;
-  std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t j = 0; j < rigid.size(); ++j) {
-    for (System::Matrix::InnerIterator entry(matrix, rigid[j]); entry; ++entry) {
-      const auto row = static_cast<int>(entry.row()) - system.coordinates();
-      if (row < 0 || is_left_out[row]) continue;
-      entries.emplace_back(row, j, mechanism.scale(rigid[j]) * entry.value());
-    }
+SparseRows rigid_jacobian(const Mechanism& mechanism, const State& state) {
+  SparseRows rows = scaled_constraints(mechanism, state, rigid_scale(mechanism));
+  for (const int row : mechanism.system->left_out()) rows.row(row) *= 0.0;
+  return rows;
+}
+
+std::vector<int> kept_rows(const System& system) {
+  std::vector<int> kept;
+  for (int row = 0; row < system.multipliers(); ++row) {
+    if (std::ranges::find(system.left_out(), row) == system.left_out().end()) kept.push_back(row);
   }
-  SparseRows jacobian(system.multipliers(), rigid.size());
-  jacobian.setFromTriplets(entries.begin(), entries.end());
-  return jacobian;
+  return kept;
 }
 
 bool is_closed(const Mechanism& mechanism, const State& state) {
@@ -62,67 +64,26 @@ bool is_closed(const Mechanism& mechanism, const State& state) {
   return open.lpNorm<Eigen::Infinity>() <= meets * mechanism.scale.maxCoeff();
 }
 
-/// Closes the constraints by rigid motion. @returns whether that succeeds
-bool close(const Mechanism& mechanism, const std::vector<int>& rigid, State& state) {
-  constexpr int most_iterations = 20;
-  constexpr double closed = 1e-9;
-  const int m = mechanism.system->multipliers();
-  Eigen::VectorXd residual;
-  for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    mechanism.system->residual(state, ConstraintLevel::position, residual);
-    Eigen::VectorXd open = residual.tail(m);
-    for (const int row : mechanism.system->left_out()) open(row) = 0.0;
-    if (open.lpNorm<Eigen::Infinity>() <= closed) return true;
-    const Eigen::VectorXd step = least_norm_solution(rigid_jacobian(mechanism, state, rigid), open);
-    Eigen::VectorXd change = Eigen::VectorXd::Zero(state.q.size());
-    for (std::size_t j = 0; j < rigid.size(); ++j) {
-      change(rigid[j]) = -mechanism.scale(rigid[j]) * step(j);
-    }
-    const Eigen::VectorXd before = state.q;
-    advance(mechanism.rotations, before, change, state.q);
-    if (!state.q.allFinite()) return false;
-  }
-  return false;
-}
-
 }  // namespace
 
 DegreesOfFreedom rigid_degrees_of_freedom(const Mechanism& mechanism, const State& state) {
-  const std::vector<int> rigid = rigid_coordinates(mechanism);
   DegreesOfFreedom freedoms;
-  freedoms.coordinates = int_size(rigid);
-  if (rigid.empty() || mechanism.system->multipliers() == 0) return freedoms;
+  freedoms.coordinates = int_size(rigid_coordinates(mechanism));
+  if (freedoms.coordinates == 0 || mechanism.system->multipliers() == 0) return freedoms;
   freedoms.constraints =
-      static_cast<int>(rank_of_rows(rigid_jacobian(mechanism, state, rigid), independent));
+      static_cast<int>(rank_of_rows(rigid_jacobian(mechanism, state), independent));
   return freedoms;
 }
 
 int blocked_drives(const Mechanism& mechanism, const State& state, const std::vector<int>& drives) {
   if (drives.empty()) return 0;
-  const std::vector<int> rigid = rigid_coordinates(mechanism);
   const State& placed = is_closed(mechanism, mechanism.guess) ? mechanism.guess : state;
-  SparseRows all = rigid_jacobian(mechanism, placed, rigid);
-  SparseRows joints = all;
-  for (const int row : drives) joints.row(row) *= 0.0;
-  joints.prune(0.0);
-  const Eigen::Index added = rank_of_rows(std::move(all), clearly_independent) -
-                             rank_of_rows(std::move(joints), clearly_independent);
-  return int_size(drives) - static_cast<int>(added);
+  const SparseRows rows = rigid_jacobian(mechanism, placed);
+  return int_size(drives) - static_cast<int>(rank_added_by(drives, rows, clearly_independent));
 }
 
 FreeMotions::FreeMotions(const Mechanism& mechanism, const State& state)
-    : rigid_(rigid_coordinates(mechanism)),
-      jacobian_(mechanism.system->multipliers(), mechanism.system->coordinates()) {
-  if (mechanism.system->multipliers() == 0) return;
-  const SparseRows rows = rigid_jacobian(mechanism, state, rigid_);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (Eigen::Index row = 0; row < rows.rows(); ++row) {
-    for (SparseRows::InnerIterator entry(rows, row); entry; ++entry) {
-      entries.emplace_back(row, rigid_[entry.col()], entry.value());
-    }
-  }
-  jacobian_.setFromTriplets(entries.begin(), entries.end());
-}
+    : rigid_(rigid_coordinates(mechanism)), jacobian_(rigid_jacobian(mechanism, state)) {}
 
 /// Those that have entries.
 SparseRows FreeMotions::rows_of(const std::vector<int>& coordinates) const {
@@ -159,7 +120,9 @@ Eigen::MatrixXd free_motions(const Mechanism& mechanism, const State& state) {
 }
 
 State generic_position(const Mechanism& mechanism, const State& state) {
-  const std::vector<int> rigid = rigid_coordinates(mechanism);
+  constexpr double closed = 1e-9;
+  const Eigen::VectorXd scale = rigid_scale(mechanism);
+  const std::vector<int> rows = kept_rows(*mechanism.system);
   const Eigen::MatrixXd motions = free_motions(mechanism, state);
   Eigen::VectorXd way(motions.cols());
   for (Eigen::Index i = 0; i < way.size(); ++i) way(i) = std::sin(1.0 + 2.3 * double(i));
@@ -170,7 +133,7 @@ State generic_position(const Mechanism& mechanism, const State& state) {
           distance * mechanism.scale.cwiseProduct(motions * way.normalized());
       advance(mechanism.rotations, state.q, change, moved.q);
     }
-    if (mechanism.system->multipliers() == 0 || close(mechanism, rigid, moved)) return moved;
+    if (close_constraints(mechanism, scale, rows, closed, moved)) return moved;
   }
   return state;
 }

@@ -65,14 +65,11 @@ void add_block(const System::Matrix& matrix, const PlacedBlock& block, Triplets&
 /// of Φ_q in which the coordinates of the frames cancel. For each, one of its constraints, that on
 /// which the elastic coordinates act most.
 std::vector<bool> closed_by_deformation(Mechanism& mechanism) {
-  System& system = *mechanism.system;
-  const int n = system.coordinates(), m = system.multipliers();
+  const System& system = *mechanism.system;
+  const int m = system.multipliers();
   std::vector<bool> is_closed(m, false);
   if (m == 0) return is_closed;
-  System::Matrix matrix = system.make_matrix();
-  system.tangent(mechanism.guess, {.q = 1.0}, ConstraintLevel::position, matrix);
-  const Eigen::MatrixXd phi =
-      Eigen::MatrixXd(matrix).bottomLeftCorner(m, n) * mechanism.scale.asDiagonal();
+  const Eigen::MatrixXd phi(scaled_constraints(mechanism, mechanism.guess, mechanism.scale));
   std::vector<bool> is_left_out(m, false);
   for (int i : system.left_out()) is_left_out[i] = true;
   std::vector<int> rows;

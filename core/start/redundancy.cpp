@@ -22,7 +22,6 @@ constexpr double small = 1e-3;
 /// The independent constraints are closed to a tenth of this. One that is independent at its end
 /// is off by small².
 constexpr double closed = 1e-10;
-constexpr int max_closing_steps = 20;
 /// What opens by more, of the way that is moved, does not follow from the others but from a drive.
 constexpr double most_misaligned = 3e-2;
 
@@ -34,8 +33,7 @@ class MovedMechanism {
         system_(*mechanism.system),
         state_(std::move(state)),
         start_(state_.q),
-        scale_(std::move(scale)),
-        matrix_(system_.make_matrix()) {}
+        scale_(std::move(scale)) {}
 
   Eigen::VectorXd constraints() {
     system_.residual(state_, ConstraintLevel::position, residual_);
@@ -43,20 +41,7 @@ class MovedMechanism {
   }
 
   /// Φ_q with respect to coordinates over their scale, m × n.
-  SparseRows jacobian() {
-    system_.tangent(state_, {.q = 1.0}, ConstraintLevel::position, matrix_);
-    const int n = system_.coordinates();
-    std::vector<Eigen::Triplet<double>> entries;
-    for (int column = 0; column < n; ++column) {
-      for (System::Matrix::InnerIterator entry(matrix_, column); entry; ++entry) {
-        if (entry.row() < n) continue;
-        entries.emplace_back(entry.row() - n, column, entry.value() * scale_(column));
-      }
-    }
-    SparseRows rows(system_.multipliers(), n);
-    rows.setFromTriplets(entries.begin(), entries.end());
-    return rows;
-  }
+  SparseRows jacobian() const { return scaled_constraints(mechanism_, state_, scale_); }
 
   /// A motion that the kept constraints leave free, of length one in each of the parts of the
   /// mechanism that no constraint connects; zero if they leave none.
@@ -88,28 +73,18 @@ class MovedMechanism {
 
   /// Moves and closes the kept constraints. @returns whether they close
   bool move(const Eigen::VectorXd& scaled, double time, const std::vector<int>& kept) {
-    add(scaled);
+    const Eigen::VectorXd before = state_.q;
+    advance(mechanism_.rotations, before, scale_.cwiseProduct(scaled), state_.q);
     state_.time += time;
-    for (int iteration = 0; iteration < max_closing_steps; ++iteration) {
-      const Eigen::VectorXd open = constraints()(kept);
-      if (open.size() == 0 || open.lpNorm<Eigen::Infinity>() <= 0.1 * closed) return true;
-      add(-least_norm_solution(select_rows(jacobian(), kept), open));
-    }
-    return false;
+    return close_constraints(mechanism_, scale_, kept, 0.1 * closed, state_);
   }
 
  private:
-  void add(const Eigen::VectorXd& scaled) {
-    const Eigen::VectorXd start = state_.q;
-    advance(mechanism_.rotations, start, scale_.cwiseProduct(scaled), state_.q);
-  }
-
   const Mechanism& mechanism_;
   System& system_;
   State state_;
   Eigen::VectorXd start_;  ///< q
   Eigen::VectorXd scale_;
-  System::Matrix matrix_;
   Eigen::VectorXd residual_;
 };
 
@@ -161,7 +136,7 @@ Eigen::VectorXd generous_scale(const Mechanism& mechanism) {
 /// whole may be so much larger than its bodies that, in its size, their turning would count for
 /// nothing.
 Eigen::VectorXd local_scale(const Mechanism& mechanism, const State& state, Eigen::VectorXd scale) {
-  const SparseRows jacobian = MovedMechanism(mechanism, state, scale).jacobian();
+  const SparseRows jacobian = scaled_constraints(mechanism, state, scale);
   Eigen::VectorXd squares = Eigen::VectorXd::Zero(scale.size());
   for (Eigen::Index row = 0; row < jacobian.rows(); ++row) {
     for (SparseRows::InnerIterator entry(jacobian, row); entry; ++entry) {
@@ -224,7 +199,7 @@ std::vector<NearRedundancy> nearly_redundant_constraints(const Mechanism& mechan
   const System& system = *mechanism.system;
   if (system.multipliers() == 0) return {};
   const Eigen::VectorXd scale = local_scale(mechanism, state, generous_scale(mechanism));
-  SparseRows jacobian = MovedMechanism(mechanism, state, scale).jacobian();
+  SparseRows jacobian = scaled_constraints(mechanism, state, scale);
   for (const int row : system.left_out()) jacobian.row(row) *= 0.0;
   for (const int row : drives) jacobian.row(row) *= 0.0;
   std::vector<NearRedundancy> found;
