@@ -386,29 +386,13 @@ State without_forces(const Mechanism& mechanism, const State& loaded) {
 namespace {
 
 /// The axes in which the deformations of a mechanism are counted: those that turn with it, if all
-/// that deforms turns alike, or those of the file.
-class MotionAxes {
- public:
-  MotionAxes(const Mechanism& mechanism, const State& state) : mechanism_(mechanism) {
-    const BodyTurn turn = fastest_turn(mechanism, state);
-    if (turn.omega.isZero(0.0) || !turns_alike(mechanism, state, turn)) return;
-    if (!deforming_parts(mechanism, state, turn, {}).standing.empty()) return;
-    turning_ = rotor_turning(mechanism, state);
-  }
-
-  /// The symmetric part of the stiffness, with the inertia forces of axes that turn.
-  /// @param z  deformations in axes that stand still
-  Eigen::MatrixXd stiffness(const State& state, const Eigen::MatrixXd& z) const {
-    if (!turning_) return symmetric_part(deformation_stiffness(mechanism_, state, z));
-    const Eigen::MatrixXd y =
-        mechanism_.scale.asDiagonal() * DenseLu(scaled_axes(mechanism_, *turning_)).solve(z);
-    return symmetric_part(y.transpose() * linearize(mechanism_, state, *turning_, true).K * y);
-  }
-
- private:
-  const Mechanism& mechanism_;
-  std::optional<Turning> turning_;
-};
+/// that deforms turns alike; else none, as they are those of the file.
+std::optional<Turning> axes_of_motion(const Mechanism& mechanism, const State& state) {
+  const BodyTurn turn = fastest_turn(mechanism, state);
+  if (turn.omega.isZero(0.0) || !turns_alike(mechanism, state, turn)) return std::nullopt;
+  if (!deforming_parts(mechanism, state, turn, {}).standing.empty()) return std::nullopt;
+  return rotor_turning(mechanism, state);
+}
 
 /// What deflection couples of bending with stretching.
 Eigen::MatrixXd coupling_of_strains(const MechanismState& at, const Eigen::MatrixXd& z) {
@@ -430,14 +414,18 @@ double buckling_load_factor(const MechanismState& unloaded, const MechanismState
   const State &begin = unloaded.state, &end = loaded.state;
   const Eigen::MatrixXd elastic = z.transpose() * elastic_stiffness(unloaded.mechanism, begin) * z;
   if (!Cholesky(elastic).is_positive_definite()) return none;
-  const MotionAxes axes(loaded.mechanism, end);
+  const std::optional<Turning> axes = axes_of_motion(loaded.mechanism, end);
+  // The symmetric part, with the inertia forces of axes that turn.
   const auto stiffness = [&](const Eigen::VectorXd& q, const Eigen::VectorXd& a,
                              const Eigen::VectorXd& lambda) -> Eigen::MatrixXd {
     State at = end;
     at.q = q;
     at.a = a;
     at.lambda = lambda;
-    return axes.stiffness(at, z);
+    if (!axes) return symmetric_part(deformation_stiffness(loaded.mechanism, at, z));
+    const Eigen::MatrixXd y = loaded.mechanism.scale.asDiagonal() *
+                              DenseLu(scaled_axes(loaded.mechanism, *axes)).solve(z);
+    return symmetric_part(y.transpose() * linearize(loaded.mechanism, at, *axes, true).K * y);
   };
   // Accelerations and multipliers bear all loads at the begin, and change to those of equilibrium;
   // deformation grows with the share.

@@ -6,6 +6,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/base/rotation_vector.hpp"
+#include "core/base/sparse_rows.hpp"
 #include "core/linear/free_deformations.hpp"
 
 namespace pleuel {
@@ -17,23 +18,17 @@ constexpr double shift_share = 1e-4;
 /// Below this share of σ a motion counts as free: its double eigenvalue 0 comes out of the solver
 /// as σ √(machine precision), some 1e-8 σ.
 constexpr double free_motion = 1e-4;
+/// Constraints of which less is left across others are dependent.
+constexpr double independent = 1e-10;
 
 /// Matrices on the free motions, with unit inertia.
 class ReducedMotions {
  public:
   explicit ReducedMotions(const Linearization& linearized)
       : linearized_(linearized), n_(linearized.M.rows()) {
-    std::vector<Eigen::Index> rows;
-    for (int i = 0; i < static_cast<int>(linearized.phi.rows()); ++i) {
-      const auto& without = linearized.left_out;
-      if (std::find(without.begin(), without.end(), i) == without.end()) rows.push_back(i);
-    }
-    const Eigen::Index m = rows.size();
-    null_space_ = Eigen::MatrixXd::Identity(n_, n_).rightCols(n_ - m);
-    if (m > 0) {
-      const Eigen::MatrixXd phi = linearized.phi(rows, Eigen::all);
-      null_space_ = PivotedQr(phi.transpose()).q().rightCols(n_ - m);
-    }
+    Eigen::MatrixXd phi = linearized.phi;
+    for (const int row : linearized.left_out) phi.row(row).setZero();
+    null_space_ = null_space_of_rows(phi.sparseView(), independent);
     mass_ = Cholesky(null_space_.transpose() * linearized.M * null_space_);
     if (!mass_.is_positive_definite()) {
       throw SimulationError("the natural frequencies do not exist: a free motion has no inertia");
@@ -168,10 +163,6 @@ std::optional<std::complex<double>> growing_mode(const Mechanism& mechanism, con
 
 Eigen::VectorXd frequencies_of(const Linearization& linearized) {
   return modes_of(linearized).unaryExpr(&frequency_of).real();
-}
-
-Eigen::VectorXd mechanism_frequencies(const Mechanism& mechanism, const State& state) {
-  return frequencies_of(linearize(mechanism, state));
 }
 
 }  // namespace pleuel

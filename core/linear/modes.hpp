@@ -45,13 +45,9 @@ bool vibrates(std::complex<double> s);
 /// The mode with damping that grows fastest, if one grows by more than round-off.
 std::optional<std::complex<double>> growing_mode(const Mechanism& mechanism, const State& state);
 
-/// Natural angular frequencies [rad/s], ascending; growing modes first and negative.
+/// Natural angular frequencies [rad/s], ascending; growing modes first and negative: drives and joints
+/// hold, loads and gravity count. Exact for a mechanism at rest in equilibrium; about a motion, an
+/// approximation for frequencies that are high against its rates, since coefficients are frozen.
 Eigen::VectorXd frequencies_of(const Linearization& linearized);
-
-/// Natural angular frequencies of a mechanism about a state [rad/s], ascending, unstable modes
-/// first and negative: drives and joints hold, loads and gravity count. Exact for a mechanism at
-/// rest in equilibrium; about a motion, an approximation for frequencies that are high against its
-/// rates, since coefficients are frozen.
-Eigen::VectorXd mechanism_frequencies(const Mechanism& mechanism, const State& state);
 
 }  // namespace pleuel
