@@ -51,23 +51,32 @@ struct PlacedBlock {
   int to_row, to_col;                  ///< in the Jacobian
 };
 
-void add_block(const System::Matrix& matrix, const PlacedBlock& block, Triplets& entries) {
+/// @param keeps  of a row and a column of the block, whether the entry there belongs to it
+template <class Keeps>
+void add_block(const System::Matrix& matrix, const PlacedBlock& block, const Keeps& keeps,
+               Triplets& entries) {
   for (int col = block.from_col; col < block.from_col + block.cols; ++col) {
     for (System::Matrix::InnerIterator it(matrix, col); it; ++it) {
       const int row = static_cast<int>(it.row()) - block.from_row;
-      if (row < 0 || row >= block.rows) continue;
+      if (row < 0 || row >= block.rows || !keeps(row, col - block.from_col)) continue;
       entries.emplace_back(block.to_row + row, block.to_col + col - block.from_col, it.value());
     }
   }
 }
 
+void add_block(const System::Matrix& matrix, const PlacedBlock& block, Triplets& entries) {
+  add_block(
+      matrix, block, [](int, int) { return true; }, entries);
+}
+
 /// Constraints that the frames alone cannot meet, as others hold them: combinations y of the rows
 /// of Φ_q in which the coordinates of the frames cancel. For each, one of its constraints, that on
 /// which the elastic coordinates act most.
-std::vector<bool> closed_by_deformation(Mechanism& mechanism) {
+/// @returns one for each of them, zero for all others (m)
+Eigen::VectorXd closed_by_deformation(Mechanism& mechanism) {
   const System& system = *mechanism.system;
   const int m = system.multipliers();
-  std::vector<bool> is_closed(m, false);
+  Eigen::VectorXd is_closed = Eigen::VectorXd::Zero(m);
   if (m == 0) return is_closed;
   const Eigen::MatrixXd phi(scaled_constraints(mechanism, mechanism.guess, mechanism.scale));
   std::vector<bool> is_left_out(m, false);
@@ -84,8 +93,7 @@ std::vector<bool> closed_by_deformation(Mechanism& mechanism) {
   const PivotedQr choice(qr.normal_space().transpose() * elastic.asDiagonal());
   const std::vector<int> order = choice.order();
   for (Eigen::Index i = 0; i < choice.rank(); ++i) {
-    const std::size_t row = order[i];
-    is_closed[rows[row]] = true;
+    is_closed(rows[order[i]]) = 1.0;
   }
   return is_closed;
 }
@@ -114,18 +122,7 @@ Equilibrium::Equilibrium(Mechanism& mechanism)
       n_(system_.coordinates()),
       m_(system_.multipliers()),
       strains_(system_),
-      is_closed_by_deformation_(closed_by_deformation(mechanism)) {}
-
-Eigen::VectorXd Equilibrium::of_frames(Eigen::VectorXd multipliers) const {
-  for (int i = 0; i < m_; ++i) {
-    if (is_closed_by_deformation_[i]) multipliers(i) = 0.0;
-  }
-  return multipliers;
-}
-
-Eigen::VectorXd Equilibrium::of_deformation(const Eigen::VectorXd& multipliers) const {
-  return multipliers - of_frames(multipliers);
-}
+      closed_by_deformation_(closed_by_deformation(mechanism)) {}
 
 // Rows: motion n, Φ̈ m, position n (that of elastic coordinates), Φ m, velocity n, Φ̇ m. Rows of
 // constraints that are left out say λ_i = μ_i = ν_i = 0.
@@ -181,14 +178,10 @@ Eigen::SparseMatrix<double> Equilibrium::jacobian(const InitialState& at) const 
 
   // The derivatives of Φ_qᵀ μ and Φ_qᵀ ν
   LinearForces constraints(system_);
-  const auto add_forces = [&](const Eigen::VectorXd& multipliers, int row, int column,
-                              Triplets& to) {
-    constraints.set(state, multipliers);
-    constraints.tangent(matrix);
-    add_block(matrix, {0, n, n, m, row, column}, to);
-    add_block(matrix, {0, n, 0, n, row, 0}, to);
-  };
-  add_forces(at.velocity_multipliers, velocity, nu, entries);
+  constraints.set(state, at.velocity_multipliers);
+  constraints.tangent(matrix);
+  add_block(matrix, {0, n, n, m, velocity, nu}, entries);
+  add_block(matrix, {0, n, 0, n, velocity, 0}, entries);
   for (int i : system_.left_out()) {
     entries.emplace_back(n + i, lambda + i, 1.0);
     entries.emplace_back(position + n + i, mu + i, 1.0);
@@ -197,9 +190,10 @@ Eigen::SparseMatrix<double> Equilibrium::jacobian(const InitialState& at) const 
   const Eigen::VectorXd& weight = mechanism_.assembly_weight;
   for (int i = 0; i < n; ++i) entries.emplace_back(velocity + i, n + i, weight(i));
 
-  // W δ(q ⊖ q̂)
+  // W δ(q ⊖ q̂) of the frames
   const Eigen::VectorXd d = difference(mechanism_.rotations, state.q, mechanism_.guess.q);
-  std::vector<bool> is_plain(n, true);
+  std::vector<bool> is_plain(n, true), is_elastic(n, false);
+  for (int i : mechanism_.elastic) is_elastic[i] = true;
   for (int i : mechanism_.rotations) {
     const Eigen::Matrix3d pull = inverse_tangent_operator(d.segment<3>(i));
     for (int row = 0; row < 3; ++row) {
@@ -210,34 +204,23 @@ Eigen::SparseMatrix<double> Equilibrium::jacobian(const InitialState& at) const 
     }
   }
   for (int i = 0; i < n; ++i) {
-    if (is_plain[i]) entries.emplace_back(position + i, i, weight(i));
+    if (is_plain[i] && !is_elastic[i]) entries.emplace_back(position + i, i, weight(i));
   }
 
   // Φ_qᵀ μ: in the rows of frames that of the constraints which frames meet, in those of elastic
   // coordinates, which say a_e + Φ_qᵀ μ = 0 instead, that of the others.
-  std::vector<bool> is_elastic(n, false);
-  for (int i : mechanism_.elastic) is_elastic[i] = true;
-  const auto drop_rows = [&](bool elastic, Triplets& from) {
-    std::erase_if(from, [&](const auto& entry) {
-      const int row = entry.row() - position;
-      return row >= 0 && row < n && is_elastic[row] == elastic;
-    });
+  const auto add_forces = [&](const Eigen::VectorXd& multipliers, bool elastic) {
+    constraints.set(state, multipliers);
+    constraints.tangent(matrix);
+    const auto keeps_row = [&](int row, int) { return is_elastic[row] == elastic; };
+    const auto keeps_both = [&](int row, int column) {
+      return is_elastic[row] == elastic && (closed_by_deformation_(column) == 1.0) == elastic;
+    };
+    add_block(matrix, {0, n, n, m, position, mu}, keeps_both, entries);
+    add_block(matrix, {0, n, 0, n, position, 0}, keeps_row, entries);
   };
-  const auto drop_columns = [&](bool of_deformation, Triplets& from) {
-    std::erase_if(from, [&](const auto& entry) {
-      const int column = entry.col() - mu;
-      return column >= 0 && column < m && is_closed_by_deformation_[column] == of_deformation;
-    });
-  };
-  Triplets of_rigid, of_elastic;
-  add_forces(of_frames(at.position_multipliers), position, mu, of_rigid);
-  add_forces(of_deformation(at.position_multipliers), position, mu, of_elastic);
-  drop_columns(true, of_rigid);
-  drop_columns(false, of_elastic);
-  entries.insert(entries.end(), of_rigid.begin(), of_rigid.end());
-  drop_rows(true, entries);
-  drop_rows(false, of_elastic);
-  entries.insert(entries.end(), of_elastic.begin(), of_elastic.end());
+  add_forces(of_frames(at.position_multipliers), false);
+  add_forces(of_deformation(at.position_multipliers), true);
   for (int i : mechanism_.elastic) entries.emplace_back(position + i, 2 * n + i, 1.0);
 
   Eigen::SparseMatrix<double> result(3 * n + 3 * m, 3 * n + 3 * m);

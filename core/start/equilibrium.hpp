@@ -60,8 +60,10 @@ class Equilibrium {
   Eigen::VectorXd unknowns(const InitialState& at) const;
 
   /// The multipliers μ_r, μ_d: zero for the others.
-  Eigen::VectorXd of_frames(Eigen::VectorXd multipliers) const;
-  Eigen::VectorXd of_deformation(const Eigen::VectorXd& multipliers) const;
+  Eigen::VectorXd of_frames(const Eigen::VectorXd& all) const { return all - of_deformation(all); }
+  Eigen::VectorXd of_deformation(const Eigen::VectorXd& all) const {
+    return closed_by_deformation_.cwiseProduct(all);
+  }
 
   /// The Jacobian with axial forces of these strains.
   Eigen::SparseMatrix<double> mixed_jacobian(const InitialState& at,
@@ -89,7 +91,8 @@ class Equilibrium {
   System& system_;
   int n_, m_;
   AxialStrains strains_;
-  std::vector<bool> is_closed_by_deformation_;
+  Eigen::VectorXd
+      closed_by_deformation_;  ///< one a multiplier: 1 of those with a μ_d, 0 of the others
 };
 
 }  // namespace pleuel
