@@ -17,8 +17,8 @@ double diameter(const std::vector<Eigen::Vector3d>& points) {
   for (const Eigen::Vector3d& point : points) {
     outwards.emplace_back((point - middle).norm(), &point);
   }
-  std::sort(outwards.begin(), outwards.end(),
-            [](const auto& one, const auto& other) { return one.first > other.first; });
+  std::ranges::sort(outwards,
+                    [](const auto& one, const auto& other) { return one.first > other.first; });
   // A pair at distances r and s from the middle is at most r + s apart; beyond rounding.
   constexpr double rounding = 1.0 + 1e-12;
   double largest = 0.0;

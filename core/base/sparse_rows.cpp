@@ -296,7 +296,7 @@ SparseRows select_block(const SparseRows& matrix, const RowBlock& block) {
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t i = 0; i < block.rows.size(); ++i) {
     for (SparseRows::InnerIterator entry(matrix, block.rows[i]); entry; ++entry) {
-      const auto column = std::lower_bound(block.columns.begin(), block.columns.end(), entry.col());
+      const auto column = std::ranges::lower_bound(block.columns, entry.col());
       entries.emplace_back(i, column - block.columns.begin(), entry.value());
     }
   }
@@ -314,8 +314,7 @@ RankedRows rank_rows(SparseRows rows, double negligible) {
       ranked.emplace_back(of_block.pivots(i), block.rows[of_block.order[i]]);
     }
   }
-  std::stable_sort(ranked.begin(), ranked.end(),
-                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::ranges::stable_sort(ranked, [](const auto& a, const auto& b) { return a.first > b.first; });
   RankedRows result{{}, VectorXd::Zero(rows.rows())};
   for (std::size_t i = 0; i < ranked.size(); ++i) {
     result.order.push_back(ranked[i].second);

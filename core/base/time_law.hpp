@@ -198,7 +198,7 @@ struct TimeLaw {
     const std::size_t last = knots.size() - 1;
     const double rounding =
         period > 0.0 ? 4.0 * std::numeric_limits<double>::epsilon() * std::abs(original) : 0.0;
-    const auto above = std::upper_bound(knots.begin(), knots.end(), time + rounding);
+    const auto above = std::ranges::upper_bound(knots, time + rounding);
     const std::size_t after = std::max<std::ptrdiff_t>(above - knots.begin(), 1);
     std::size_t now = after - 1;
     const bool is_at_knot = std::abs(knots[now] - time) <= rounding;
@@ -214,7 +214,7 @@ struct TimeLaw {
     const std::size_t last = knots.size() - 1;
     if (time < knots.front()) return {parameters[0], Scalar(0), Scalar(0)};
     if (time >= knots.back()) return {parameters[last], Scalar(0), Scalar(0)};
-    const auto above = std::upper_bound(knots.begin(), knots.end(), time);
+    const auto above = std::ranges::upper_bound(knots, time);
     const std::size_t i = static_cast<std::size_t>(above - knots.begin()) - 1;
     const double h = knots[i + 1] - knots[i], s = (time - knots[i]) / h;
     const Scalar &y = parameters[i], rise = parameters[i + 1] - y;

@@ -21,7 +21,7 @@ constexpr double cluster_gap = 1e-6;
 std::vector<int> interior_of(Eigen::Index size, const std::vector<int>& boundary) {
   std::vector<int> interior;
   for (int i = 0; i < static_cast<int>(size); ++i) {
-    if (!std::binary_search(boundary.begin(), boundary.end(), i)) interior.push_back(i);
+    if (!std::ranges::binary_search(boundary, i)) interior.push_back(i);
   }
   return interior;
 }

@@ -287,8 +287,8 @@ class MarkerKinematics {
       state.spin = state.turn.spin(state.psi[1]);
       if (a != nullptr) state.spin_rate = state.turn.spin_rate(state.psi[1], state.psi[2]);
     }
-    return size + static_cast<int>(std::count_if(marker.elastic.begin(), marker.elastic.end(),
-                                                 [](int index) { return index >= 0; }));
+    return size + static_cast<int>(
+                      std::ranges::count_if(marker.elastic, [](int index) { return index >= 0; }));
   }
 
   Motion<Scalar> to_global(std::size_t m, const Motion<Scalar>& s) const {

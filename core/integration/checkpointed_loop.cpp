@@ -119,9 +119,8 @@ class CheckpointedLoop : public RecomputedStates {
   /// Simulates the stretch of a step again if it is not at hand.
   void hold(Eigen::Index step) {
     if (loop_.window().holds(step)) return;
-    const auto next = std::upper_bound(
-        checkpoints_.begin(), checkpoints_.end(), step,
-        [](Eigen::Index instant, const auto& checkpoint) { return instant < checkpoint.instant; });
+    const auto next =
+        std::ranges::upper_bound(checkpoints_, step, {}, &TimeLoop::Checkpoint::instant);
     const Eigen::Index end = next == checkpoints_.end() ? end_ : next->instant;
     const TimeLoop::Checkpoint& from = *std::prev(next);
     loop_.restore(from);

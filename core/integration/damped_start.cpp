@@ -193,8 +193,9 @@ bool DampedStart::has_stiff_damping() const {
   System::Matrix mass = system.make_matrix(), damping = system.make_matrix();
   system.tangent(start_, {.a = 1.0}, ConstraintLevel::acceleration, mass);
   system.tangent(start_, {.v = 1.0}, ConstraintLevel::acceleration, damping);
-  return std::any_of(mechanism_.elastic.begin(), mechanism_.elastic.end(),
-                     [&](int i) { return step_ * damping.coeff(i, i) > stiff * mass.coeff(i, i); });
+  return std::ranges::any_of(mechanism_.elastic, [&](int i) {
+    return step_ * damping.coeff(i, i) > stiff * mass.coeff(i, i);
+  });
 }
 
 bool DampedStart::is_resolved(const Eigen::VectorXd& found) const {

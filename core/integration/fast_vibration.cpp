@@ -142,8 +142,8 @@ FastVibration::FastVibration(const Mechanism& mechanism, const State& behind,
     mode.lambda = at_q.tail(m);
     if (mode.energy > 0.0 && at_q.allFinite()) modes_.push_back(std::move(mode));
   }
-  std::stable_sort(modes_.begin(), modes_.end(),
-                   [](const Mode& a, const Mode& b) { return a.energy > b.energy; });
+  std::ranges::stable_sort(modes_,
+                           [](const Mode& a, const Mode& b) { return a.energy > b.energy; });
 }
 
 double FastVibration::main_period() const {

@@ -84,7 +84,7 @@ constexpr double round_off_of_time = 1e-9;
 std::vector<double> folded(const std::vector<double>& breaks, double period) {
   std::vector<std::pair<double, double>> times;  // in the first period, and as given
   for (const double time : breaks) times.push_back({std::fmod(time, period), time});
-  std::sort(times.begin(), times.end());
+  std::ranges::sort(times);
   std::vector<std::pair<double, double>> different;
   for (const auto& time : times) {
     if (different.empty() || time.first - different.back().first > round_off_of_time * period) {
@@ -100,8 +100,7 @@ std::vector<double> folded(const std::vector<double>& breaks, double period) {
 
 /// The break that an instant is but for round-off, or the instant.
 double snapped(double instant, const std::vector<double>& sorted_breaks, double round_off) {
-  const auto next =
-      std::lower_bound(sorted_breaks.begin(), sorted_breaks.end(), instant - round_off);
+  const auto next = std::ranges::lower_bound(sorted_breaks, instant - round_off);
   return next != sorted_breaks.end() && *next <= instant + round_off ? *next : instant;
 }
 
@@ -128,7 +127,7 @@ SimulationOptions options_of_all(const SimulationOptions& options, const Simulat
   if (!options.instants.empty()) return all;
   all.instants = {0.0};
   std::vector<double> breaks = options.breaks;
-  std::sort(breaks.begin(), breaks.end());
+  std::ranges::sort(breaks);
   for (int period = 0; period < periods; ++period) {
     for (std::size_t i = 1; i < one.instants.size(); ++i) {
       const bool is_last = i + 1 == one.instants.size();

@@ -18,7 +18,7 @@ std::vector<double> regular_instants(const SimulationOptions& options) {
   const int steps = step_count(options);
   const double end = options.end_time, h = end / steps;
   std::vector<double> breaks = options.breaks, instants = {0.0};
-  std::sort(breaks.begin(), breaks.end());
+  std::ranges::sort(breaks);
   std::erase_if(breaks, [&](double time) { return !(end - time >= least_distance * h); });
   breaks.push_back(end);
   instants.reserve(static_cast<std::size_t>(steps) + 2 * breaks.size());

@@ -113,7 +113,7 @@ std::vector<std::pair<int, int>> transposed_entries(const System& system) {
   std::vector<std::pair<int, int>> entries;
   for_each_entry(pattern, [&](std::size_t k, int row, int col) {
     if (row < n || col >= n) return;
-    if (std::binary_search(left_out.begin(), left_out.end(), row - n)) return;
+    if (std::ranges::binary_search(left_out, row - n)) return;
     entries.emplace_back(static_cast<int>(k), slot_of(pattern, col, row));
   });
   return entries;

@@ -128,17 +128,17 @@ class TaskRun {
   }
 
   int free_workers(const TaskPlace* place) const {
-    const auto busy = std::count_if(running_.begin(), running_.end(),
-                                    [&](const Running& one) { return one.place == place; });
+    const auto busy =
+        std::ranges::count_if(running_, [&](const Running& one) { return one.place == place; });
     return place->workers() - static_cast<int>(busy);
   }
 
   /// The one with most of its workers free, if any has one.
   TaskPlace* free_place() const {
-    TaskPlace* best = *std::max_element(places_.all().begin(), places_.all().end(),
-                                        [&](const TaskPlace* one, const TaskPlace* other) {
-                                          return free_workers(one) < free_workers(other);
-                                        });
+    TaskPlace* best =
+        *std::ranges::max_element(places_.all(), [&](const TaskPlace* one, const TaskPlace* other) {
+          return free_workers(one) < free_workers(other);
+        });
     return free_workers(best) > 0 ? best : nullptr;
   }
 

@@ -205,7 +205,7 @@ class JointTerm : public Term {
   void add_third_derivatives(const State& state, const WeightList& weights,
                              const EntryBlocks& entries) {
     const auto uses_q = [](const Weights& w) { return w.q != 0.0; };
-    if (std::none_of(weights.begin(), weights.end(), uses_q)) return;
+    if (std::ranges::none_of(weights, uses_q)) return;
     // Tens of kilobytes a joint, which most simulations do without.
     if (!wide_data_) wide_data_ = std::make_unique<JointData<WideDual>>(cast_data<WideDual>(data_));
     const Local<WideDual> fixed = load<WideDual>(state);

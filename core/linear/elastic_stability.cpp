@@ -58,10 +58,9 @@ bool grows(const Mechanism& mechanism, const State& state, const Eigen::MatrixXd
 
 int count_negative(const Eigen::VectorXcd& eigenvalues) {
   const double limit = eigenvalue_round_off * eigenvalues.cwiseAbs().maxCoeff();
-  return static_cast<int>(
-      std::count_if(eigenvalues.begin(), eigenvalues.end(), [limit](const auto& value) {
-        return value.real() < -limit && std::abs(value.imag()) <= limit;
-      }));
+  return static_cast<int>(std::ranges::count_if(eigenvalues, [limit](const auto& value) {
+    return value.real() < -limit && std::abs(value.imag()) <= limit;
+  }));
 }
 
 bool is_at_rest(const Mechanism& mechanism, const State& state) {
@@ -76,9 +75,9 @@ bool is_at_rest(const Mechanism& mechanism, const State& state) {
 bool is_steady(const Mechanism& mechanism, const State& state, const BodyTurn& turn) {
   constexpr double round_off = 1e-6;
   const double limit = round_off * turn.omega.squaredNorm();
-  return turn.alpha.norm() <= limit &&
-         std::all_of(mechanism.elastic.begin(), mechanism.elastic.end(),
-                     [&](int i) { return std::abs(state.a(i)) <= limit * mechanism.scale(i); });
+  return turn.alpha.norm() <= limit && std::ranges::all_of(mechanism.elastic, [&](int i) {
+           return std::abs(state.a(i)) <= limit * mechanism.scale(i);
+         });
 }
 
 /// Of a mechanism that turns: deformations that constraints allow, normal to its motions as rigid bodies;
@@ -140,7 +139,7 @@ bool turns_alike(const Mechanism& mechanism, const State& state, const BodyTurn&
   const double limit = small * omega.norm();
   const std::vector<TurningBody> bodies = turning_bodies(mechanism, state);
   return turn.alpha.norm() <= limit * omega.norm() &&
-         std::all_of(bodies.begin(), bodies.end(), [&](const TurningBody& body) {
+         std::ranges::all_of(bodies, [&](const TurningBody& body) {
            const Eigen::Vector3d own = body.turn.axes * body.turn.omega;
            return own.norm() <= limit || (own - omega).norm() <= limit;
          });

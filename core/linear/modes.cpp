@@ -137,8 +137,8 @@ Eigen::VectorXcd modes_of(const Linearization& linearized) {
                                              : s.real() > free_motion * sigma;
     if (is_vibration || (is_real && counts)) modes.push_back(s);
   }
-  std::sort(modes.begin(), modes.end(),
-            [](const auto& a, const auto& b) { return frequency_of(a) < frequency_of(b); });
+  std::ranges::sort(modes,
+                    [](const auto& a, const auto& b) { return frequency_of(a) < frequency_of(b); });
   return Eigen::Map<Eigen::VectorXcd>(modes.data(), modes.size());
 }
 

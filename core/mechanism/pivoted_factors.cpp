@@ -30,7 +30,7 @@ class NumberSet {
   explicit NumberSet(std::size_t size) : words_(size / bits + 1) {}
 
   void add(int number) { words_[number / bits] |= std::uint64_t{1} << (number % bits); }
-  void clear() { std::fill(words_.begin(), words_.end(), 0); }
+  void clear() { std::ranges::fill(words_, 0); }
   /// The least one from `first` on, or one beyond all.
   int next(int first) const {
     std::size_t word = first / bits;

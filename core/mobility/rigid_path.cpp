@@ -141,7 +141,7 @@ class Follower {
     for (Eigen::Index i = 0; i < ranked.pivots.size(); ++i) {
       if (ranked.pivots(i) > clearly_independent) independent_.push_back(ranked.order[i]);
     }
-    std::sort(independent_.begin(), independent_.end());
+    std::ranges::sort(independent_);
     free_ = null_space_of_rows(jacobian, clearly_independent);
   }
 

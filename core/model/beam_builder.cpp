@@ -196,7 +196,7 @@ class BasisBuilder {
     KeptCoordinates kept;
     kept.families.resize(4);
     for (int node = 0; node < clamped_.node_count(); ++node) {
-      const bool is_attached = std::find(attached.begin(), attached.end(), node) != attached.end();
+      const bool is_attached = std::ranges::find(attached, node) != attached.end();
       for (int i = 0; i < 6; ++i) {
         const int index = clamped_.index(node, i);
         const bool is_kept = is_attached || (i == 0 && model_.has_stiffening);

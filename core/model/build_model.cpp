@@ -319,7 +319,7 @@ class ModelBuilder {
       return joint.first_multiplier <= multiplier &&
              multiplier < joint.first_multiplier + joint.equations();
     };
-    return *std::find_if(model_.joints.begin(), model_.joints.end(), holds);
+    return *std::ranges::find_if(model_.joints, holds);
   }
 
   void set_guess() {

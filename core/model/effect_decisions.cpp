@@ -109,9 +109,8 @@ class BeamTable {
   }
 
   void add(const char* name) {
-    const BeamEffect& effect =
-        *std::find_if(beam_effects.begin(), beam_effects.end(),
-                      [name](const BeamEffect& other) { return std::string(name) == other.name; });
+    const BeamEffect& effect = *std::ranges::find_if(
+        beam_effects, [name](const BeamEffect& other) { return std::string(name) == other.name; });
     EffectRecord record{name, body_.name, built_.*effect.is_built, EffectRecord::Kind::exact, "",
                         {},   0};
     const auto estimates = find_estimates(body_, settings_);

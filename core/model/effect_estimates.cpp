@@ -131,9 +131,9 @@ double rotary_share(const BodyModel& body) {
 bool asks_for(const ProblemFile& problem, const std::string& body,
               std::initializer_list<ResponseType> types) {
   for (const ResponseSettings& response : problem.responses) {
-    if (std::find(types.begin(), types.end(), response.type) == types.end()) continue;
+    if (std::ranges::find(types, response.type) == types.end()) continue;
     if (response.bodies.empty()) return true;  // frequencies of the whole mechanism
-    if (std::find(response.bodies.begin(), response.bodies.end(), body) != response.bodies.end()) {
+    if (std::ranges::find(response.bodies, body) != response.bodies.end()) {
       return true;
     }
   }

@@ -12,9 +12,8 @@ std::vector<EndHold> EndFittings::holds() const {
   for (JointHold hold : as_one_.of(beam_)) {
     const double at = hold.at * total_ - before_;
     hold.at = std::clamp(at / length_, 0.0, 1.0);
-    const auto joint = std::find_if(left.begin(), left.end(), [&](const Joined& one) {
-      return std::abs(one.position - at) <= least;
-    });
+    const auto joint = std::ranges::find_if(
+        left, [&](const Joined& one) { return std::abs(one.position - at) <= least; });
     if (joint != left.end()) {
       holds.push_back({joint->end, true, joint->distance, hold});
       left.erase(joint);

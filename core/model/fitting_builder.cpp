@@ -112,7 +112,7 @@ class EndFittings::Builder {
   }
 
   bool is_only_at(int end, const std::set<std::string>& bodies) const {
-    return std::all_of(scene_.joints.begin(), scene_.joints.end(), [&](const Joint& joint) {
+    return std::ranges::all_of(scene_.joints, [&](const Joint& joint) {
       for (std::size_t side = 0; side < 2; ++side) {
         if (joint.bodies[side] != body_.name || !bodies.contains(joint.bodies[1 - side])) continue;
         return joint.type == JointType::fixed && is_at(end, joint.at);
@@ -141,9 +141,8 @@ class EndFittings::Builder {
     const auto value = [&](const Place& place) {
       return distance(beam_, end, place, context_.design);
     };
-    const auto furthest = std::max_element(
-        places.begin(), places.end(),
-        [&](const Place& one, const Place& other) { return value(one) < value(other); });
+    const auto furthest = std::ranges::max_element(
+        places, [&](const Place& one, const Place& other) { return value(one) < value(other); });
     if (furthest != places.end()) built_.reaches_[end] = differentiated(end, *furthest);
   }
 

@@ -79,7 +79,7 @@ Eigen::VectorXd moment_entries(const BodyConstants& constants, const std::pair<i
                                const ElasticPattern& pattern) {
   const auto [k, l] = pair;
   const auto index = [](int a, int b) {
-    const auto found = std::find(moment_pairs.begin(), moment_pairs.end(), std::pair(a, b));
+    const auto found = std::ranges::find(moment_pairs, std::pair(a, b));
     return static_cast<std::size_t>(found - moment_pairs.begin());
   };
   const std::size_t given = index(k, l);

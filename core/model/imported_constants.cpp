@@ -134,8 +134,8 @@ bool is_symmetric(const BodyConstants& constants, const Eigen::Vector3d& normal)
                          constants.second_moment.cwiseAbs().maxCoeff()) &&
          along.cwiseAbs().maxCoeff() <= plane_tolerance * moved &&
          !couples_across(constants.mixed, normal) && !couples_across(constants.moments, normal) &&
-         std::none_of(constants.places.begin(), constants.places.end(),
-                      [&](const BodyPlace& place) { return leaves_plane(place, normal); });
+         std::ranges::none_of(constants.places,
+                              [&](const BodyPlace& place) { return leaves_plane(place, normal); });
 }
 
 }  // namespace pleuel

@@ -302,10 +302,9 @@ void add_gauges(const Joint& joint, const std::vector<BodyModel>& bodies,
   const auto gauge = [&](DrivenCoordinate coordinate) {
     return LoadBuilder(nothing, bodies, context, 0).gauge_of(joint, coordinate);
   };
-  const bool turns =
-      std::all_of(joint.bodies.begin(), joint.bodies.end(), [&](const std::string& body) {
-        return Attachment(body, joint.at, bodies, context).has_orientation();
-      });
+  const bool turns = std::ranges::all_of(joint.bodies, [&](const std::string& body) {
+    return Attachment(body, joint.at, bodies, context).has_orientation();
+  });
   const JointKind& kind = kind_of(joint.type);
   if (kind.has_angle() && turns) model.angle = gauge(DrivenCoordinate::angle);
   if (kind.has_displacement()) model.displacement = gauge(DrivenCoordinate::displacement);

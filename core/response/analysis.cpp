@@ -33,8 +33,8 @@ namespace pleuel {
 namespace {
 
 bool asks_for_modes(const ProblemFile& problem) {
-  return std::any_of(problem.responses.begin(), problem.responses.end(),
-                     [](const auto& response) { return is_of_modes(response.type); });
+  return std::ranges::any_of(problem.responses,
+                             [](const auto& response) { return is_of_modes(response.type); });
 }
 
 /// What the model leaves out of the motion is part of its frequencies.
@@ -75,8 +75,8 @@ void choose_modes(bool is_damped, Analysis& analysis) {
 
 void set_modes(Analysis& analysis) {
   analysis.mechanism_modes.assign(analysis.responses.size(), 0);
-  if (!std::any_of(analysis.responses.begin(), analysis.responses.end(),
-                   [](const Response& response) { return response.mode(); })) {
+  if (!std::ranges::any_of(analysis.responses,
+                           [](const Response& response) { return response.mode(); })) {
     return;
   }
   analysis.vibrating =

@@ -61,7 +61,7 @@ BodyConstants constants_of(const Invariants<double>& invariants) {
   constants.damping = symmetric(pattern, invariants.damping);
   for (std::size_t i = 0; i < moment_pairs.size(); ++i) {
     constants.moments[i] = SparseMatrix(pattern.size, pattern.size);
-    const auto found = std::find(invariants.pairs.begin(), invariants.pairs.end(), moment_pairs[i]);
+    const auto found = std::ranges::find(invariants.pairs, moment_pairs[i]);
     if (found == invariants.pairs.end()) continue;
     constants.moments[i] =
         sparse(pattern, invariants.moments.col(found - invariants.pairs.begin()));
@@ -94,8 +94,8 @@ class PlaceFinder {
       add(fmt::format("node {}", node),
           node == 0 ? BeamPlace{{0, 0.0}} : BeamPlace{{node - 1, 1.0}});
     }
-    std::stable_sort(places_.begin(), places_.end(),
-                     [](const NamedPlace& a, const NamedPlace& b) { return a.x < b.x; });
+    std::ranges::stable_sort(places_,
+                             [](const NamedPlace& a, const NamedPlace& b) { return a.x < b.x; });
   }
 
   std::vector<NamedPlace> take() { return std::move(places_); }
@@ -233,10 +233,10 @@ class StressExport {
     std::vector<Eigen::Triplet<double>> entries;
     for (int node = 0; node < body_.beam.node_count(); ++node) {
       const double x = body_.beam.node_position(node);
-      const auto nearest = std::min_element(places_.begin(), places_.end(),
-                                            [x](const NamedPlace& a, const NamedPlace& b) {
-                                              return std::abs(a.x - x) < std::abs(b.x - x);
-                                            });
+      const auto nearest =
+          std::ranges::min_element(places_, [x](const NamedPlace& a, const NamedPlace& b) {
+            return std::abs(a.x - x) < std::abs(b.x - x);
+          });
       for (int i = 0; i < 3; ++i) {
         entries.emplace_back(3 * node + i, 3 * (nearest - places_.begin()) + i, 1.0);
       }

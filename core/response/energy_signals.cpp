@@ -114,7 +114,7 @@ std::vector<const BodyModel*> bodies_of(const Model& model, const std::vector<st
 std::vector<Term*> stiffening_of(const Model& model, const std::vector<const BodyModel*>& bodies) {
   std::vector<Term*> chosen;
   for (const auto& [body, term] : model.terms.stiffening) {
-    if (std::find(bodies.begin(), bodies.end(), &model.bodies[body]) == bodies.end()) continue;
+    if (std::ranges::find(bodies, &model.bodies[body]) == bodies.end()) continue;
     chosen.push_back(term);
   }
   return chosen;

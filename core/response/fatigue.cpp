@@ -40,8 +40,7 @@ double in_row(int row, const std::vector<Sample>& samples, const Eigen::MatrixXd
 
 /// The closest come first.
 void keep_closest(std::vector<PeakTie>& ties) {
-  std::stable_sort(ties.begin(), ties.end(),
-                   [](const PeakTie& a, const PeakTie& b) { return a.gap < b.gap; });
+  std::ranges::stable_sort(ties, [](const PeakTie& a, const PeakTie& b) { return a.gap < b.gap; });
   if (ties.size() > max_cycle_ties) ties.resize(max_cycle_ties);
 }
 
@@ -75,9 +74,8 @@ class CycleSearch {
 
   Reduction run() const {
     const std::vector<Cycle> cycles = near_the_largest();
-    const auto best =
-        std::max_element(cycles.begin(), cycles.end(),
-                         [](const Cycle& a, const Cycle& b) { return a.use.value < b.use.value; });
+    const auto best = std::ranges::max_element(
+        cycles, [](const Cycle& a, const Cycle& b) { return a.use.value < b.use.value; });
     Reduction reduction;
     reduction.value = best->use.value;
     reduction.samples = samples_of(*best);
@@ -116,7 +114,7 @@ class CycleSearch {
     for (Eigen::Index point = 0; 2 * point < values_.rows(); ++point) {
       rough.push_back(rough_use(point));
     }
-    const double largest = *std::max_element(rough.begin(), rough.end());
+    const double largest = *std::ranges::max_element(rough);
     std::vector<Cycle> cycles;
     for (std::size_t i = 0; i < rough.size(); ++i) {
       if (rough[i] >= out_of_reach * largest) cycles.push_back(cycle_of(static_cast<int>(i)));
@@ -125,9 +123,8 @@ class CycleSearch {
   }
 
   double time_of(const std::vector<Sample>& samples) const {
-    const auto main =
-        std::max_element(samples.begin(), samples.end(),
-                         [](const Sample& a, const Sample& b) { return a.weight < b.weight; });
+    const auto main = std::ranges::max_element(
+        samples, [](const Sample& a, const Sample& b) { return a.weight < b.weight; });
     return time_(main->step);
   }
 
@@ -280,10 +277,9 @@ class PointDamage {
   }
 
   void begin_at_largest(int row, std::vector<TurningPoint>& turning) const {
-    const auto largest =
-        std::max_element(turning.begin(), turning.end(), [&](const auto& one, const auto& other) {
-          return in_row(row, one, values_) < in_row(row, other, values_);
-        });
+    const auto largest = std::ranges::max_element(turning, [&](const auto& one, const auto& other) {
+      return in_row(row, one, values_) < in_row(row, other, values_);
+    });
     if (largest == turning.end()) return;
     std::rotate(turning.begin(), largest, turning.end());
     turning.push_back(turning.front());
@@ -317,7 +313,7 @@ void gather(std::vector<Sample>& samples) {
   const auto before = [](const Sample& a, const Sample& b) {
     return std::pair(a.step, a.channel) < std::pair(b.step, b.channel);
   };
-  std::sort(samples.begin(), samples.end(), before);
+  std::ranges::sort(samples, before);
   std::vector<Sample> sums;
   for (const Sample& sample : samples) {
     const bool is_new = sums.empty() || before(sums.back(), sample);
@@ -328,8 +324,8 @@ void gather(std::vector<Sample>& samples) {
     }
   }
   // The history that is shown is that of the first sample's channel: the even one of both.
-  const auto even = std::find_if(sums.begin(), sums.end(),
-                                 [](const Sample& sample) { return sample.channel % 2 == 0; });
+  const auto even =
+      std::ranges::find_if(sums, [](const Sample& sample) { return sample.channel % 2 == 0; });
   if (even != sums.end()) std::iter_swap(sums.begin(), even);
   samples = std::move(sums);
 }
@@ -355,9 +351,8 @@ Reduction reduce_damage(FatigueCriterion criterion, double exponent, const Eigen
   const PointDamage damage(criterion, exponent, time, values, range, breaks, ends);
   std::vector<Reduction> points;
   for (int row = 0; row < values.rows(); row += 2) points.push_back(damage.of(row));
-  const auto worst =
-      std::max_element(points.begin(), points.end(),
-                       [](const Reduction& a, const Reduction& b) { return a.value < b.value; });
+  const auto worst = std::ranges::max_element(
+      points, [](const Reduction& a, const Reduction& b) { return a.value < b.value; });
   Reduction reduction{worst->value, worst->samples, {}};
   gather(reduction.samples);
   for (auto other = points.begin(); other != points.end(); ++other) {

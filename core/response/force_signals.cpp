@@ -104,8 +104,8 @@ const std::optional<GaugeModel>& find_gauge(const ResponseSettings& settings, co
     const JointModel& joint = model.joint(settings.joint);
     return settings.coordinate == DrivenCoordinate::angle ? joint.angle : joint.displacement;
   }
-  return std::find_if(model.loads.begin(), model.loads.end(),
-                      [&](const LoadModel& load) { return load.name == settings.load; })
+  return std::ranges::find_if(model.loads,
+                              [&](const LoadModel& load) { return load.name == settings.load; })
       ->gauge;
 }
 

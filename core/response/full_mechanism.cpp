@@ -29,8 +29,8 @@ void complete_inertia(RigidBody& body) {
 }
 
 bool asks_for_damping(const ProblemFile& problem) {
-  return std::any_of(problem.responses.begin(), problem.responses.end(),
-                     [](const auto& response) { return response.mode.counts_damping(); });
+  return std::ranges::any_of(problem.responses,
+                             [](const auto& response) { return response.mode.counts_damping(); });
 }
 
 bool has_modal_damping(const BeamBody& beam) {
@@ -45,19 +45,19 @@ bool is_reduced(const Body& body) {
 }  // namespace
 
 bool asks_for_mechanism_modes(const ProblemFile& problem) {
-  return std::any_of(problem.responses.begin(), problem.responses.end(), [](const auto& response) {
+  return std::ranges::any_of(problem.responses, [](const auto& response) {
     return is_of_modes(response.type) && response.bodies.empty();
   });
 }
 
 bool has_all_modes(const ProblemFile& problem, const Model& model) {
   const EffectSettings& effects = problem.effects;
-  const bool is_spatial = std::none_of(
-      model.effects.begin(), model.effects.end(),
-      [](const auto& effect) { return effect.name == "spatial_motion" && !effect.is_built; });
+  const bool is_spatial = std::ranges::none_of(model.effects, [](const auto& effect) {
+    return effect.name == "spatial_motion" && !effect.is_built;
+  });
   return is_spatial && effects.tolerance == 0.0 && effects.axial_elasticity != EffectChoice::off &&
          effects.torsional_elasticity != EffectChoice::off &&
-         std::none_of(problem.scene.bodies.begin(), problem.scene.bodies.end(), is_reduced);
+         std::ranges::none_of(problem.scene.bodies, is_reduced);
 }
 
 ProblemFile with_all_modes(const ProblemFile& problem) {

@@ -214,7 +214,7 @@ void LateralMember::hold_from_outside(std::vector<LateralSupport>& supports) con
     const ElementPlace place = find_place(beam_, at);
     hold(supports[static_cast<std::size_t>(place.element + (place.xi < 0.5 ? 0 : 1))]);
   }
-  if (held->at.empty()) std::for_each(supports.begin(), supports.end(), hold);
+  if (held->at.empty()) std::ranges::for_each(supports, hold);
 }
 
 LateralBuckling& LateralMember::buckling() {

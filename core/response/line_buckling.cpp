@@ -78,7 +78,7 @@ class CompressedLine {
   CompressedLine(const BodyModel& body, const std::array<std::string, 2>& chord) : body_(body) {
     const std::vector<std::string>& names = body.places.names;
     for (std::size_t i = 0; i < 2; ++i) {
-      ends_[i] = std::find(names.begin(), names.end(), chord[i]) - names.begin();
+      ends_[i] = std::ranges::find(names, chord[i]) - names.begin();
     }
   }
 

@@ -13,10 +13,10 @@ LinearizedResponse linearized(const Analysis& analysis, std::size_t response) {
 
 void require_derivatives(const Analysis& analysis, std::size_t response) {
   const LinearizedResponse found = linearized(analysis, response);
-  const bool is_finite =
-      found.design.allFinite() &&
-      std::all_of(found.parts.begin(), found.parts.end(),
-                  [](const WeightedResponse& part) { return std::isfinite(part.weight); });
+  const bool is_finite = found.design.allFinite() &&
+                         std::ranges::all_of(found.parts, [](const WeightedResponse& part) {
+                           return std::isfinite(part.weight);
+                         });
   if (is_finite) return;
   numbers_of(analysis.responses, analysis.reductions, analysis.x).refuse(response, "derivative");
 }
@@ -34,7 +34,7 @@ double magnitude_of(const Analysis& analysis, std::size_t response) {
 
 bool depends_on_motion(const Analysis& analysis, std::size_t response) {
   const std::vector<WeightedResponse> parts = linearized(analysis, response).parts;
-  return std::any_of(parts.begin(), parts.end(), [&](const WeightedResponse& part) {
+  return std::ranges::any_of(parts, [&](const WeightedResponse& part) {
     return analysis.histories[part.response].size() > 0;
   });
 }

@@ -25,8 +25,7 @@ DesignConstant mass_of(const ResponseSettings& settings, const Model& model) {
   DesignConstant mass{0.0, Eigen::VectorXd::Zero(model.mechanism.system->variables())};
   for (const BodyModel& body : model.bodies) {
     const bool is_counted = settings.bodies.empty() ||
-                            std::find(settings.bodies.begin(), settings.bodies.end(), body.name) !=
-                                settings.bodies.end();
+                            std::ranges::find(settings.bodies, body.name) != settings.bodies.end();
     if (!is_counted) continue;
     mass.value += body.mass;
     mass.derivatives += body.mass_x;

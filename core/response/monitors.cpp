@@ -193,7 +193,7 @@ std::vector<std::string> joints_of(const NearRedundancy& near, const Model& mode
       return joint.first_multiplier <= row && row < joint.first_multiplier + joint.equations();
     };
     if (joint.is_division) continue;
-    if (is_its(near.constraint) || std::any_of(near.others.begin(), near.others.end(), is_its)) {
+    if (is_its(near.constraint) || std::ranges::any_of(near.others, is_its)) {
       names.push_back(joint.name);
     }
   }
@@ -220,9 +220,8 @@ std::vector<Misalignment> find_misalignments(const Model& model, const State& st
        nearly_redundant_constraints(model.mechanism, state, drive_rows(model), largest)) {
     Misalignment misalignment{joints_of(near, model), moved_bodies(model, near.motion, visible),
                               near.misalignment};
-    const auto same = std::find_if(found.begin(), found.end(), [&](const Misalignment& other) {
-      return other.joints == misalignment.joints;
-    });
+    const auto same = std::ranges::find_if(
+        found, [&](const Misalignment& other) { return other.joints == misalignment.joints; });
     if (same == found.end()) {
       found.push_back(std::move(misalignment));
     } else if (misalignment.size < same->size) {

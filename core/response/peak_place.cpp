@@ -48,9 +48,9 @@ std::optional<Peak> find_peak(const ProblemFile& problem, const Analysis& analys
   const Response& of = analysis.responses[response];
   const std::vector<Sample>& samples = analysis.reductions[response].samples;
   if (!of.is_peak_over_time() || samples.empty()) return std::nullopt;
-  const Sample& sample = *std::max_element(
-      samples.begin(), samples.end(),
-      [](const Sample& a, const Sample& b) { return std::abs(a.weight) < std::abs(b.weight); });
+  const Sample& sample = *std::ranges::max_element(samples, [](const Sample& a, const Sample& b) {
+    return std::abs(a.weight) < std::abs(b.weight);
+  });
   Peak peak{analysis.trajectory.time(sample.step), of.history()->signal->describe(sample.channel)};
   const std::vector<std::string>& bodies = problem.responses[response].bodies;
   if (bodies.size() == 1) peak.share = share_of_place(analysis.model, bodies.front(), peak.place);

@@ -15,7 +15,7 @@ namespace {
 
 int index_of(const BodyModel& body, const std::string& place) {
   const std::vector<std::string>& names = body.places.names;
-  return static_cast<int>(std::find(names.begin(), names.end(), place) - names.begin());
+  return static_cast<int>(std::ranges::find(names, place) - names.begin());
 }
 
 /// s of the foot of P on the line, and its derivatives by the design.

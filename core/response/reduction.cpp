@@ -86,7 +86,7 @@ void LimitsAtEnds::restore(Reduction& reduction) const {
 
 void LimitsAtEnds::restore(std::vector<Sample>& samples) const {
   for (const Limit& limit : limits_) {
-    const auto found = std::find_if(samples.begin(), samples.end(), [&](const Sample& sample) {
+    const auto found = std::ranges::find_if(samples, [&](const Sample& sample) {
       return sample.step == limit.step && sample.channel == limit.channel;
     });
     if (found == samples.end()) continue;
@@ -209,11 +209,9 @@ std::vector<Peak> choose_ties(const Eigen::MatrixXd& values, const Peak& best,
   };
   if (tied.empty()) return chosen;
   move_away_from(best);
-  choose(static_cast<std::size_t>(std::max_element(tied.begin(), tied.end(), is_lower) -
-                                  tied.begin()));
+  choose(static_cast<std::size_t>(std::ranges::max_element(tied, is_lower) - tied.begin()));
   while (chosen.size() < std::min(max_ties, tied.size())) {
-    choose(static_cast<std::size_t>(std::max_element(distances.begin(), distances.end()) -
-                                    distances.begin()));
+    choose(static_cast<std::size_t>(std::ranges::max_element(distances) - distances.begin()));
   }
   return chosen;
 }
@@ -226,7 +224,7 @@ std::vector<Peak> thin_out(const std::vector<Peak>& tied) {
     const double share = std::fmod(static_cast<double>(k) * 0.6180339887498949, 1.0);
     indices.push_back(static_cast<std::size_t>(share * static_cast<double>(tied.size())));
   }
-  std::sort(indices.begin(), indices.end());
+  std::ranges::sort(indices);
   indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
   std::vector<Peak> kept;
   for (std::size_t index : indices) kept.push_back(tied[index]);
@@ -247,8 +245,8 @@ void record_ties(const Search& search, const std::vector<Peak>& peaks, const Pea
     reduction.ties.push_back(
         {best.time, peak.time, best.channel, peak.channel, gap_of(peak), samples_of(peak)});
   }
-  std::sort(reduction.ties.begin(), reduction.ties.end(),
-            [](const PeakTie& one, const PeakTie& other) { return one.gap < other.gap; });
+  std::ranges::sort(reduction.ties,
+                    [](const PeakTie& one, const PeakTie& other) { return one.gap < other.gap; });
 }
 
 /// The highest sample of a range, where no local maximum lies in it.
@@ -274,8 +272,8 @@ Reduction reduce_peaks(const Search& search, const std::vector<double>& signs) {
   const double threshold = reduction.value - 0.05 * std::abs(reduction.value);
   std::vector<Peak> peaks;
   for (double sign : signs) add_peaks(search, sign, threshold, peaks);
-  const auto best = std::max_element(
-      peaks.begin(), peaks.end(), [](const Peak& a, const Peak& b) { return a.height < b.height; });
+  const auto best = std::ranges::max_element(
+      peaks, [](const Peak& a, const Peak& b) { return a.height < b.height; });
   // At the edge of a stretch the highest sample may not be a peak.
   if (best == peaks.end() || best->height < reduction.value) return reduction;
   reduction.value = best->height;
@@ -353,7 +351,7 @@ BrokenInstants instants_at(const std::vector<double>& breaks, const Eigen::Vecto
   const double span = time(time.size() - 1) - time(0);
   BrokenInstants broken(time.size(), false);
   for (const double at : breaks) {
-    const auto found = std::lower_bound(time.begin(), time.end(), at - round_off * span);
+    const auto found = std::ranges::lower_bound(time, at - round_off * span);
     if (found != time.end() && *found <= at + round_off * span) broken[found - time.begin()] = true;
   }
   return broken;

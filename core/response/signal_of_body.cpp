@@ -191,7 +191,7 @@ class BodySignalMaker {
       const auto is_weaker = [](const DesignFactor& a, const DesignFactor& b) {
         return a.value < b.value;
       };
-      loads = {*std::min_element(loads.begin(), loads.end(), is_weaker)};
+      loads = {*std::ranges::min_element(loads, is_weaker)};
     }
     return make_buckling_signal(std::make_unique<SignalList>(std::move(parts)), loads);
   }
@@ -319,8 +319,8 @@ class DividedSignalMaker {
 
   static bool holds_segment(const BodyModel& part, int segment) {
     const std::vector<MeshElement>& elements = part.mesh.elements;
-    return std::any_of(elements.begin(), elements.end(),
-                       [&](const MeshElement& element) { return element.segment == segment; });
+    return std::ranges::any_of(
+        elements, [&](const MeshElement& element) { return element.segment == segment; });
   }
 
   std::unique_ptr<Signal> make_stress() const {

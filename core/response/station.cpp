@@ -62,7 +62,7 @@ class StationFinder {
     for (const MeshKnot& knot : body_.mesh.knots) {
       if (knot.node == place.node() && knot.at) return false;  // it moves
     }
-    if (std::find(attached.begin(), attached.end(), place.node()) == attached.end()) return false;
+    if (std::ranges::find(attached, place.node()) == attached.end()) return false;
     const double distance = body_.beam.node_position(place.node()) - position_of(body_.beam, place);
     return std::abs(distance) <= rounding * body_.beam.node_position(elements());
   }
@@ -71,7 +71,7 @@ class StationFinder {
   bool continues(int e) const {
     const std::vector<int>& attached = body_.mesh.attached_nodes;
     return e > 0 && segment_of(e - 1) == segment_of(e) &&
-           std::find(attached.begin(), attached.end(), e) == attached.end();
+           std::ranges::find(attached, e) == attached.end();
   }
 
   const BodyModel& body_;

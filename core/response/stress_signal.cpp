@@ -40,7 +40,7 @@ std::vector<int> points_of_distinct_shear(const SectionProperties<double>& secti
     const auto is_same = [&](int other) {
       return section.points[other].shear == section.points[i].shear;
     };
-    if (std::none_of(distinct.begin(), distinct.end(), is_same)) distinct.push_back(i);
+    if (std::ranges::none_of(distinct, is_same)) distinct.push_back(i);
   }
   return distinct;
 }
@@ -196,9 +196,8 @@ class ShearStress {
     const auto share = [&](const ShearPoint<double>& point) {
       return std::abs(normal.z()) > 0.5 ? point.by_y : point.by_z;
     };
-    const auto largest = std::max_element(
-        places.begin(), places.end(),
-        [&](const auto& one, const auto& other) { return share(one) < share(other); });
+    const auto largest = std::ranges::max_element(
+        places, [&](const auto& one, const auto& other) { return share(one) < share(other); });
     return {{static_cast<int>(largest - places.begin()), true}};
   }
 

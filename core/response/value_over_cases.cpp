@@ -28,7 +28,7 @@ void require_finite_derivatives(const ResponseNumbers& numbers, std::size_t resp
   const ExpressionValue at = numbers.evaluated(*expression);
   const auto is_finite = [](double number) { return std::isfinite(number); };
   if (!is_finite(at.value)) numbers.refuse(response, "value");
-  if (!std::all_of(at.derivatives.begin(), at.derivatives.end(), is_finite)) {
+  if (!std::ranges::all_of(at.derivatives, is_finite)) {
     numbers.refuse(response, "derivative");
   }
   for (const ExpressionArgument& argument : expression->arguments) {

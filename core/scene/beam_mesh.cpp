@@ -35,8 +35,8 @@ std::vector<HeldPlace> held_places(const Body& body, const Scene& scene,
   for (const AttachedPoint& point : attached_points(scene, body.name)) {
     places.push_back({part * share_along(beam, point.at, start), point.at});
   }
-  std::stable_sort(places.begin(), places.end(),
-                   [](const HeldPlace& a, const HeldPlace& b) { return a.share < b.share; });
+  std::ranges::stable_sort(
+      places, [](const HeldPlace& a, const HeldPlace& b) { return a.share < b.share; });
   return places;
 }
 
@@ -117,7 +117,7 @@ std::vector<int> nodes_at(const std::vector<HeldPlace>& places,
   std::vector<int> nodes;
   double share = 0.0;
   for (int node = 0; node <= int_size(elements); ++node) {
-    const bool is_held = std::any_of(places.begin(), places.end(), [&](const HeldPlace& place) {
+    const bool is_held = std::ranges::any_of(places, [&](const HeldPlace& place) {
       return std::abs(place.share - share) <= node_tolerance;
     });
     if (is_held) nodes.push_back(node);
@@ -133,7 +133,7 @@ bool moves_along(const BeamBody& beam, const Point& at, const Design<double>& st
   std::set<int> variables;
   for (const Point* point : {&at, &beam.from, &beam.to}) add_variables_of(*point, variables);
   const double share = variables.empty() ? 0.0 : share_along(beam, at, start);
-  return std::any_of(variables.begin(), variables.end(), [&](int variable) {
+  return std::ranges::any_of(variables, [&](int variable) {
     const double step = start[variable] == 0.0 ? change : change * start[variable];
     const auto moves_by = [&](double by) {
       Design<double> moved = start;
@@ -154,8 +154,7 @@ std::vector<MeshKnot> knots_of(const BeamBody& beam, const BeamMesh& mesh,
     const bool is_end = node == 0 || node == last;
     const bool is_boundary =
         is_end || mesh.elements[node - 1].segment != mesh.elements[node].segment;
-    const bool is_held =
-        std::binary_search(mesh.attached_nodes.begin(), mesh.attached_nodes.end(), node);
+    const bool is_held = std::ranges::binary_search(mesh.attached_nodes, node);
     if (!is_boundary && !is_held) continue;
     MeshKnot knot{node};
     for (const HeldPlace& place : places) {

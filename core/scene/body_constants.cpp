@@ -70,8 +70,8 @@ std::vector<std::string> point_names(const StressRecovery& stress) {
 
 int nearest_place(const BodyConstants& constants, const Eigen::Vector3d& point) {
   const auto distance = [&](const BodyPlace& place) { return (place.position - point).norm(); };
-  const auto nearest = std::min_element(
-      constants.places.begin(), constants.places.end(),
+  const auto nearest = std::ranges::min_element(
+      constants.places,
       [&](const BodyPlace& a, const BodyPlace& b) { return distance(a) < distance(b); });
   return nearest == constants.places.end() ? -1
                                            : static_cast<int>(nearest - constants.places.begin());

@@ -123,7 +123,7 @@ class Corners {
     std::vector<int> bound;
     for (const Number& number : rigid.inertia) {
       for (const int of : number.variables()) {
-        if (std::find(bound.begin(), bound.end(), of) == bound.end()) bound.push_back(of);
+        if (std::ranges::find(bound, of) == bound.end()) bound.push_back(of);
       }
     }
     if (bound.size() > most_corners) bound.resize(most_corners);
@@ -164,10 +164,9 @@ class Corners {
       return (constraint.upper && least > *constraint.upper) ||
              (constraint.lower && most < *constraint.lower);
     };
-    return std::any_of(problem_.constraints.begin(), problem_.constraints.end(),
-                       [&](const ConstraintSettings& constraint) {
-                         return !constraint.linear.empty() && excludes(constraint);
-                       });
+    return std::ranges::any_of(problem_.constraints, [&](const ConstraintSettings& constraint) {
+      return !constraint.linear.empty() && excludes(constraint);
+    });
   }
 
   void add(const Body& body, const std::string& what, const std::string& broken,
@@ -235,8 +234,7 @@ std::vector<std::string> impossible_corners(const ProblemFile& problem) {
   std::vector<std::string> sentences;
   for (const ProblemFile* one : simulated_problems(problem)) {
     for (std::string& sentence : Corners(*one).find()) {
-      const bool is_known =
-          std::find(sentences.begin(), sentences.end(), sentence) != sentences.end();
+      const bool is_known = std::ranges::find(sentences, sentence) != sentences.end();
       if (!is_known) sentences.push_back(std::move(sentence));
     }
   }
@@ -246,7 +244,7 @@ std::vector<std::string> impossible_corners(const ProblemFile& problem) {
 std::vector<Eigen::Vector3d> bound_points(const Scene& scene, const Design<double>& design) {
   std::vector<Eigen::Vector3d> points;
   const auto add = [&](const Point& point) {
-    if (std::any_of(point.begin(), point.end(), std::mem_fn(&Number::is_bound))) {
+    if (std::ranges::any_of(point, std::mem_fn(&Number::is_bound))) {
       points.push_back(position(point, design));
     }
   };

@@ -246,7 +246,7 @@ void add_limit(ProblemFile& problem, const Objective& goal, double value, const 
 
 void remove_limit(ProblemFile& problem, const std::string& name) {
   std::vector<std::size_t> rows = constraints_of_limit(problem, name);
-  std::reverse(rows.begin(), rows.end());
+  std::ranges::reverse(rows);
   for (const std::size_t row : rows) {
     if (problem.has_cases()) {
       const OfCase of_case = problem.case_constraints[row];
@@ -277,7 +277,7 @@ void ask_for_accuracy(ProblemFile& problem, std::size_t response) {
     ProblemFile& one = problem.cases[of_case.load_case];
     const std::string& name = one.responses[of_case.index].name;
     std::vector<std::string>& asked = one.accuracy.responses;
-    if (std::find(asked.begin(), asked.end(), name) == asked.end()) asked.push_back(name);
+    if (std::ranges::find(asked, name) == asked.end()) asked.push_back(name);
   }
 }
 

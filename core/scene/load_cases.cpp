@@ -11,7 +11,7 @@
 namespace pleuel {
 
 bool is_in_case(const std::vector<std::string>& names, const ProblemFile& load_case) {
-  return names.empty() || std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+  return names.empty() || std::ranges::any_of(names, [&](const std::string& name) {
            return name == load_case.load_case || name == load_case.case_range;
          });
 }

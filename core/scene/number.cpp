@@ -16,7 +16,7 @@ std::vector<int> Number::variables() const {
 
 bool Number::depends_on(int design_variable) const {
   const std::vector<int> all = variables();
-  return std::find(all.begin(), all.end(), design_variable) != all.end();
+  return std::ranges::find(all, design_variable) != all.end();
 }
 
 double derivative_by(int variable, const Number& number, const Design<double>& design) {

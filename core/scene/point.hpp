@@ -13,8 +13,7 @@ namespace pleuel {
 
 /// Whether it depends on design variables.
 inline bool is_bound(const Point& point) {
-  return std::any_of(point.begin(), point.end(),
-                     [](const Number& number) { return number.is_bound(); });
+  return std::ranges::any_of(point, [](const Number& number) { return number.is_bound(); });
 }
 
 /// Adds the design variables that it depends on.

@@ -47,7 +47,7 @@ ProblemFile read_case_problem(const Json& document, const Json& of_case, const C
     const std::vector<std::string> shared = mistakes_in(without, file, units);
     std::vector<std::string> mistakes = mistakes_of(error);
     for (std::string& mistake : mistakes) {
-      const bool is_shared = std::find(shared.begin(), shared.end(), mistake) != shared.end();
+      const bool is_shared = std::ranges::find(shared, mistake) != shared.end();
       if (!is_shared) mistake += fmt::format(" (in the case \"{}\")", changes.name);
     }
     fail_with(std::move(mistakes));

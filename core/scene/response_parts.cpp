@@ -94,7 +94,7 @@ std::vector<std::size_t> extreme_parts(const ProblemFile& problem, std::size_t r
 
 bool is_monitor(const ProblemFile& problem, std::size_t response) {
   const std::vector<std::size_t> parts = parts_of(problem, response);
-  return std::any_of(parts.begin(), parts.end(), [&](std::size_t part) {
+  return std::ranges::any_of(parts, [&](std::size_t part) {
     const ResponseType type = problem.responses[part].type;
     return type == ResponseType::energy_balance || type == ResponseType::constraint_drift;
   });
@@ -102,9 +102,8 @@ bool is_monitor(const ProblemFile& problem, std::size_t response) {
 
 bool depends_on_masses_only(const ProblemFile& problem, std::size_t response) {
   const std::vector<std::size_t> parts = parts_of(problem, response);
-  return std::all_of(parts.begin(), parts.end(), [&](std::size_t part) {
-    return problem.responses[part].type == ResponseType::mass;
-  });
+  return std::ranges::all_of(
+      parts, [&](std::size_t part) { return problem.responses[part].type == ResponseType::mass; });
 }
 
 }  // namespace pleuel

@@ -20,8 +20,8 @@ namespace {
 constexpr double range_tolerance = 1e-6;
 
 bool has_formula(const Point& point) {
-  return std::any_of(point.begin(), point.end(),
-                     [](const Number& number) { return number.expression != nullptr; });
+  return std::ranges::any_of(point,
+                             [](const Number& number) { return number.expression != nullptr; });
 }
 
 bool has_bound_points(const Scene& scene) {
@@ -42,9 +42,9 @@ bool has_bound_points(const Scene& scene) {
     });
     return has_bound;
   };
-  return std::any_of(scene.bodies.begin(), scene.bodies.end(), of_body) ||
-         std::any_of(scene.joints.begin(), scene.joints.end(), of_holder) ||
-         std::any_of(scene.loads.begin(), scene.loads.end(), of_holder);
+  return std::ranges::any_of(scene.bodies, of_body) ||
+         std::ranges::any_of(scene.joints, of_holder) ||
+         std::ranges::any_of(scene.loads, of_holder);
 }
 
 std::optional<std::string> complaint(const RangedFormula& formula, const Design<double>& start,

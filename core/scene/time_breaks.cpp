@@ -179,7 +179,7 @@ std::vector<double> kinks_in_time(const Expression& expression, double end_time,
       before = now;
     }
   }
-  std::sort(kinks.begin(), kinks.end());
+  std::ranges::sort(kinks);
   return kinks;
 }
 

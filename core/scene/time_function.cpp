@@ -10,7 +10,7 @@ bool depends_on_state(const TimeFunction& function) {
   }
   if (const auto* formula = std::get_if<ExpressionFunction>(&function)) {
     const std::vector<ExpressionArgument>& all = formula->expression->arguments;
-    return std::any_of(all.begin(), all.end(), [](const ExpressionArgument& one) {
+    return std::ranges::any_of(all, [](const ExpressionArgument& one) {
       return one.kind == ExpressionArgument::Kind::coordinate ||
              one.kind == ExpressionArgument::Kind::rate;
     });

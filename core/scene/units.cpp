@@ -338,7 +338,7 @@ namespace {
 void refuse_decimal_comma(const char* begin, const char* comma, const char* end) {
   if (comma == end || *comma != ',' || comma + 1 == end || !is_digit(comma[1])) return;
   const std::string whole(begin, comma), rest(comma + 1, end);
-  const auto behind = std::find_if_not(rest.begin(), rest.end(), is_digit);
+  const auto behind = std::ranges::find_if_not(rest, is_digit);
   if (behind - rest.begin() == 3 && whole != "0") {
     throw UnitError(
         fmt::format("numbers have a decimal point and nothing between thousands; write "

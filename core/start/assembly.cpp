@@ -30,8 +30,7 @@ std::string hardest_joints(Mechanism& mechanism, const Eigen::VectorXd& multipli
     }
     pulls.emplace_back(largest, term->name());
   }
-  std::stable_sort(pulls.begin(), pulls.end(),
-                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::ranges::stable_sort(pulls, [](const auto& a, const auto& b) { return a.first > b.first; });
   if (pulls.size() < 2) return pulls.front().second + " pulls";
   return pulls[0].second + " and " + pulls[1].second + " pull";
 }
@@ -65,8 +64,7 @@ std::string open_joints(Mechanism& mechanism, const State& at) {
                                  : 0.0;
     if (!(violation <= 1e-8)) open.push_back({violation, term->name()});
   }
-  std::sort(open.begin(), open.end(),
-            [](const Open& a, const Open& b) { return a.violation > b.violation; });
+  std::ranges::sort(open, [](const Open& a, const Open& b) { return a.violation > b.violation; });
   if (open.empty()) return "its joints";
   std::string text;
   for (std::size_t i = 0; i < std::min<std::size_t>(open.size(), 4); ++i) {

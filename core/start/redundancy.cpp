@@ -156,9 +156,7 @@ Eigen::VectorXd local_scale(const Mechanism& mechanism, const State& state, Eige
 /// Takes out what opens a little when drives are let go.
 void erase_misaligned(const Mechanism& mechanism, const std::vector<int>& drives,
                       std::vector<int> kept, std::vector<int>& candidates) {
-  const auto is_drive = [&](int row) {
-    return std::find(drives.begin(), drives.end(), row) != drives.end();
-  };
+  const auto is_drive = [&](int row) { return std::ranges::find(drives, row) != drives.end(); };
   if (std::erase_if(kept, is_drive) == 0) return;
   MovedMechanism moved(mechanism, mechanism.guess,
                        local_scale(mechanism, mechanism.guess, mechanism.scale));
@@ -188,7 +186,7 @@ std::vector<int> redundant_constraints(Mechanism& mechanism, const std::vector<i
   std::erase_if(candidates,
                 [&](int row) { return !(open(row) <= closed + alignment_tolerance * ways(row)); });
   erase_misaligned(mechanism, drives, std::move(kept), candidates);
-  std::sort(candidates.begin(), candidates.end());
+  std::ranges::sort(candidates);
   return candidates;
 }
 

@@ -63,10 +63,10 @@ ConstraintTerms::ConstraintTerms(const System& system) : system_(system) {
     term->declare_entries(entries);
     const Eigen::Index sums = term->parameter_adjoint_count();
     const auto is_constraint = [n](const auto& entry) { return entry.first >= n; };
-    if (std::any_of(entries.begin(), entries.end(), is_constraint)) {
+    if (std::ranges::any_of(entries, is_constraint)) {
       parts_.push_back({term.get(), slots_.size(), first_sum, sums});
       for (const auto& [row, col] : entries) {
-        const bool is_left_out = std::binary_search(left_out.begin(), left_out.end(), row - n);
+        const bool is_left_out = std::ranges::binary_search(left_out, row - n);
         slots_.push_back(is_left_out ? -1 : slot_of(pattern, row, col));
       }
     }

@@ -65,7 +65,7 @@ void System::replace_left_out(Matrix& matrix) const {
   for (int col = 0; col < size(); ++col) {
     for (int k = matrix.outerIndexPtr()[col]; k < matrix.outerIndexPtr()[col + 1]; ++k) {
       const int row = matrix.innerIndexPtr()[k];
-      if (std::binary_search(left_out_.begin(), left_out_.end(), row - coordinates_)) {
+      if (std::ranges::binary_search(left_out_, row - coordinates_)) {
         matrix.valuePtr()[k] = row == col ? 1.0 : 0.0;
       }
     }

@@ -44,18 +44,17 @@ std::vector<Finding> check_fast_motion(const TrustedRun& run, bool has_fast_laws
 bool concerns(const Finding& finding, const ProblemFile& problem, std::size_t response) {
   const auto is_named = [&](std::size_t i) {
     const std::vector<std::string>& named = finding.responses;
-    return std::find(named.begin(), named.end(), problem.responses[i].name) != named.end();
+    return std::ranges::find(named, problem.responses[i].name) != named.end();
   };
   const std::vector<std::size_t> parts = parts_of(problem, response);
-  return finding.responses.empty() || is_named(response) ||
-         std::any_of(parts.begin(), parts.end(), is_named);
+  return finding.responses.empty() || is_named(response) || std::ranges::any_of(parts, is_named);
 }
 
 /// Whether a response is made from the motion.
 bool moves(const TrustedRun& run, std::size_t response) {
   const std::vector<std::size_t> parts = parts_of(run.problem, response);
-  return std::any_of(parts.begin(), parts.end(),
-                     [&](std::size_t part) { return run.analysis.histories[part].size() > 0; });
+  return std::ranges::any_of(
+      parts, [&](std::size_t part) { return run.analysis.histories[part].size() > 0; });
 }
 
 /// What happens between two instants is seen by no run with larger steps, which judge the error.
@@ -63,8 +62,8 @@ void leave_steps_unresolved(const TrustedRun& run, const std::vector<Finding>& f
                             std::vector<std::optional<ErrorBar>>& errors) {
   for (std::size_t i = 0; i < errors.size(); ++i) {
     if (!errors[i] || !moves(run, i)) continue;
-    if (std::any_of(findings.begin(), findings.end(),
-                    [&](const Finding& finding) { return concerns(finding, run.problem, i); })) {
+    if (std::ranges::any_of(
+            findings, [&](const Finding& finding) { return concerns(finding, run.problem, i); })) {
       errors[i]->step.is_resolved = false;
     }
   }
@@ -233,8 +232,7 @@ std::vector<std::string> texts_of(const std::vector<Finding>& findings) {
 }
 
 bool has_serious(const std::vector<Finding>& findings) {
-  return std::any_of(findings.begin(), findings.end(),
-                     [](const Finding& finding) { return finding.is_serious; });
+  return std::ranges::any_of(findings, [](const Finding& finding) { return finding.is_serious; });
 }
 
 }  // namespace pleuel

@@ -49,7 +49,7 @@ bool is_there(const std::optional<double>& value) {
 
 /// The index of the first of increasing times that is not before a time.
 Eigen::Index first_from(const Eigen::VectorXd& times, double time) {
-  return std::lower_bound(times.begin(), times.end(), time) - times.begin();
+  return std::ranges::lower_bound(times, time) - times.begin();
 }
 
 /// Of increasing times the index of the nearest one; between two the first.

@@ -25,16 +25,15 @@ Cause speaking_cause(const std::vector<Finding>& findings) {
 }  // namespace
 
 void rank_findings(std::vector<Finding>& findings) {
-  std::stable_sort(findings.begin(), findings.end(), [](const Finding& a, const Finding& b) {
+  std::ranges::stable_sort(findings, [](const Finding& a, const Finding& b) {
     return std::tuple(a.cause, !a.is_serious) < std::tuple(b.cause, !b.is_serious);
   });
 }
 
 int count_consequences(const std::vector<Finding>& findings) {
   const Cause speaking = speaking_cause(findings);
-  return static_cast<int>(
-      std::count_if(findings.begin(), findings.end(),
-                    [&](const Finding& finding) { return finding.cause > speaking; }));
+  return static_cast<int>(std::ranges::count_if(
+      findings, [&](const Finding& finding) { return finding.cause > speaking; }));
 }
 
 namespace {
@@ -77,9 +76,8 @@ std::vector<Finding> joined_findings(const ProblemFile& problem,
   std::vector<SharedFinding> all;
   for (std::size_t c = 0; c < of_cases.size(); ++c) {
     for (const Finding& finding : of_cases[c]) {
-      const auto known = std::find_if(all.begin(), all.end(), [&](const SharedFinding& one) {
-        return one.finding.text == finding.text;
-      });
+      const auto known = std::ranges::find_if(
+          all, [&](const SharedFinding& one) { return one.finding.text == finding.text; });
       if (known == all.end()) {
         all.push_back({finding, {c}});
       } else if (known->cases.back() != c) {

@@ -20,8 +20,8 @@ constexpr double just_larger = 1.0 + 1e-6;
 using Velocity = std::array<Number, 3>;
 
 bool is_given(const Velocity& velocity, const Design<double>& design) {
-  return std::any_of(velocity.begin(), velocity.end(),
-                     [&](const Number& number) { return resolve(number, design) != 0.0; });
+  return std::ranges::any_of(velocity,
+                             [&](const Number& number) { return resolve(number, design) != 0.0; });
 }
 
 class InitialMotion {

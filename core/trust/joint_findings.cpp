@@ -50,11 +50,9 @@ bool moves(const Joint& joint, const TrustedRun& run) {
 
 /// Whether any of these joints does what it is there for.
 bool any_moves(const std::vector<std::string>& names, const TrustedRun& run) {
-  return std::any_of(run.problem.scene.joints.begin(), run.problem.scene.joints.end(),
-                     [&](const Joint& joint) {
-                       return std::find(names.begin(), names.end(), joint.name) != names.end() &&
-                              moves(joint, run);
-                     });
+  return std::ranges::any_of(run.problem.scene.joints, [&](const Joint& joint) {
+    return std::ranges::find(names, joint.name) != names.end() && moves(joint, run);
+  });
 }
 
 }  // namespace
@@ -144,7 +142,7 @@ const char* kind_of(const JointForce& force) {
 }
 
 bool is_in_space(const Model& model) {
-  return std::any_of(model.bodies.begin(), model.bodies.end(), [](const BodyModel& body) {
+  return std::ranges::any_of(model.bodies, [](const BodyModel& body) {
     return body.frame.rotation == RotationCoordinates::rotation_vector;
   });
 }

@@ -156,7 +156,7 @@ std::vector<double> passages(const LawOverCoordinate& one, const CoordinateHisto
       const double share = (knot + first * period - begin) / (end - begin);
       if (share > 0.0 && share < 1.0) shares.push_back(share);
     }
-    std::sort(shares.begin(), shares.end());
+    std::ranges::sort(shares);
     for (const double share : shares) {
       times.push_back(time(step - 1) + share * (time(step) - time(step - 1)));
     }

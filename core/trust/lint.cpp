@@ -125,7 +125,7 @@ const DesignVariable* turning_variable(const TrustedRun& run, const BeamBody& be
 }
 
 bool bends_alike(const BodyModel& body) {
-  return std::all_of(body.beam.elements.begin(), body.beam.elements.end(), [](const auto& element) {
+  return std::ranges::all_of(body.beam.elements, [](const auto& element) {
     const auto& section = element.section;
     return std::abs(section.inertia_y - section.inertia_z) <= same_inertia * section.inertia_y;
   });

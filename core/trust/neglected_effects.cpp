@@ -22,7 +22,7 @@ namespace {
 constexpr double small_axial_force = 1e-2;
 
 bool leaves_out_by_measurement(const Model& model) {
-  return std::any_of(model.effects.begin(), model.effects.end(), [](const EffectRecord& record) {
+  return std::ranges::any_of(model.effects, [](const EffectRecord& record) {
     return record.kind == EffectRecord::Kind::measured && !record.is_built;
   });
 }

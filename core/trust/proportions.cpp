@@ -168,7 +168,7 @@ class Proportions {
     for (std::size_t k = 0; k < places_.size(); ++k) {
       by_distance.emplace_back((places_[k].position - places_[i].position).norm(), k);
     }
-    std::sort(by_distance.begin(), by_distance.end());
+    std::ranges::sort(by_distance);
     const double farthest = by_distance.back().first;
     std::pair<std::vector<std::size_t>, std::vector<std::size_t>> parts;
     for (const auto& [distance, k] : by_distance) {
@@ -240,11 +240,10 @@ class Proportions {
   }
 
   void check_material(const Material& material) {
-    const bool is_used =
-        std::any_of(scene_.bodies.begin(), scene_.bodies.end(), [&](const Body& body) {
-          const auto* beam = std::get_if<BeamBody>(&body.shape);
-          return beam && beam->material == material.name;
-        });
+    const bool is_used = std::ranges::any_of(scene_.bodies, [&](const Body& body) {
+      const auto* beam = std::get_if<BeamBody>(&body.shape);
+      return beam && beam->material == material.name;
+    });
     if (!is_used) return;
     const std::string at = "/scene/materials/" + material.name;
     const double density = resolve(material.density, design_);

@@ -150,11 +150,10 @@ std::vector<const RefinedRun*> RefinedRuns::runs(const std::vector<Refinement>& 
 }
 
 bool has_reduced_beams(const Model& model, const ProblemFile& problem) {
-  return std::any_of(problem.scene.bodies.begin(), problem.scene.bodies.end(),
-                     [&](const Body& body) {
-                       const auto* beam = std::get_if<BeamBody>(&body.shape);
-                       return beam && beam->reduction && model.body(body.name).is_elastic;
-                     });
+  return std::ranges::any_of(problem.scene.bodies, [&](const Body& body) {
+    const auto* beam = std::get_if<BeamBody>(&body.shape);
+    return beam && beam->reduction && model.body(body.name).is_elastic;
+  });
 }
 
 int mesh_size(const ProblemFile& problem) {
@@ -166,7 +165,7 @@ int mesh_size(const ProblemFile& problem) {
 bool can_be_halved(const Model& model, const ProblemFile& problem) {
   const std::map<std::string, int> sizes = mesh_sizes(problem),
                                    halves = mesh_sizes(refined(problem, {.elements = 0.5}));
-  return std::all_of(sizes.begin(), sizes.end(), [&](const auto& one) {
+  return std::ranges::all_of(sizes, [&](const auto& one) {
     const auto& [name, size] = one;
     const int most = (size + 1) / 2 + size / 8;
     return !model.body(name).is_elastic || halves.at(name) <= most;

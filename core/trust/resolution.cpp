@@ -46,7 +46,7 @@ double asked_size(const ProblemFile& problem, const std::string& response, doubl
 /// Whether the accuracy of a response is asked for.
 bool counts(const ProblemFile& problem, std::size_t response) {
   const std::vector<std::size_t> asked = asked_responses(problem);
-  return std::find(asked.begin(), asked.end(), response) != asked.end();
+  return std::ranges::find(asked, response) != asked.end();
 }
 
 /// Relative to the value; infinite: not known.
@@ -120,7 +120,7 @@ class Judgement {
   }
 
   bool is_any_uncertain() const {
-    return std::any_of(judged_.begin(), judged_.end(), [&](std::size_t i) {
+    return std::ranges::any_of(judged_, [&](std::size_t i) {
       const ErrorBar& bar = *found_.bars[i];
       return error_share(*found_.evidence[i], bar.step) > small_error ||
              error_share(*found_.evidence[i], bar.elements) > small_error;
@@ -136,7 +136,7 @@ class Judgement {
   /// Whether the runs say what the step leaves of the responses that count; of an answer, that it is
   /// within the accuracy which the file asks for.
   bool do_suffice() const {
-    return std::all_of(asked_.begin(), asked_.end(), [&](std::size_t i) {
+    return std::ranges::all_of(asked_, [&](std::size_t i) {
       if (!found_.bars[i]) return true;
       const ErrorPart& step = found_.bars[i]->step;
       if (!is_close() || !step.is_resolved) return step.is_resolved;
@@ -164,12 +164,11 @@ class Judgement {
 
 /// Vibrations that nothing damps never die out: the smaller the steps, the more of them are seen.
 const char* advice_to_damp(const Model& model) {
-  const bool is_damped = std::any_of(
-      model.effects.begin(), model.effects.end(),
-      [](const EffectRecord& record) { return record.name == "damping" && record.is_built; });
-  const bool is_elastic =
-      std::any_of(model.bodies.begin(), model.bodies.end(),
-                  [](const BodyModel& body) { return body.elastic_size() > 0; });
+  const bool is_damped = std::ranges::any_of(model.effects, [](const EffectRecord& record) {
+    return record.name == "damping" && record.is_built;
+  });
+  const bool is_elastic = std::ranges::any_of(
+      model.bodies, [](const BodyModel& body) { return body.elastic_size() > 0; });
   if (is_damped || !is_elastic) return "";
   return ", or give the beams \"damping\": no body has any, and vibrations that nothing damps may "
          "need ever smaller steps";
@@ -199,8 +198,8 @@ std::vector<Uncertain> uncertain_by(const Resolution& found,
       uncertain.push_back({i, error, share_of(evidence, part, part.bound)});
     }
   }
-  std::stable_sort(uncertain.begin(), uncertain.end(),
-                   [](const Uncertain& a, const Uncertain& b) { return a.error > b.error; });
+  std::ranges::stable_sort(
+      uncertain, [](const Uncertain& a, const Uncertain& b) { return a.error > b.error; });
   return uncertain;
 }
 
@@ -275,13 +274,13 @@ constexpr double large_energy_error = 0.1;
 
 /// ", or a drive or a load jumps": of what there is.
 std::string what_may_jump(const Scene& scene) {
-  const bool has_drive = std::any_of(scene.joints.begin(), scene.joints.end(),
-                                     [](const Joint& joint) { return joint.drive.has_value(); });
-  const bool has_spring = std::any_of(scene.loads.begin(), scene.loads.end(), [](const Load& load) {
+  const bool has_drive =
+      std::ranges::any_of(scene.joints, [](const Joint& joint) { return joint.drive.has_value(); });
+  const bool has_spring = std::ranges::any_of(scene.loads, [](const Load& load) {
     return std::holds_alternative<SpringDamper>(load.element) ||
            std::holds_alternative<JointForce>(load.element);
   });
-  const bool has_load = std::any_of(scene.loads.begin(), scene.loads.end(), [](const Load& load) {
+  const bool has_load = std::ranges::any_of(scene.loads, [](const Load& load) {
     return std::holds_alternative<PointForce>(load.element) ||
            std::holds_alternative<PointTorque>(load.element);
   });

@@ -82,8 +82,8 @@ class RoundOff {
   /// Whether all parts of an expression are round-off.
   bool are_all(const std::vector<bool>& is_round_off, std::size_t expression) const {
     const std::vector<std::size_t> parts = parts_of(run_.problem, expression);
-    return !parts.empty() && std::all_of(parts.begin(), parts.end(),
-                                         [&](std::size_t part) { return is_round_off[part]; });
+    return !parts.empty() &&
+           std::ranges::all_of(parts, [&](std::size_t part) { return is_round_off[part]; });
   }
 
   /// Of a length or an angle, and of its rates.

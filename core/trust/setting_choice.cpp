@@ -411,8 +411,8 @@ std::optional<ProblemFile> without_small_effects(ProblemFile problem, const Eige
   problem.effects.tolerance = tolerance;
   try_to_leave_out(problem, x);
   const auto& measured = problem.effects.decisions.measured;
-  const bool leaves_out = std::any_of(measured.begin(), measured.end(),
-                                      [](const auto& entry) { return !entry.second.is_needed; });
+  const bool leaves_out =
+      std::ranges::any_of(measured, [](const auto& entry) { return !entry.second.is_needed; });
   return leaves_out ? std::optional(std::move(problem)) : std::nullopt;
 }
 

@@ -283,9 +283,8 @@ double largest_allowed(const ProblemFile& problem, const std::string& response) 
 std::vector<Finding> check_promised_buckling(const TrustedRun& run) {
   constexpr double notable = 1.1;
   const auto& responses = run.problem.responses;
-  const bool is_asked = std::any_of(responses.begin(), responses.end(), [](const auto& response) {
-    return response.type == ResponseType::buckling;
-  });
+  const bool is_asked = std::ranges::any_of(
+      responses, [](const auto& response) { return response.type == ResponseType::buckling; });
   if (!is_asked) return {};
   const LoadFactor load_factor(run);
   if (!load_factor.is_known()) return {};

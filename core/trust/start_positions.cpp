@@ -74,11 +74,10 @@ Eigen::VectorXd placed_otherwise(Model& model, int kind, const Eigen::VectorXd& 
 std::string text_of(const Model& model, Eigen::Index coordinate, const Eigen::VectorXd& placed,
                     const Eigen::VectorXd& other) {
   const Mechanism& mechanism = model.mechanism;
-  const auto owner =
-      std::find_if(model.bodies.begin(), model.bodies.end(), [&](const BodyModel& body) {
-        const Eigen::Index in_frame = coordinate - body.frame.offset;
-        return in_frame >= 0 && in_frame < body.frame.size();
-      });
+  const auto owner = std::ranges::find_if(model.bodies, [&](const BodyModel& body) {
+    const Eigen::Index in_frame = coordinate - body.frame.offset;
+    return in_frame >= 0 && in_frame < body.frame.size();
+  });
   const bool is_angle = coordinate - owner->frame.offset >= owner->frame.translations();
   const auto moved = [&](const Eigen::VectorXd& q) {
     return pleuel::difference(mechanism.rotations, q, mechanism.guess.q)(coordinate);
@@ -173,18 +172,16 @@ double reach_of(const ConstraintSettings& limit, const ResponseSettings& respons
 
 /// Whether a limit counts for a side of a history. What a formula limits is taken for what is meant.
 bool is_limited(const ProblemFile& problem, const ResponseSettings& response, double side) {
-  return std::any_of(problem.constraints.begin(), problem.constraints.end(),
-                     [&](const ConstraintSettings& limit) {
-                       const auto index = index_of_named(problem.responses, limit.response);
-                       if (!index) return false;
-                       const std::vector<std::size_t> parts = parts_of(problem, *index);
-                       return std::any_of(parts.begin(), parts.end(), [&](std::size_t part) {
-                         const ResponseSettings& other = problem.responses[part];
-                         if (!have_one_history(response, other) || !sees_as_long(other, response))
-                           return false;
-                         return part != *index || std::isfinite(reach_of(limit, other, side));
-                       });
-                     });
+  return std::ranges::any_of(problem.constraints, [&](const ConstraintSettings& limit) {
+    const auto index = index_of_named(problem.responses, limit.response);
+    if (!index) return false;
+    const std::vector<std::size_t> parts = parts_of(problem, *index);
+    return std::ranges::any_of(parts, [&](std::size_t part) {
+      const ResponseSettings& other = problem.responses[part];
+      if (!have_one_history(response, other) || !sees_as_long(other, response)) return false;
+      return part != *index || std::isfinite(reach_of(limit, other, side));
+    });
+  });
 }
 
 /// The furthest that a history goes to one side, within the window of its response.

@@ -25,8 +25,8 @@ bool can_be_sudden(const TrustedRun& run) {
   return run.problem.simulation.checks_resolution && !run.analysis.trajectory.periodic &&
          !run.problem.simulation.quasi_static_start &&
          !run.analysis.model.mechanism.elastic.empty() &&
-         std::none_of(bodies.begin(), bodies.end(),
-                      [](const Body& body) { return !body.initial_deflections.empty(); });
+         std::ranges::none_of(bodies,
+                              [](const Body& body) { return !body.initial_deflections.empty(); });
 }
 
 /// Whether elastic coordinates are accelerated at t = 0.

@@ -151,7 +151,7 @@ double wanted_step(const std::vector<ShorterSteps>& stretches, double time, doub
 int instant_of(const Trajectory& trajectory, double time) {
   const Eigen::VectorXd& all = trajectory.time;
   if (time == all(0) && trajectory.periodic) return trajectory.periodic->steps;
-  return static_cast<int>(std::lower_bound(all.begin(), all.end(), time) - all.begin());
+  return static_cast<int>(std::ranges::lower_bound(all, time) - all.begin());
 }
 
 /// Those of the trajectory, and one shortly before each jump.
@@ -164,7 +164,7 @@ std::vector<double> fixed_instants(const Trajectory& trajectory,
     const double step = trajectory.time(at) - trajectory.time(at - 1);
     instants.push_back(trajectory.time(at) - std::min(one.step, 0.5 * step));
   }
-  std::sort(instants.begin(), instants.end());
+  std::ranges::sort(instants);
   return instants;
 }
 

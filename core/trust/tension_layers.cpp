@@ -75,8 +75,7 @@ std::vector<std::string> bent_responses(const ProblemFile& problem, const std::s
         (response.type == ResponseType::section_force &&
          response.section_part != SectionForcePart::axial) ||
         response.type == ResponseType::fatigue || response.type == ResponseType::fatigue_damage;
-    return is_of_moments &&
-           std::find(response.bodies.begin(), response.bodies.end(), body) != response.bodies.end();
+    return is_of_moments && std::ranges::find(response.bodies, body) != response.bodies.end();
   });
 }
 

@@ -12,9 +12,10 @@ namespace {
 bool is_asked(const ProblemFile& problem, const std::string& name) {
   const std::vector<std::string>& listed = problem.accuracy.responses;
   return (problem.objective && problem.objective->response == name) ||
-         std::find(listed.begin(), listed.end(), name) != listed.end() ||
-         std::any_of(problem.constraints.begin(), problem.constraints.end(),
-                     [&](const ConstraintSettings& limit) { return limit.response == name; });
+         std::ranges::find(listed, name) != listed.end() ||
+         std::ranges::any_of(problem.constraints, [&](const ConstraintSettings& limit) {
+           return limit.response == name;
+         });
 }
 
 }  // namespace

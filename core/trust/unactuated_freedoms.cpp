@@ -41,13 +41,13 @@ std::set<std::string> grounded_bodies(const Scene& scene) {
 /// Whether the file gives a body a velocity at the start.
 bool has_given_velocity(const Body& body, const std::vector<double>& design) {
   const auto is_given = [&](const Number& number) { return resolve(number, design) != 0.0; };
-  return std::any_of(body.velocity.begin(), body.velocity.end(), is_given) ||
-         std::any_of(body.angular_velocity.begin(), body.angular_velocity.end(), is_given);
+  return std::ranges::any_of(body.velocity, is_given) ||
+         std::ranges::any_of(body.angular_velocity, is_given);
 }
 
 /// Whether a force or a torque acts on a body.
 bool has_load(const Scene& scene, const std::string& body) {
-  return std::any_of(scene.loads.begin(), scene.loads.end(), [&](const Load& load) {
+  return std::ranges::any_of(scene.loads, [&](const Load& load) {
     const auto* force = std::get_if<PointForce>(&load.element);
     const auto* torque = std::get_if<PointTorque>(&load.element);
     return (force && force->body == body) || (torque && torque->body == body);
@@ -130,13 +130,15 @@ class IdleFreedoms {
   bool looks_at_no_motion() const {
     const auto& responses = run_.problem.responses;
     return !responses.empty() &&
-           std::all_of(responses.begin(), responses.end(),
-                       [](const ResponseSettings& response) {
-                         return is_of_modes(response.type) || response.type == ResponseType::mass ||
-                                response.type == ResponseType::expression;
-                       }) &&
-           std::any_of(responses.begin(), responses.end(),
-                       [](const ResponseSettings& response) { return is_of_modes(response.type); });
+           std::ranges::all_of(responses,
+                               [](const ResponseSettings& response) {
+                                 return is_of_modes(response.type) ||
+                                        response.type == ResponseType::mass ||
+                                        response.type == ResponseType::expression;
+                               }) &&
+           std::ranges::any_of(responses, [](const ResponseSettings& response) {
+             return is_of_modes(response.type);
+           });
   }
 
   const Body& scene_body(const BodyModel& body) const {
@@ -148,8 +150,8 @@ class IdleFreedoms {
   }
 
   bool floats_and_moves() const {
-    return grounded_.empty() && std::any_of(model_.bodies.begin(), model_.bodies.end(),
-                                            [&](const BodyModel& body) { return moves(body); });
+    return grounded_.empty() &&
+           std::ranges::any_of(model_.bodies, [&](const BodyModel& body) { return moves(body); });
   }
 
   bool moves(const BodyModel& body) const {
@@ -286,10 +288,9 @@ class IdleFreedoms {
 
   Finding describe(const std::vector<int>& idle) const {
     const std::vector<std::string> names = names_of(idle);
-    const bool is_moved =
-        std::any_of(model_.bodies.begin(), model_.bodies.end(), [&](const BodyModel& body) {
-          return std::find(names.begin(), names.end(), body.name) != names.end() && moves(body);
-        });
+    const bool is_moved = std::ranges::any_of(model_.bodies, [&](const BodyModel& body) {
+      return std::ranges::find(names, body.name) != names.end() && moves(body);
+    });
     Finding finding;
     finding.text = fmt::format(
         "{} can move freely ({}), and no drive, load, spring, damper, weight or initial velocity "
@@ -347,10 +348,9 @@ std::vector<Finding> check_unconnected_bodies(const TrustedRun& run) {
       "load or initial velocity is given: {}. Is a joint missing?",
       quoted(names), run.analysis.model.gravity.isZero(0.0) ? "nothing moves there" : "falls");
   for (const ResponseSettings& response : run.problem.responses) {
-    const bool looks_there =
-        std::any_of(response.bodies.begin(), response.bodies.end(), [&](const std::string& name) {
-          return std::find(names.begin(), names.end(), name) != names.end();
-        });
+    const bool looks_there = std::ranges::any_of(response.bodies, [&](const std::string& name) {
+      return std::ranges::find(names, name) != names.end();
+    });
     if (looks_there && response.type != ResponseType::mass) {
       finding.responses.push_back(response.name);
     }

@@ -78,9 +78,9 @@ class UnresolvedTransients {
       look_at(jump);
     }
     if (suspects_.empty()) return {};
-    std::stable_sort(
-        suspects_.begin(), suspects_.end(),
-        [](const JumpTransient& a, const JumpTransient& b) { return a.share > b.share; });
+    std::ranges::stable_sort(suspects_, [](const JumpTransient& a, const JumpTransient& b) {
+      return a.share > b.share;
+    });
     const std::optional<RefinedRun> fine = simulate_transients();
     if (fine) run_.shared->with_short_steps = fine->values;
     const std::vector<bool> is_round_off = find_round_off(run_);
@@ -89,8 +89,8 @@ class UnresolvedTransients {
       if (is_round_off[i]) continue;
       if (const auto unseen = unseen_of(i, fine)) found.push_back(*unseen);
     }
-    std::stable_sort(found.begin(), found.end(),
-                     [](const MissedPeak& a, const MissedPeak& b) { return a.share > b.share; });
+    std::ranges::stable_sort(
+        found, [](const MissedPeak& a, const MissedPeak& b) { return a.share > b.share; });
     return found;
   }
 
@@ -314,8 +314,8 @@ class UnresolvedTransients {
       return std::pair(misses && is_simulated && suspect.is_simulated,
                        misses ? found->second.share : 0.0);
     };
-    return *std::max_element(
-        suspects_.begin(), suspects_.end(),
+    return *std::ranges::max_element(
+        suspects_,
         [&](const JumpTransient& a, const JumpTransient& b) { return rank(a) < rank(b); });
   }
 

@@ -112,7 +112,7 @@ void stress(Keys& keys, R& r, const Scope& scope) {
 namespace {
 
 bool has_general_section(const BeamBody& beam) {
-  return std::any_of(beam.segments.begin(), beam.segments.end(), [](const Segment& segment) {
+  return std::ranges::any_of(beam.segments, [](const Segment& segment) {
     return std::holds_alternative<GeneralSection>(segment.section);
   });
 }

@@ -86,8 +86,7 @@ std::string BeamPlaces::describe(int node) const {
 std::optional<std::string> BeamPlaces::find_disorder(const Point& at,
                                                      const Design<double>& design) const {
   const ElementPlace place = find_place(mesh_, nearest_share(beam_, position(at, start_), start_));
-  const bool moves = place.is_node() &&
-                     std::any_of(mesh_.knots.begin(), mesh_.knots.end(), [&](const MeshKnot& knot) {
+  const bool moves = place.is_node() && std::ranges::any_of(mesh_.knots, [&](const MeshKnot& knot) {
                        return knot.node == place.node() && knot.at;
                      });
   if (!moves) return std::nullopt;

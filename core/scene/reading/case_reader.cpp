@@ -193,12 +193,11 @@ void check_file_name(const JsonNode& node, const std::string& name,
 bool mentions_any(const Json& value, const std::set<std::string>& names) {
   if (value.is_string()) {
     const std::string& text = value.get_ref<const std::string&>();
-    return std::any_of(names.begin(), names.end(),
-                       [&](const std::string& name) { return has_word(text, name); });
+    return std::ranges::any_of(names,
+                               [&](const std::string& name) { return has_word(text, name); });
   }
-  return value.is_structured() && std::any_of(value.begin(), value.end(), [&](const Json& inner) {
-           return mentions_any(inner, names);
-         });
+  return value.is_structured() &&
+         std::ranges::any_of(value, [&](const Json& inner) { return mentions_any(inner, names); });
 }
 
 /// What the masses of these bodies (none: of all) follow from, besides constants. The lengths of segments
@@ -282,7 +281,7 @@ std::vector<CaseChanges> read_cases(const JsonNode& root) {
   std::vector<CaseChanges> cases;
   for (const auto& [name, one] : node.members()) {
     for (CaseChanges& changes : read_case(name, one)) {
-      const bool is_known = std::any_of(cases.begin(), cases.end(), [&](const CaseChanges& other) {
+      const bool is_known = std::ranges::any_of(cases, [&](const CaseChanges& other) {
         return other.name == changes.name || other.range == changes.name;
       });
       if (is_known) one.fail(fmt::format("gives the case \"{}\" a second time", changes.name));
@@ -307,7 +306,7 @@ void check_constant(const Json& document, const std::string& pointer, const std:
     for (const auto& [name, value] : document["constants"].items()) names.push_back(name);
   }
   const std::string name = pointer.substr(constants.size());
-  if (std::find(names.begin(), names.end(), name) != names.end()) return;
+  if (std::ranges::find(names, name) != names.end()) return;
   throw InputError(fmt::format("{}: {} names the unknown constant \"{}\"{}", file, place, name,
                                hint(name, names)));
 }

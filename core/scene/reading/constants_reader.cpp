@@ -126,7 +126,7 @@ void read_changes_of_places(const JsonNode& node, BodyConstants& change) {
   std::vector<std::string> names;
   for (const BodyPlace& place : change.places) names.push_back(place.name);
   for (const auto& [name, member] : node.members()) {
-    const auto found = std::find(names.begin(), names.end(), name);
+    const auto found = std::ranges::find(names, name);
     if (found == names.end()) fail_unknown_name(node, "place", name, names);
     read_place(member, change.places[found - names.begin()]);
   }

@@ -50,9 +50,9 @@ int ExpressionBuilder::add_quantity(std::size_t position, double value, const st
 int ExpressionBuilder::add_name(std::size_t position, const std::string& name) {
   const Symbol* symbol = find(name);
   if (symbol == nullptr) fail_unknown(position, name);
-  const bool is_of_two =
-      name == "pi" || std::count_if(symbols_.begin(), symbols_.end(),
-                                    [&](const Symbol& one) { return one.name == name; }) > 1;
+  const bool is_of_two = name == "pi" || std::ranges::count_if(symbols_, [&](const Symbol& one) {
+                                           return one.name == name;
+                                         }) > 1;
   if (is_of_two) {
     fail(position, fmt::format("the name \"{}\" stands for two things; rename one of them", name));
   }
@@ -118,7 +118,7 @@ int ExpressionBuilder::add_symbol(const Symbol& symbol) {
     return step;
   }
   std::vector<ExpressionArgument>& all = expression_.arguments;
-  const auto known = std::find_if(all.begin(), all.end(), [&](const ExpressionArgument& one) {
+  const auto known = std::ranges::find_if(all, [&](const ExpressionArgument& one) {
     return one.kind == symbol.argument->kind && one.index == symbol.argument->index;
   });
   const auto index = static_cast<int>(known - all.begin());
@@ -245,7 +245,7 @@ std::vector<std::string> ExpressionBuilder::names_with_cases() const {
   std::vector<std::string> names;
   for (const Symbol& symbol : symbols_) {
     const auto split = split_case(symbol.name);
-    if (split && std::find(names.begin(), names.end(), split->name) == names.end()) {
+    if (split && std::ranges::find(names, split->name) == names.end()) {
       names.push_back(split->name);
     }
   }

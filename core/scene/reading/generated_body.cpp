@@ -257,9 +257,8 @@ class GeneratedBody : public BodySource {
     std::vector<ConstantsDerivative> design;
     for (int i = 0; i < int_size(values); ++i) {
       const MadeVariable& variable = generator_.variables[i];
-      const auto given =
-          std::find_if(file.design.begin(), file.design.end(),
-                       [&](const ConstantsDerivative& of) { return of.variable == variable.name; });
+      const auto given = std::ranges::find_if(
+          file.design, [&](const ConstantsDerivative& of) { return of.variable == variable.name; });
       if (given == file.design.end() || !given->derivative) {
         fail(values, fmt::format("it gives no derivatives with respect to \"{}\"; write them, or "
                                  "set \"derivatives\": \"differences\"",

@@ -33,9 +33,9 @@ Quantity read_linear(const JsonNode& node, ConstraintSettings& constraint, Numbe
     constraint.linear.emplace_back(numbers.variable(coefficient, name), coefficient.number());
   }
   if (members.empty()) node.fail("must have at least one variable");
-  const bool is_used =
-      std::any_of(constraint.linear.begin(), constraint.linear.end(),
-                  [&](const auto& term) { return numbers.quantity_of(term.first).has_value(); });
+  const bool is_used = std::ranges::any_of(constraint.linear, [&](const auto& term) {
+    return numbers.quantity_of(term.first).has_value();
+  });
   // The scene of one load case may not use what that of another does: their units tell.
   for (const auto& [variable, coefficient] : constraint.linear) {
     if (!is_used) numbers.count_as_used(variable);
@@ -113,7 +113,7 @@ const ConstraintSettings& read_varied_constraint(const JsonNode& node, const Pro
     std::vector<std::string> known = names_of(problem.constraints);
     for (const ProblemFile& one : problem.cases) {
       for (const ConstraintSettings& limit : one.constraints) {
-        if (std::find(known.begin(), known.end(), limit.name) == known.end()) {
+        if (std::ranges::find(known, limit.name) == known.end()) {
           known.push_back(limit.name);
         }
       }
@@ -188,7 +188,7 @@ std::vector<std::string> names_of_cases(const std::vector<ProblemFile>& cases) {
   std::vector<std::string> names;
   for (const ProblemFile& one : cases) {
     if (!one.case_range.empty() && (names.empty() || names.back() != one.case_range)) {
-      const bool is_new = std::find(names.begin(), names.end(), one.case_range) == names.end();
+      const bool is_new = std::ranges::find(names, one.case_range) == names.end();
       if (is_new) names.push_back(one.case_range);
     }
   }
@@ -200,7 +200,7 @@ void check_weights(const JsonNode& node, const CaseWeights& weights,
                    const std::vector<ProblemFile>& cases) {
   const std::vector<std::string> known = names_of_cases(cases);
   for (const auto& [name, weight] : weights) {
-    if (std::find(known.begin(), known.end(), name) == known.end()) {
+    if (std::ranges::find(known, name) == known.end()) {
       fail_unknown_name(node.at(name), "case", name, known);
     }
   }

@@ -214,7 +214,7 @@ void read_derivatives(const JsonNode& root, InvariantsFile& file) {
   std::vector<std::string> names;
   for (const ConstantsDerivative& of : file.design) names.push_back(of.variable);
   for (const auto& [name, member] : node->members()) {
-    const auto found = std::find(names.begin(), names.end(), name);
+    const auto found = std::ranges::find(names, name);
     if (found == names.end()) {
       member.fail(fmt::format("must have a value in /design, the design that it belongs to"));
     }

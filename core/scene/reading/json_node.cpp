@@ -44,7 +44,7 @@ void JsonNode::expect_object() const {
 void JsonNode::allow_keys(const std::vector<std::string_view>& known) const {
   expect_object();
   for (const auto& [key, member] : value_->items()) {
-    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    if (std::ranges::find(known, key) != known.end()) continue;
     const std::vector<std::string> words(known.begin(), known.end());
     fail(fmt::format("has the unknown key \"{}\"{}", key, hint(key, words)));
   }
@@ -143,7 +143,7 @@ std::string read_known_name(const JsonNode& node, std::string_view kind,
                                      is_short ? ": " + quoted_list(known, "or") : ""));
   }
   const std::string name = node.text();
-  if (std::find(known.begin(), known.end(), name) == known.end()) {
+  if (std::ranges::find(known, name) == known.end()) {
     fail_unknown_name(node, kind, name, known);
   }
   return name;

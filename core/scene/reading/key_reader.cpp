@@ -14,7 +14,7 @@ namespace {
 class WordList : public Keys {
  public:
   void each(const Key& key) override {
-    if (std::find(words.begin(), words.end(), key.word) == words.end()) words.push_back(key.word);
+    if (std::ranges::find(words, key.word) == words.end()) words.push_back(key.word);
   }
   bool gives(const Key& key, bool) override {
     each(key);
@@ -111,7 +111,7 @@ void KeyReader::chosen(const Key& key, std::size_t& index,
   const auto value = given(key);
   if (!value) return;
   const auto is_meant = [&](std::string_view word) { return value->value() == std::string(word); };
-  const auto found = std::find_if(words.begin(), words.end(), is_meant);
+  const auto found = std::ranges::find_if(words, is_meant);
   if (found == words.end()) fail_choice(*value, {words.begin(), words.end()});
   index = static_cast<std::size_t>(found - words.begin());
 }
@@ -146,7 +146,7 @@ void KeyReader::names(const Key& key, const char* kind, const std::vector<std::s
   std::vector<std::string> read;
   for (const JsonNode& item : list->items()) {
     const std::string name = read_known_name(item, kind, known);
-    if (std::find(read.begin(), read.end(), name) != read.end()) {
+    if (std::ranges::find(read, name) != read.end()) {
       item.fail(fmt::format("names the {} \"{}\" a second time", kind, name));
     }
     read.push_back(name);
@@ -183,7 +183,7 @@ void KeyReader::exclusive(const char* one, const char* other) {
 }
 
 bool KeyReader::has_one(Words words) const {
-  return std::any_of(words.begin(), words.end(), [&](const char* word) { return has(word); });
+  return std::ranges::any_of(words, [&](const char* word) { return has(word); });
 }
 
 void KeyReader::one_at_least(Words words) {

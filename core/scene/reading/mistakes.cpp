@@ -40,7 +40,7 @@ void MistakeCollector::fail_if_any() const {
 
 void MistakeCollector::add(const InputError& error) {
   for (std::string& text : mistakes_of(error)) {
-    const bool is_known = std::find(texts_.begin(), texts_.end(), text) != texts_.end();
+    const bool is_known = std::ranges::find(texts_, text) != texts_.end();
     if (!is_known) texts_.push_back(std::move(text));
   }
 }

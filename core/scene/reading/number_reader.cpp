@@ -91,7 +91,7 @@ void NumberReader::leave_out(const std::string& name, const std::string& formula
 
 bool NumberReader::leaves_out(const std::string& name) const {
   if (!is_of_case_) return false;
-  return split_case(name) || std::find(left_out_.begin(), left_out_.end(), name) != left_out_.end();
+  return split_case(name) || std::ranges::find(left_out_, name) != left_out_.end();
 }
 
 void NumberReader::require_here(const JsonNode& node) const {
@@ -175,7 +175,7 @@ Number NumberReader::designable_formula(const JsonNode& node, const Quantity& qu
 }
 
 const Symbol* NumberReader::symbol_of(int variable) const {
-  const auto found = std::find_if(symbols_.begin(), symbols_.end(), [&](const Symbol& symbol) {
+  const auto found = std::ranges::find_if(symbols_, [&](const Symbol& symbol) {
     return symbol.argument && static_cast<int>(symbol.argument->index) == variable;
   });
   return found == symbols_.end() ? nullptr : &*found;
@@ -262,7 +262,7 @@ double NumberReader::start_of(const std::string& name, const Quantity& quantity)
 }
 
 std::optional<int> NumberReader::find_variable(const std::string& name) const {
-  const auto found = std::find(variables_.begin(), variables_.end(), name);
+  const auto found = std::ranges::find(variables_, name);
   if (found == variables_.end()) return std::nullopt;
   return static_cast<int>(found - variables_.begin());
 }
@@ -291,18 +291,18 @@ std::vector<RangedFormula> NumberReader::ranged_formulas() const {
 }
 
 const VariableUse* NumberReader::first_use(int variable) const {
-  const auto first = std::find_if(uses_.begin(), uses_.end(), [variable](const VariableUse& use) {
-    return use.number.variable == variable;
-  });
+  const auto first = std::ranges::find_if(
+      uses_, [variable](const VariableUse& use) { return use.number.variable == variable; });
   return first == uses_.end() ? nullptr : &*first;
 }
 
 std::optional<Quantity> NumberReader::quantity_of(int variable) const {
   if (const VariableUse* first = first_use(variable)) return first->quantity;
-  const bool is_mentioned =
-      std::any_of(mentions_.begin(), mentions_.end(),
-                  [&](const VariableMention& mention) { return mention.variable == variable; }) ||
-      std::find(used_elsewhere_.begin(), used_elsewhere_.end(), variable) != used_elsewhere_.end();
+  const bool is_mentioned = std::ranges::any_of(mentions_,
+                                                [&](const VariableMention& mention) {
+                                                  return mention.variable == variable;
+                                                }) ||
+                            std::ranges::find(used_elsewhere_, variable) != used_elsewhere_.end();
   if (!is_mentioned) return std::nullopt;
   return find_quantity(symbol_of(variable)->dimension, *units_);
 }

@@ -96,7 +96,7 @@ class Override {
     if (variables != document.end() && variables->is_object()) {
       for (const auto& [name, variable] : variables->items()) known.push_back(name);
     }
-    if (std::find(known.begin(), known.end(), place) == known.end()) {
+    if (std::ranges::find(known, place) == known.end()) {
       const std::string rule = "must begin with a JSON pointer such as /simulation/step";
       const bool is_no_name = place.empty() || place.find('/') != std::string::npos;
       fail(is_no_name || known.empty()
@@ -127,7 +127,7 @@ class Override {
     if (!parent.is_object()) fail(fmt::format("{} has no members", shown(pointer)));
     if (parent.contains(key)) return parent[key];
     const auto is_one_of = [&key](const auto& blocks) {
-      return std::find(blocks.begin(), blocks.end(), key) != blocks.end();
+      return std::ranges::find(blocks, key) != blocks.end();
     };
     const bool is_block = (pointer.empty() && is_one_of(optional_blocks)) ||
                           (pointer == "/scene" && is_one_of(scene_blocks));

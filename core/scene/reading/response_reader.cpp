@@ -118,10 +118,9 @@ std::vector<Symbol> symbols_of(const std::vector<ResponseSettings>& responses,
 void name_frequency(Expression& expression, const std::vector<ResponseSettings>& known) {
   if (expression.unit != quantities::angular_frequency.unit) return;
   const bool is_one =
-      std::any_of(expression.arguments.begin(), expression.arguments.end(),
-                  [&](const ExpressionArgument& argument) {
-                    return argument.kind == Kind::response && is_frequency(known[argument.index]);
-                  });
+      std::ranges::any_of(expression.arguments, [&](const ExpressionArgument& argument) {
+        return argument.kind == Kind::response && is_frequency(known[argument.index]);
+      });
   if (is_one) expression.quantity = quantities::angular_frequency.name;
 }
 

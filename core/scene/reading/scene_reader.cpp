@@ -39,11 +39,10 @@ std::vector<std::string> material_names(const Scene& scene) {
 /// Of the library, what the bodies are made of.
 void add_library_materials(Scene& scene) {
   for (const Material& material : material_library()) {
-    const bool is_used =
-        std::any_of(scene.bodies.begin(), scene.bodies.end(), [&material](const Body& body) {
-          const auto* beam = std::get_if<BeamBody>(&body.shape);
-          return beam != nullptr && beam->material == material.name;
-        });
+    const bool is_used = std::ranges::any_of(scene.bodies, [&material](const Body& body) {
+      const auto* beam = std::get_if<BeamBody>(&body.shape);
+      return beam != nullptr && beam->material == material.name;
+    });
     if (is_used && !find_named(scene.materials, material.name)) scene.materials.push_back(material);
   }
 }

@@ -61,8 +61,7 @@ class SectionList {
     start_ = (names_.size() - 1) / 2;
     if (const auto start = variable.find("start")) {
       const std::string first = read_known_name(*start, "choice", names_);
-      start_ =
-          static_cast<std::size_t>(std::find(names_.begin(), names_.end(), first) - names_.begin());
+      start_ = static_cast<std::size_t>(std::ranges::find(names_, first) - names_.begin());
     }
   }
 
@@ -96,13 +95,12 @@ class SectionList {
     }
     std::vector<std::string> once;
     for (const std::string& name : names_) {
-      if (std::find(once.begin(), once.end(), name) == once.end()) once.push_back(name);
+      if (std::ranges::find(once, name) == once.end()) once.push_back(name);
     }
     names_ = std::move(once);
-    std::stable_sort(names_.begin(), names_.end(),
-                     [&](const std::string& one, const std::string& other) {
-                       return areas.at(one) < areas.at(other);
-                     });
+    std::ranges::stable_sort(names_, [&](const std::string& one, const std::string& other) {
+      return areas.at(one) < areas.at(other);
+    });
   }
 
   void check_kind(const JsonNode& choices) const {
@@ -127,7 +125,7 @@ class SectionList {
     Json path = Json::array();
     for (std::size_t i = 0; i < names_.size(); ++i) path.push_back(value_of(at(i)));
     const bool is_shared =
-        std::all_of(path.begin(), path.end(), [&](const Json& one) { return one == path.front(); });
+        std::ranges::all_of(path, [&](const Json& one) { return one == path.front(); });
     place = is_shared ? path.front() : Json{{"variable", name_}, {"path", path}};
   }
 

@@ -239,11 +239,10 @@ SimulationSettings read_simulation(const JsonNode& node, NumberReader& numbers) 
 
 void check_effects(const JsonNode& node, const ProblemFile& problem) {
   const EffectSettings& effects = problem.effects;
-  const bool has_elastic_body =
-      std::any_of(problem.scene.bodies.begin(), problem.scene.bodies.end(), [](const Body& body) {
-        const auto* beam = std::get_if<BeamBody>(&body.shape);
-        return std::holds_alternative<ImportedBody>(body.shape) || (beam && !beam->is_rigid);
-      });
+  const bool has_elastic_body = std::ranges::any_of(problem.scene.bodies, [](const Body& body) {
+    const auto* beam = std::get_if<BeamBody>(&body.shape);
+    return std::holds_alternative<ImportedBody>(body.shape) || (beam && !beam->is_rigid);
+  });
   const bool is_rigid = effects.elasticity == EffectChoice::off;
   for (const auto& [key, choice] :
        {std::pair("elasticity", effects.elasticity),

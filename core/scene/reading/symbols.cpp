@@ -72,8 +72,8 @@ Dimension dimension_of_variable(const JsonNode& node, const std::vector<Symbol>&
 }  // namespace
 
 std::string formula_hint(const std::string& text, const std::vector<Symbol>& symbols) {
-  const bool is_name = std::any_of(symbols.begin(), symbols.end(),
-                                   [&](const Symbol& symbol) { return symbol.name == text; });
+  const bool is_name =
+      std::ranges::any_of(symbols, [&](const Symbol& symbol) { return symbol.name == text; });
   const std::size_t sign = std::min({text.find_first_of("*("), text.find(" + "), text.find(" - ")});
   if (is_name) return fmt::format("; a formula begins with \"=\": \"= {}\"", text);
   if (sign == std::string::npos) return "";

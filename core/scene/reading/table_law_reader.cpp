@@ -32,7 +32,7 @@ namespace fs = std::filesystem;
 std::string trimmed(std::string text, std::string_view covers = " \t\r\"") {
   const auto is_cover = [&](char c) { return covers.find(c) != std::string_view::npos; };
   while (!text.empty() && is_cover(text.back())) text.pop_back();
-  text.erase(text.begin(), std::find_if_not(text.begin(), text.end(), is_cover));
+  text.erase(text.begin(), std::ranges::find_if_not(text, is_cover));
   return text;
 }
 
@@ -128,7 +128,7 @@ class TableFile {
     if (rows_.empty()) name_.fail(fmt::format("names the file {}, which is empty", name_.text()));
     const auto is_number = [](const std::string& cell) { return number_of(cell).has_value(); };
     const std::vector<std::string>& first = rows_.front().cells;
-    if (std::none_of(first.begin(), first.end(), is_number)) {
+    if (std::ranges::none_of(first, is_number)) {
       for (const std::string& cell : first) heads_.push_back(head_of(cell));
       rows_.erase(rows_.begin());
     }
@@ -181,7 +181,7 @@ class TableFile {
     const std::string name = column.text();
     std::vector<std::string> known;
     for (const Head& head : heads_) known.push_back(head.name);
-    const auto found = std::find(known.begin(), known.end(), name);
+    const auto found = std::ranges::find(known, name);
     if (found != known.end()) {
       if (std::find(found + 1, known.end(), name) != known.end()) {
         column.fail_with_value(fmt::format(

@@ -26,9 +26,9 @@ std::vector<SizeChoice> read_sizes(const JsonNode& node, const Quantity& quantit
     choices.push_back({value, choice_text(one, value)});
   }
   if (choices.empty()) node.fail("must have at least one choice");
-  std::stable_sort(
-      choices.begin(), choices.end(),
-      [](const SizeChoice& one, const SizeChoice& other) { return one.value < other.value; });
+  std::ranges::stable_sort(choices, [](const SizeChoice& one, const SizeChoice& other) {
+    return one.value < other.value;
+  });
   const auto is_same = [](const SizeChoice& one, const SizeChoice& other) {
     return one.value == other.value;
   };
@@ -49,8 +49,8 @@ DesignVariable read_chosen(const std::string& name, const JsonNode& node, const 
   variable.start = variable.choices[(variable.choices.size() - 1) / 2].value;
   if (const auto start = node.find("start")) {
     variable.start = numbers.fixed(*start, quantity);
-    if (std::none_of(variable.choices.begin(), variable.choices.end(),
-                     [&](const SizeChoice& one) { return one.value == variable.start; })) {
+    if (std::ranges::none_of(variable.choices,
+                             [&](const SizeChoice& one) { return one.value == variable.start; })) {
       start->fail_with_value("must be one of the choices");
     }
   }
