@@ -91,8 +91,7 @@ class Equilibrium {
   System& system_;
   int n_, m_;
   AxialStrains strains_;
-  Eigen::VectorXd
-      closed_by_deformation_;  ///< one a multiplier: 1 of those with a μ_d, 0 of the others
+  Eigen::VectorXd closed_by_deformation_;  ///< 1 of multipliers with a μ_d, 0 of the others
 };
 
 }  // namespace pleuel
