@@ -336,6 +336,7 @@ class Search {
     with_states(at * Refinement{0.5});
     set.refine_steps();
     keep_errors(analysis, set.runs(), trial);
+    if (set.runs().half_step->has_failed()) trial.tried.error = infinite;
   }
 
   /// Whether half the step may show it.
