@@ -570,7 +570,7 @@ describe("pages", { concurrency: 3 }, () => {
     await of("damage").scrollIntoViewIfNeeded();
     await of("damage").locator("svg").waitFor();
     assert.doesNotMatch(await of("damage").locator("svg").innerHTML(), /≤/);
-    assert.match(await tab.locator(".hero").innerText(), /the limit is exceeded/);
+    assert.match(await tab.locator(".hero").innerText(), /the limit is broken/);
     await tab.close();
   });
 
@@ -578,7 +578,7 @@ describe("pages", { concurrency: 3 }, () => {
     const { tab } = await open("negative");
     const { constraints } = result("negative");
     assert.deepEqual([constraints.stays_left.kept, constraints.stays_left.utilisation], [false, undefined]);
-    assert.match(await tab.locator(".hero").innerText(), /1 of 2 limits exceeded\s+stays left/);
+    assert.match(await tab.locator(".hero").innerText(), /1 of 2 limits broken\s+stays left/);
     const row = tab.locator("tbody tr", { hasText: "stays left" });
     assert.match(await row.innerText(), /≤ −1(\.0*)? mm\s+broken/);
     await tab.close();

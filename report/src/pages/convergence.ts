@@ -44,7 +44,7 @@ export function convergenceSection(data: ReportData): HTMLElement | null {
             yTitle: "% of the limit",
             series: [{ name: "violation", x, y: violation.map((one) => (one > roundOff ? 100 * one : null)), color: "limit", dots: true, labels }],
           }).element
-        : h("p.note", {}, "No design on the way exceeded a limit."),
+        : h("p.note", {}, "No design on the way broke a limit."),
     ),
   );
 }

@@ -39,8 +39,9 @@ function limitsSentence(result: Document): HTMLElement | null {
   if (!limits.length) return null;
   const broken = limits.filter(([, one]) => !one.kept);
   const of = limits.length === 1 ? "the limit is" : `${broken.length} of ${limits.length} limits`;
+  const named = ([name, one]: [string, Document]) => words(name) + (one.within_error ? " (within its error)" : "");
   return broken.length
-    ? h("p.verdict", {}, h("span.badge.warn", {}, `! ${of} exceeded`), ` ${broken.map(([name]) => words(name)).join(", ")}`)
+    ? h("p.verdict", {}, h("span.badge.warn", {}, `! ${of} broken`), ` ${broken.map(named).join(", ")}`)
     : h("p.verdict", {}, h("span.badge.good", {}, limits.length === 1 ? "✓ the limit holds" : `✓ all ${limits.length} limits hold`));
 }
 
