@@ -148,6 +148,10 @@ int scheme_order(const SimulationSettings& settings) {
   return is_second ? 2 : 1;
 }
 
+bool is_near_order(const std::optional<double>& seen, double promised) {
+  return seen && std::abs(*seen - promised) <= safety::order_room;
+}
+
 Extrapolation extrapolate(double fine, double middle, double coarse, double order, double local,
                           double small) {
   const double last = fine - middle, before = middle - coarse;
@@ -156,7 +160,7 @@ Extrapolation extrapolate(double fine, double middle, double coarse, double orde
   if (std::max({std::abs(last), std::abs(before), local}) <= value_round_off * std::abs(fine))
     return {};
   const double share = std::pow(2.0, -order), remaining = share / (1.0 - share);
-  found.has_promised_order = found.order && std::abs(*found.order - order) <= safety::order_room;
+  found.has_promised_order = is_near_order(found.order, order);
   if (found.has_promised_order) {
     found.part.change = remaining * last;
     found.part.bound = safety::of_order * remaining * std::max(std::abs(last), local);

@@ -31,6 +31,9 @@ inline constexpr double of_modes = 1.5, of_newton = 1.5;
 /// The order in the step that a scheme has: 2, or 1 of those that damp by their truncation error.
 int scheme_order(const SimulationSettings& settings);
 
+/// Whether an order that is seen is the promised one, to what steps of these sizes leave open.
+bool is_near_order(const std::optional<double>& seen, double promised);
+
 /// What refinement by two says of the finest of three values, v(h), v(2h), v(4h).
 struct Extrapolation {
   ErrorPart part;

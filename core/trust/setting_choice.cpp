@@ -39,6 +39,8 @@ constexpr double least_growth = 1.05;
 /// Shares of the target that estimates for a new step and new elements aim at. Both change by powers
 /// of two, so that each run serves as the coarser or finer one of others.
 constexpr double step_aim = 0.4, elements_aim = 0.25;
+/// What half the step may leave of a difference that shows no order, if it has one behind that.
+constexpr double left_by_half = 0.25;
 constexpr double most_halvings = 3.0, most_doublings = 2.0;
 /// Elements are compared at four times the step where that changes what is asked by no more than this:
 /// their differences change by such a share, too.
@@ -75,6 +77,7 @@ struct Trial {
   Eigen::VectorXd values;       ///< of the responses; empty: not simulated
   Eigen::VectorXd magnitudes;   ///< what errors of them are small beside
   std::vector<std::optional<ErrorBar>> bars;  ///< of what is asked for
+  bool is_order_seen = false;                 ///< in the step, of all that is asked for
 
   const Refinement& setting() const { return tried.setting; }
 };
@@ -156,13 +159,17 @@ class Search {
       next.step *= 0.5;
       return next;  // what elements change is known once steps are resolved
     }
-    if (by_step > step_aim) next.step *= std::exp2(-times_two(by_step / step_aim, most_halvings));
-    if (by_elements > elements_aim) {
+    // Both at once only where each by itself misses the target.
+    const bool is_step_larger = trial.by_step.bound > trial.by_elements.bound;
+    if (by_step > step_aim && (is_step_larger || trial.by_step.bound > target_)) {
+      next.step *= std::exp2(-times_two(by_step / step_aim, most_halvings));
+    }
+    if (by_elements > elements_aim && (!is_step_larger || trial.by_elements.bound > target_)) {
       next.elements *= std::exp2(times_two(by_elements / elements_aim, most_doublings));
     }
     if (next != trial.setting()) return next;
     // What is estimated would do, but is not known well enough.
-    (trial.by_step.bound > trial.by_elements.bound ? next.step *= 0.5 : next.elements *= 2.0);
+    (is_step_larger ? next.step *= 0.5 : next.elements *= 2.0);
     return next;
   }
 
@@ -332,7 +339,7 @@ class Search {
         });
     RefinementSet set(store_, at, divided, analysis, Divisions::both, is_four_enough ? 4.0 : 2.0);
     keep_errors(analysis, set.runs(), trial);
-    if (!may_be_met(trial)) return;
+    if (!may_be_met(trial) || (is_met(trial) && trial.is_order_seen)) return;
     with_states(at * Refinement{0.5});
     set.refine_steps();
     keep_errors(analysis, set.runs(), trial);
@@ -341,7 +348,8 @@ class Search {
 
   /// Whether half the step may show it.
   bool may_be_met(const Trial& trial) const {
-    const double seen = safety::of_seen * trial.by_step.estimate;
+    const double left = trial.is_order_seen ? 1.0 : left_by_half;
+    const double seen = safety::of_seen * left * trial.by_step.estimate;
     return is_met(trial) || seen + trial.by_elements.bound + trial.by_others <= target_;
   }
 
@@ -350,9 +358,10 @@ class Search {
     trial.bars.resize(problem_.responses.size());
     trial.by_step = trial.by_elements = {0.0, 0.0};
     trial.by_others = 0.0;
+    trial.is_order_seen = true;
+    const int order = scheme_order(problem_.simulation);
     for (const std::size_t i : asked_) {
-      const Evidence evidence =
-          evidence_of(analysis, i, judging, scheme_order(problem_.simulation));
+      const Evidence evidence = evidence_of(analysis, i, judging, order);
       trial.magnitudes(i) = evidence.magnitude;
       trial.bars[i] = error_bar(evidence);
       const ErrorPart elements = element_part(evidence);
@@ -361,6 +370,8 @@ class Search {
         others.bound += trial.bars[i]->elements.bound - elements.bound;
         others.is_resolved = others.is_resolved && trial.bars[i]->elements.is_resolved;
       }
+      trial.is_order_seen = trial.is_order_seen && (trial.bars[i]->step.bound == 0.0 ||
+                                                    is_near_order(trial.bars[i]->order, order));
       widen(trial.by_step, trial, i, trial.bars[i]->step);
       widen(trial.by_elements, trial, i, elements);
       trial.by_others = std::max(trial.by_others, relative(trial, i, others, others.bound));
