@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/base/error.hpp"
+#include "core/integration/newton_corrector.hpp"
 #include "core/mechanism/linear_solver.hpp"
 #include "core/mechanism/mechanism.hpp"
 #include "core/system/linear_forces.hpp"
@@ -123,9 +123,8 @@ Eigen::MatrixXd ConstrainedJerk::differentiate(const Eigen::MatrixXd& q, const E
   return rhs.topRows(n);
 }
 
-constexpr int max_corrections = 20;
-/// Newton's method ends at this change of scaled coordinates, or where it no longer shrinks.
-constexpr double correction_tolerance = 1e-15, correction_round_off = 1e-9;
+/// Of the probes: to round-off.
+constexpr double correction_tolerance = 1e-15;
 /// Probes that do not converge are made so often half as long.
 constexpr int max_halvings = 6;
 /// Probes agree with the acceleration of the start up to this share of the largest one.
@@ -174,7 +173,7 @@ DampedStart::DampedStart(Mechanism& mechanism, const State& start, const Scheme&
   }
   const auto at = [this](double time) -> Eigen::VectorXd {
     const auto [first, second] = weights_at(time);
-    return first * probes_[0].a + second * probes_[1].a;
+    return first * probes_[0].state.a + second * probes_[1].state.a;
   };
   a_ = at(0.0);
   if (is_resolved(a_)) {
@@ -202,7 +201,7 @@ bool DampedStart::is_resolved(const Eigen::VectorXd& found) const {
   const auto size = [this](const Eigen::VectorXd& a) {
     return a.cwiseQuotient(mechanism_.scale).lpNorm<Eigen::Infinity>();
   };
-  return size(found - start_.a) <= resolved * std::max(size(start_.a), size(probes_[1].a));
+  return size(found - start_.a) <= resolved * std::max(size(start_.a), size(probes_[1].state.a));
 }
 
 void DampedStart::set_exact() {
@@ -220,39 +219,17 @@ std::array<double, 2> DampedStart::weights_at(double time) const {
 }
 
 bool DampedStart::make_probe(Probe& probe) {
-  const int n = mechanism_.system->coordinates();
   StepEquations equations(mechanism_, implicit_euler(probe.step), on_acceleration_level);
   equations.begin(start_);
-  StepState state = equations.make_state(start_);
-  System::Matrix matrix = equations.make_matrix();
-  LinearSolver solver(matrix, mechanism_.elastic);
+  StepState& state = probe.state = equations.make_state(start_);
   state.time = start_.time + probe.step;
   state.a.setZero();
-  Eigen::VectorXd correction = Eigen::VectorXd::Zero(equations.size());
-  correction.head(n) = probe.step * start_.v;
-  state.increment = correction.head(n);
-  correction.setZero();
-  equations.apply(correction, state);
-  double previous = std::numeric_limits<double>::infinity();
-  for (int iteration = 0; iteration < max_corrections; ++iteration) {
-    equations.linearize(state, correction, matrix);
-    if (!solver.factorize(matrix)) return false;
-    correction *= -1.0;
-    solver.solve(correction);
-    equations.apply(correction, state);
-    const double size =
-        correction.head(n).cwiseQuotient(mechanism_.scale).lpNorm<Eigen::Infinity>();
-    if (!std::isfinite(size)) return false;
-    if (size < correction_tolerance || (size < correction_round_off && size > 0.3 * previous)) {
-      probe.increment = state.increment;
-      probe.v = state.v;
-      probe.a = state.a;
-      probe.lambda = state.lambda;
-      return true;
-    }
-    previous = size;
-  }
-  return false;
+  state.increment = probe.step * start_.v;
+  equations.apply(Eigen::VectorXd::Zero(equations.size()), state);
+  TimeIntegration options;
+  options.newton_tolerance = correction_tolerance;
+  NewtonCorrector newton(mechanism_, equations, options);
+  return !newton.correct(equations, state, NewtonCorrector::Trust::none);
 }
 
 Eigen::MatrixXd DampedStart::differentiate(const Probe& probe, const Eigen::MatrixXd& q,
@@ -260,21 +237,14 @@ Eigen::MatrixXd DampedStart::differentiate(const Probe& probe, const Eigen::Matr
   const double h = probe.step;
   StepEquations equations(mechanism_, implicit_euler(h), on_acceleration_level);
   equations.begin(start_);
-  StepState state = equations.make_state(start_);
-  state.time = start_.time + h;
-  state.increment = probe.increment;
-  advance(mechanism_.rotations, start_.q, probe.increment, state.q);
-  state.v = probe.v;
-  state.a = probe.a;
-  state.lambda = probe.lambda;
   System::Matrix matrix = equations.make_matrix();
-  equations.linearize_sensitivities(state, matrix);
+  equations.linearize_sensitivities(probe.state, matrix);
   // Unknown is the derivative s of the new q, turned back: v⁺ and a⁺ follow from it by
   // v⁺ = (q⁺ − q)/h, a⁺ = (v⁺ − v)/h.
   Eigen::MatrixXd old_q = q, rhs;
-  pull_back(mechanism_.rotations, probe.increment, old_q);
+  pull_back(mechanism_.rotations, probe.state.increment, old_q);
   const Eigen::MatrixXd of_v = -old_q / h, of_a = (of_v - v) / h;
-  equations.differentiate(state, of_v, of_a, q, rhs);
+  equations.differentiate(probe.state, of_v, of_a, q, rhs);
   LinearSolver solver(matrix, mechanism_.elastic);
   if (!solver.factorize(matrix)) {
     throw SimulationError("the derivatives of the first step's start are singular");

@@ -48,7 +48,7 @@ class DampedStart {
   /// One step of implicit Euler from the start.
   struct Probe {
     double step = 0.0;
-    Eigen::VectorXd increment, v, a, lambda;
+    StepState state;
   };
   bool make_probe(Probe& probe);
   Eigen::MatrixXd differentiate(const Probe& probe, const Eigen::MatrixXd& q,
