@@ -34,13 +34,12 @@ class FrequencySensitivity {
         n_(state.q.size()),
         m_(state.lambda.size()),
         of_(choice.of),
+        axes_(modes.axes),
         linearized_(modes.linearized),
         vectors_(modal_vectors(linearized_, modes.modes, find_mode(modes, choice))) {
     const Eigen::Index count = vectors_.right.cols();
-    counted_ = choice.axis ? combinations_along(
-                                 vectors_.right, linearized_.M,
-                                 mass_along(modes.model, state,
-                                            Eigen::Map<const Eigen::Vector3d>(choice.axis->data())))
+    counted_ = choice.axis ? combinations_along(vectors_.right, linearized_.M,
+                                                modes.mass_along(*choice.axis))
                            : Eigen::MatrixXcd::Identity(count, count).eval();
     const Eigen::MatrixXcd inertia = vectors_.right.adjoint() * linearized_.M * vectors_.right;
     components_ = choice.axis ? (counted_.adjoint() * inertia).eval() : counted_;
@@ -102,7 +101,7 @@ class FrequencySensitivity {
   Eigen::MatrixXcd change_along(const Direction& direction) const {
     const Complex s = vectors_.s;
     return derivative_along(direction, [&](const State& state) {
-      const Linearization at = linearize(mechanism_, state, linearized_.is_damped);
+      const Linearization at = linearize(mechanism_, state, axes_.at(state), linearized_.is_damped);
       const Eigen::MatrixXcd pencil = s * s * at.M + s * at.G + at.K;
       return (vectors_.left.adjoint() * pencil * vectors_.right +
               vectors_.left.adjoint() * at.phi.transpose() * vectors_.right_multipliers +
@@ -119,42 +118,43 @@ class FrequencySensitivity {
     std::vector<Eigen::MatrixXcd> changes(mechanism_.system->variables(),
                                           Eigen::MatrixXcd::Zero(count, count));
     if (changes.empty()) return changes;
-    const Eigen::MatrixXcd turned_right = turned_by_motion(mechanism_, state_, vectors_.right),
-                           turned_left = turned_by_motion(mechanism_, state_, vectors_.left);
-    std::vector<Eigen::MatrixXcd> damping_of_left;
+    const Turning axes = axes_.at(state_);
+    const auto times = [](const Eigen::SparseMatrix<double>& matrix, const Eigen::VectorXcd& y) {
+      return (matrix.cast<Complex>() * y).eval();
+    };
+    // G y = Tᵀ (R_v T + R_a P) y, or the skew part of that
+    const auto forces_of_rates = [&](const Eigen::VectorXcd& y) {
+      return along({{&Direction::v, times(axes.T, y)}, {&Direction::a, times(axes.P, y)}})
+          .topRows(n_)
+          .eval();
+    };
+    std::vector<Eigen::MatrixXcd> rates_of_left;
     for (Eigen::Index i = 0; i < count; ++i) {
-      damping_of_left.push_back(along({{&Direction::v, vectors_.left.col(i).conjugate()}}));
+      rates_of_left.push_back(forces_of_rates(vectors_.left.col(i).conjugate()));
     }
     for (Eigen::Index j = 0; j < count; ++j) {
-      const Eigen::VectorXcd right = vectors_.right.col(j);
-      const Eigen::MatrixXcd inertia = along({{&Direction::a, right}});
-      const Eigen::MatrixXcd whole =
-          along({{&Direction::q, right}, {&Direction::lambda, vectors_.right_multipliers.col(j)}}) +
-          s * s * inertia;
-      // G = R_v − M W, or its skew part ½ (R_v − R_vᵀ − M W − W M)
-      const Eigen::MatrixXcd damping =
-          along({{&Direction::v, right}}) - along({{&Direction::a, turned_right.col(j)}});
+      const Eigen::VectorXcd y = vectors_.right.col(j), right = times(axes.T, y);
+      const Eigen::MatrixXcd rates = forces_of_rates(y),
+                             whole =
+                                 along({{&Direction::q, right},
+                                        {&Direction::v, times(axes.V, y)},
+                                        {&Direction::a, s * s * right + times(axes.Q, y)},
+                                        {&Direction::lambda, vectors_.right_multipliers.col(j)}});
       for (Eigen::Index i = 0; i < count; ++i) {
-        const Eigen::VectorXcd left = vectors_.left.col(i);
+        const Eigen::VectorXcd left = times(axes.T, vectors_.left.col(i));
+        Eigen::RowVectorXcd of_rates = left.adjoint() * rates;
+        if (!linearized_.is_damped) {
+          of_rates = 0.5 * (of_rates - right.transpose() * rates_of_left[i]);
+        }
         const Eigen::RowVectorXcd row =
             left.adjoint() * whole.topRows(n_) +
-            vectors_.left_multipliers.col(i).adjoint() * whole.bottomRows(m_) +
-            s * forces_of_rates(left.adjoint() * damping.topRows(n_),
-                                turned_left.col(i).adjoint() * inertia.topRows(n_) -
-                                    right.transpose() * damping_of_left[i].topRows(n_));
+            vectors_.left_multipliers.col(i).adjoint() * whole.bottomRows(m_) + s * of_rates;
         for (std::size_t k = 0; k < changes.size(); ++k) {
           changes[k](i, j) += row(k);
         }
       }
     }
     return changes;
-  }
-
-  /// Of G and, without damping, of its transposed.
-  Eigen::RowVectorXcd forces_of_rates(const Eigen::RowVectorXcd& own,
-                                      const Eigen::RowVectorXcd& transposed) const {
-    if (linearized_.is_damped) return own;
-    return 0.5 * (own + transposed);
   }
 
   Direction nowhere() const {
@@ -188,6 +188,7 @@ class FrequencySensitivity {
   const State& state_;
   Eigen::Index n_, m_;
   ModeNumber of_;
+  MotionAxes axes_;
   Linearization linearized_;
   ModalVectors vectors_;
   /// Combinations of the vectors that count, k × p, and what of each is in a combination, p × k.

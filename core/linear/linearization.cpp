@@ -108,8 +108,11 @@ Turning turning_of(const Mechanism& mechanism, const State& state) {
 }
 
 Turning rotor_turning(const Mechanism& mechanism, const State& state) {
+  return rotor_turning(mechanism, state, fastest_turn(mechanism, state));
+}
+
+Turning rotor_turning(const Mechanism& mechanism, const State& state, const BodyTurn& rotor) {
   Blocks turning(state.q.size());
-  const BodyTurn rotor = fastest_turn(mechanism, state);
   for (const TurningBody& body : turning_bodies(mechanism, state)) {
     const int translations = body.rotation - body.first;
     set_translation(body.first, translations, rotor, turning);

@@ -49,9 +49,11 @@ Turning standing_axes(const Mechanism& mechanism, const State& state);
 
 Turning turning_of(const Mechanism& mechanism, const State& state);
 
-/// The same with all bodies in axes that turn with the one that turns fastest: what stands still beside
+/// The same with all bodies in axes that turn with one of them: what stands still beside
 /// a rotor, as the block of a bearing, has constant coefficients there, if it is alike in all
 /// directions across the axis.
+Turning rotor_turning(const Mechanism& mechanism, const State& state, const BodyTurn& rotor);
+/// With that which turns fastest.
 Turning rotor_turning(const Mechanism& mechanism, const State& state);
 
 /// Small motions y of a mechanism about a state, with coefficients as they are there:

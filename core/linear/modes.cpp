@@ -5,8 +5,8 @@
 #include "core/base/dense_solvers.hpp"
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
-#include "core/base/rotation_vector.hpp"
 #include "core/base/sparse_rows.hpp"
+#include "core/linear/elastic_stability.hpp"
 #include "core/linear/free_deformations.hpp"
 
 namespace pleuel {
@@ -61,13 +61,21 @@ class ReducedMotions {
 
 }  // namespace
 
-Eigen::MatrixXcd turned_by_motion(const Mechanism& mechanism, const State& state,
-                                  const Eigen::MatrixXcd& y) {
-  Eigen::MatrixXcd turned = Eigen::MatrixXcd::Zero(y.rows(), y.cols());
-  for (const int first : mechanism.rotations) {
-    turned.middleRows<3>(first) = skew<double>(state.v.segment<3>(first)) * y.middleRows<3>(first);
+MotionAxes::MotionAxes(const Mechanism& mechanism, const State& state, bool is_damped)
+    : mechanism_(mechanism) {
+  if (!is_damped || !is_rotor(mechanism, state)) return;
+  const double fastest = fastest_turn(mechanism, state).omega.norm();
+  const std::vector<TurningBody> bodies = turning_bodies(mechanism, state);
+  const std::vector<int>& elastic = mechanism.elastic;
+  for (std::size_t i = 0; i < bodies.size() && !rotor_; ++i) {
+    const bool is_elastic = std::ranges::find(elastic, bodies[i].elastic) != elastic.end();
+    if (is_elastic && bodies[i].turn.omega.norm() > 0.5 * fastest) rotor_ = i;
   }
-  return turned;
+}
+
+Turning MotionAxes::at(const State& state) const {
+  if (!rotor_) return standing_axes(mechanism_, state);
+  return rotor_turning(mechanism_, state, turning_bodies(mechanism_, state)[*rotor_].turn);
 }
 
 Pencil pencil_at(const Linearization& linearized, std::complex<double> s) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <complex>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -9,10 +10,20 @@
 /// Small vibrations of a whole mechanism about an instant of its motion.
 namespace pleuel {
 
-/// W y with ω × in the rows of rotation vectors, zero in the others.
-/// @param y  n × any number
-Eigen::MatrixXcd turned_by_motion(const Mechanism& mechanism, const State& state,
-                                  const Eigen::MatrixXcd& y);
+/// The axes in which the small motions of a mechanism are counted: those that stand still; with damping,
+/// of a rotor of elastic bodies, those that turn with it, as its damping does. There they have constant
+/// coefficients, if what stands still is alike in all directions across the axis.
+class MotionAxes {
+ public:
+  MotionAxes(const Mechanism& mechanism, const State& state, bool is_damped);
+
+  /// At a state close by.
+  Turning at(const State& state) const;
+
+ private:
+  const Mechanism& mechanism_;
+  std::optional<std::size_t> rotor_;  ///< which of turning_bodies()
+};
 
 /// [ s²M + sG + K  κΦ_qᵀ ; κΦ_q  0 ], singular where s is an eigenvalue. κ makes the multipliers as
 /// large as the stiffness, for the sake of round-off; they are μ/κ.

@@ -194,8 +194,15 @@ ModalVectors modal_vectors(const Linearization& linearized, const Eigen::VectorX
 LinearizedModes::LinearizedModes(const Model& of_model, const State& at, bool is_damped)
     : model(of_model),
       state(at),
-      linearized(linearize(model.mechanism, state, is_damped)),
+      axes(model.mechanism, state, is_damped),
+      linearized(linearize(model.mechanism, state, axes.at(state), is_damped)),
       modes(modes_of(linearized)) {}
+
+Eigen::MatrixXd LinearizedModes::mass_along(const std::array<double, 3>& d) const {
+  const Eigen::MatrixXd T = axes.at(state).T;
+  const Eigen::Map<const Eigen::Vector3d> direction(d.data());
+  return T.transpose() * pleuel::mass_along(model, state, direction) * T;
+}
 
 namespace {
 
@@ -204,13 +211,11 @@ class ModeCount {
  public:
   ModeCount(const LinearizedModes& mechanism, const ModeChoice& choice)
       : mechanism_(mechanism), choice_(choice) {
-    if (!choice.axis) return;
-    const Eigen::Map<const Eigen::Vector3d> axis(choice.axis->data());
-    along_ = mass_along(mechanism.model, mechanism.state, axis);
+    if (choice.axis) along_ = mechanism.mass_along(*choice.axis);
   }
 
   Eigen::Index operator()(int mode) const {
-    const auto& [model, state, linearized, modes] = mechanism_;
+    const auto& [model, state, axes, linearized, modes] = mechanism_;
     if (choice_.of == ModeNumber::damping_ratio && !vibrates(modes(mode))) return 0;
     if (!choice_.axis) return 1;
     if (coinciding(modes, mode).front() != mode) return 0;

@@ -2,6 +2,8 @@
 
 /// Which vibrations are motion along one axis: most of their kinetic energy is.
 
+#include <array>
+
 #include <Eigen/Core>
 
 #include "core/linear/modes.hpp"
@@ -52,10 +54,14 @@ ModalVectors modal_vectors(const Linearization& linearized, const Eigen::VectorX
 struct LinearizedModes {
   const Model& model;
   State state;
+  MotionAxes axes;
   Linearization linearized;
   Eigen::VectorXcd modes;  ///< modes_of(linearized)
 
   LinearizedModes(const Model& of_model, const State& at, bool is_damped = false);
+
+  /// mass_along() of what is counted in these axes.
+  Eigen::MatrixXd mass_along(const std::array<double, 3>& d) const;
 };
 
 /// Which of the modes of a mechanism is meant; of those that coincide the first. Only those that

@@ -167,6 +167,48 @@ TEST(DampedMode, OfACantileverWithDampingByStiffnessFollowsFromItsFrequencies) {
             1e-5 * found.gradients.row(2).norm());
 }
 
+/// A light shaft of length L, clamped in its first bearing, with a disc of mass m in the middle, damped by
+/// β times its stiffness, at a speed Ω; ω² = 768 EI/(7 L³ m).
+Found whirling_shaft(double speed) {
+  return found_of(fmt::format(R"({{"scene": {{"gravity": [0, 0, 0],
+      "materials": {{"m": {{"young": 2e11, "poisson": 0.3, "density": 1}}}},
+      "bodies": {{"s": {{"type": "beam", "from": [0, 0, 0], "to": [0.8, 0, 0], "material": "m",
+          "section": {{"type": "circle", "diameter": {{"variable": "d"}}}}, "elements": 2,
+          "damping": {{"stiffness": 2e-5}}}},
+        "disc": {{"type": "rigid", "at": [0.4, 0, 0], "mass": 8, "inertia": [2e-4, 1e-4, 1e-4, 0, 0, 0]}}}},
+      "joints": {{
+        "left": {{"type": "revolute", "bodies": ["ground", "s"], "at": [0, 0, 0], "axis": [1, 0, 0],
+          "drive": {{"type": "constant-speed", "speed": {{"variable": "speed"}}}}}},
+        "right": {{"type": "point-on-line", "bodies": ["ground", "s"], "at": [0.8, 0, 0], "axis": [1, 0, 0]}},
+        "hub": {{"type": "fixed", "bodies": ["s", "disc"], "at": [0.4, 0, 0]}}}}}},
+    "simulation": {{"end_time": 1e-4, "step": 1e-4}},
+    "variables": {{"d": {{"start": 0.02, "lower": 0.01, "upper": 0.04}},
+                   "speed": {{"start": {}, "lower": 10, "upper": 999}}}},
+    "responses": {{"rate": {{"type": "growth-rate"}}}}}})",
+                              speed));
+}
+
+/// Damping that turns with the shaft drives its whirl beyond the critical speed: in axes that stand
+/// still  m ẅ + β k (ẇ − iΩ w) + k w = 0  for w = y + iz, whose root is nearly iω with
+/// Re s = β ω² (Ω/ω − 1)/2 (Genta, Dynamics of Rotating Systems, 2005).
+TEST(DampedMode, OfAShaftWithDampingOfItsOwnGrowsBeyondTheCriticalSpeed) {
+  const double m = 8.0, beta = 2e-5, d = 0.02, length = 0.8;
+  const double stiffness =
+      768.0 / 7.0 * 2e11 * std::numbers::pi * std::pow(d, 4) / 64.0 / std::pow(length, 3);
+  const double omega = std::sqrt(stiffness / m);  // 205 rad/s
+  for (const double speed : {0.6 * omega, 1.7 * omega}) {
+    const std::complex<double> half(0.5 * beta * omega * omega, 0.0),
+        turning(0.0, beta * omega * omega * speed);
+    const std::complex<double> forward = -half + std::sqrt(half * half - omega * omega + turning);
+    const Found found = whirling_shaft(speed);
+    EXPECT_NEAR(found.values(0), forward.real(), 1e-4 * half.real()) << speed;
+    // Re s = β (ω Ω − ω²)/2 with ω ~ d²
+    const double by_d = beta * (speed - 2.0 * omega) * omega / d, by_speed = 0.5 * beta * omega;
+    EXPECT_NEAR(found.gradients(0, 0), by_d, 1e-3 * std::abs(by_d)) << speed;
+    EXPECT_NEAR(found.gradients(0, 1), by_speed, 1e-3 * by_speed) << speed;
+  }
+}
+
 /// Beck's column with damping by stiffness, pressed along its tip by p EI/L²: without damping it
 /// flutters from p = 20.05 on, with a little from 10.94 (Bolotin, Nonconservative Problems of the Theory
 /// of Elastic Stability, 1963).
