@@ -335,6 +335,28 @@ TEST(SteadyMachineErrors, NameAVariableThatSetsThePeriod) {
   }
 }
 
+/// A mass on a crank, whose radius loads the joint between both along the radius only: its moment is
+/// round-off, which does not repeat itself. F = m r ω².
+TEST(SteadyMachineErrors, AreNoneOfARadiusThatLeavesAJointWithoutMoment) {
+  for (const double step : {1e-4, 5e-5, 2.5e-5}) {
+    const AtStart start(problem_from(
+        R"({"scene": {"gravity": [0, 0, 0], "bodies": {
+        "crank": {"type": "rigid", "at": [0, 0, 0], "mass": 5, "inertia": [0, 0, 0.02, 0, 0, 0]},
+        "counter": {"type": "point-mass", "at": ["= r", 0, 0], "mass": 1}},
+      "joints": {
+        "main": {"type": "revolute", "bodies": ["ground", "crank"], "at": [0, 0, 0],
+          "drive": {"type": "constant-speed", "speed": "3000 rpm"}},
+        "cw": {"type": "fixed", "bodies": ["crank", "counter"], "at": ["= r", 0, 0]}}},
+    "simulation": {"end_time": "20 ms", "step": 1e-4, "initial_state": "periodic"},
+    "variables": {"r": {"start": "50 mm", "lower": "30 mm", "upper": "60 mm"}},
+    "responses": {"R": {"type": "reaction-force", "joint": "main", "direction": "magnitude",
+                        "over_time": "max"}}})",
+        {fmt::format("/simulation/step={}", step)}));
+    const double square = std::pow(100.0 * std::numbers::pi, 2);
+    EXPECT_NEAR(direct_gradients(*start.analysis)(0, 0), square, 1e-3 * square) << step;  // (ω h)²
+  }
+}
+
 TEST(SteadyMachineErrors, NameAMotionThatNothingBringsBack) {
   const std::string failure =
       failure_of(problem_from(R"({"name": "free", "scene": {"gravity": [0, 0, 0],
