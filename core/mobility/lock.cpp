@@ -82,7 +82,9 @@ std::string bending_text(const Model& model) {
 RigidPath follow_drives(const Model& model, double end, double step, const PathObserver& observer) {
   if (drive_rows(model).empty()) return {.time = end, .q = model.mechanism.guess.q};
   RigidConstraints constraints(model);
-  return follow_drives(constraints, model.mechanism.guess.q, end, step, observer);
+  Eigen::VectorXd start = model.mechanism.guess.q;
+  start(model.mechanism.elastic).setZero();  // as bodies begin may not meet the joints yet
+  return follow_drives(constraints, start, end, step, observer);
 }
 
 void require_no_lock(const Model& model, const RigidPath& path) {

@@ -275,6 +275,23 @@ TEST(Lock, IsNoneWhereABodyBendsFromTheStart) {
   EXPECT_EQ(path_of(problem).end, RigidPath::End::bends);
 }
 
+/// A shaft that begins bent turns as one that is straight: bodies do not deform on this way.
+TEST(Lock, IsNoneWhereABodyStartsBent) {
+  const ProblemFile problem = problem_from(R"({"scene": {"bodies": {
+        "shaft": {"type": "beam", "from": [0, 0, 0], "to": [0.8, 0, 0], "material": "steel", "elements": 2,
+          "frame": "chord", "section": {"type": "circle", "diameter": 0.02},
+          "initial_deflections": [{"at": [0.4, 0, 0], "direction": [0, 1, 0], "displacement": 1e-4}]},
+        "disc": {"type": "rigid", "at": [0.4, 0, 0], "mass": 8, "inertia": [0.04, 0.02, 0.02, 0, 0, 0]}},
+      "joints": {
+        "left": {"type": "revolute", "bodies": ["ground", "shaft"], "at": [0, 0, 0], "axis": [1, 0, 0],
+          "drive": {"type": "constant-speed", "speed": "600 rpm"}},
+        "right": {"type": "point-on-line", "bodies": ["ground", "shaft"], "at": [0.8, 0, 0], "axis": [1, 0, 0]},
+        "hub": {"type": "fixed", "bodies": ["shaft", "disc"], "at": [0.4, 0, 0]}}},
+    "simulation": {"end_time": 0.2, "step": 2.5e-4}})",
+                                           {});
+  EXPECT_EQ(path_of(problem).end, RigidPath::End::followed);
+}
+
 TEST(Lock, IsNoneInAnyProblemThatIsShipped) {
   for (const char* name :
        {"slider_crank", "four_bar", "spatial_slider_crank", "robot_arm", "running_press",
