@@ -224,7 +224,7 @@ std::vector<Finding> check_undetermined_reactions(const TrustedRun& run) {
   const State state = trajectory.state_at(trajectory.steps() / 2);
   Finding finding;
   std::string names;
-  for (const std::size_t i : asked_parts(run.problem)) {
+  for (std::size_t i = 0; i < run.problem.responses.size(); ++i) {
     const Response& response = run.analysis.responses[i];
     if (!response.history() || response.history()->signal->is_determined(state)) continue;
     finding.responses.push_back(response.name);

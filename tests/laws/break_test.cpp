@@ -257,6 +257,12 @@ TEST(Jerk, AtACornerOfADriveIsToldWhereItRings) {
   const auto doubled = analyze(formula, x);
   EXPECT_EQ(check_jerks_at_corners({formula, x, *doubled, monitors}).size(), 1u);
 
+  // Nor is another objective: its bar would be too narrow.
+  const ProblemFile beside =
+      cubic_motion({corner, R"(/responses/m={"type": "mass"})", R"(/objective={"minimize": "m"})"});
+  const auto not_asked = analyze(beside, x);
+  EXPECT_EQ(check_jerks_at_corners({beside, x, *not_asked, monitors}).size(), 1u);
+
   const ProblemFile calm = cubic_motion({corner, "/simulation/formulation=index-1"});
   const auto right = analyze(calm, x);
   EXPECT_NEAR(right->reductions[0].value, 120.0, 1e-6);
