@@ -238,6 +238,12 @@ TEST(LoadCase, HasTheSameMassesWhereConstantsDoNotReachThem) {
   document["scene"]["bodies"]["bar"]["section"] =
       Json::parse(R"({"type": "circle", "diameter": "= thick + 0.01*long_reach"})");
   EXPECT_THAT(complaint(document), HasSubstr("/objective needs \"over_cases\""));
+  // Nor does it of one that only a body uses which is not weighed.
+  document = with(rail(), "/scene/bodies/load/mass", R"("= reach*10 kg/m")");
+  document["cases"]["fast"] = Json::parse(R"({"/constants/reach": "50 mm"})");
+  EXPECT_EQ(complaint(document), "");
+  document["objective"] = Json::parse(R"({"minimize": "all"})");
+  EXPECT_THAT(complaint(document), HasSubstr("/objective needs \"over_cases\""));
 }
 
 TEST(LoadCase, ChangesConstantsThatThereAre) {
