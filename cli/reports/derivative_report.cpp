@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/text/table.hpp"
+#include "cli/text/wrapped_text.hpp"
 #include "core/base/number_text.hpp"
 #include "core/scene/reading/invariants_reader.hpp"
 #include "core/scene/shown_unit.hpp"
@@ -178,9 +179,10 @@ std::string derivatives_text(const ProblemFile& problem, const Analysis& analysi
          magnitude(check.relative_noise),
          fmt::format("{} / {}", digits_of(check.relative_noise), digits_of(check.worst().error))});
   }
-  return "Responses; direct differentiation against central differences and against the adjoint "
-         "method,\nnoise of the value (all relative), and right digits of value / gradient that an "
-         "optimizer may expect\n" +
+  return wrapped(
+             "Responses; direct differentiation against central differences and against the "
+             "adjoint method, noise of the value (all relative), and right digits of value / "
+             "gradient that an optimizer may expect\n") +
          table.text() + disagreements_text(problem, checks);
 }
 

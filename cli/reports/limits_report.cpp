@@ -169,9 +169,9 @@ Json monitors_document(const Monitors& monitors) {
 std::string monitors_text(const Monitors& monitors, int multipliers) {
   std::string text;
   if (multipliers > 0) {
-    text =
+    text = wrapped(
         fmt::format("Joints and drives are kept to {} m or rad, their rates to {} m/s or rad/s.\n",
-                    magnitude(monitors.position_drift), magnitude(monitors.velocity_drift));
+                    magnitude(monitors.position_drift), magnitude(monitors.velocity_drift)));
   }
   return text + fmt::format("Energy is balanced to {} of the largest energy in the motion.\n",
                             magnitude(monitors.energy_error));

@@ -106,9 +106,10 @@ void set_rigid_mechanism(const ProblemFile& problem, const Eigen::VectorXd& x, A
   try {
     analysis.rigid = analyze(rigid, x);
   } catch (const SimulationError& error) {
+    const bool is_blocked = analysis.rigid_path.end == RigidPath::End::bends;
     throw SimulationError(
         fmt::format("the mechanism without elasticity, which a deflection is measured against: {}",
-                    error.what()));
+                    is_blocked ? bending_text(analysis.model) : error.what()));
   }
 }
 

@@ -31,6 +31,8 @@ constexpr double vanishing = 1e-3;
 constexpr double tiny_strain = 1e-13;
 /// Of shares of a buckling load.
 constexpr double tiny_share = 1e-12;
+/// Of the kinetic energy, over the time of the motion: powers.
+constexpr double tiny_power = 1e-12;
 /// Of lengths, which are exact to the last digits.
 constexpr double tiny_length = 1e-12;
 /// Of lengths that rates over one step are made from.
@@ -170,6 +172,13 @@ class RoundOff {
       case ResponseType::drive_torque:
       case ResponseType::drive_force:
         return reactions(whole, response.type);
+      case ResponseType::drive_power:
+      case ResponseType::motor_power:
+      case ResponseType::damper_power: {
+        whole.type = ResponseType::kinetic_energy;
+        const Eigen::VectorXd& time = run_.analysis.trajectory.time;
+        return {{whole, tiny_power / time(time.size() - 1)}};
+      }
       default:
         return {};
     }
