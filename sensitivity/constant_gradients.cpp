@@ -54,20 +54,22 @@ void put(Matrix& matrix, Eigen::Index row, Eigen::Index column, double value) {
 std::vector<Entry> entries_of(const BodyConstants& constants) {
   std::vector<Entry> entries;
   int block = 0;
-  visit_constants(constants, constants, [&](const auto& numbers, const auto&) {
+  const auto add = [&](const ConstantsBlock&, const auto& numbers) {
     each_entry(numbers, [&](Eigen::Index row, Eigen::Index column) {
       entries.push_back({block, row, column});
     });
     ++block;
-  });
+  };
+  visit_constants(add, constants);
   return entries;
 }
 
 void set_entry(BodyConstants& constants, const Entry& entry, double value) {
   int block = 0;
-  visit_constants(constants, constants, [&](auto& numbers, const auto&) {
+  const auto set = [&](const ConstantsBlock&, auto& numbers) {
     if (block++ == entry.block) put(numbers, entry.row, entry.column, value);
-  });
+  };
+  visit_constants(set, constants);
 }
 
 /// The problem with a design variable more for each of the entries: what it adds to that number.
@@ -170,7 +172,10 @@ double product(const Matrix& a, const Matrix& b) {
 
 double along(const BodyConstants& gradient, const BodyConstants& change) {
   double sum = 0.0;
-  visit_constants(gradient, change, [&](const auto& a, const auto& b) { sum += product(a, b); });
+  const auto add = [&](const ConstantsBlock&, const auto& a, const auto& b) {
+    sum += product(a, b);
+  };
+  visit_constants(add, gradient, change);
   return sum;
 }
 

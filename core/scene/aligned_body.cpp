@@ -6,6 +6,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/int_size.hpp"
+#include "core/scene/visit_constants.hpp"
 
 namespace pleuel {
 
@@ -113,14 +114,6 @@ SparseMatrix transformation_of(const InvariantsFile& reference, const Invariants
   return t;
 }
 
-void multiply(SparseMatrix& matrix, const SparseMatrix& t) {
-  matrix = SparseMatrix(matrix * t);
-}
-
-void multiply_twice(SparseMatrix& matrix, const SparseMatrix& t) {
-  matrix = SparseMatrix(SparseMatrix(t.transpose()) * SparseMatrix(matrix * t));
-}
-
 }  // namespace
 
 SparseMatrix alignment_of(const InvariantsFile& reference, const InvariantsFile& file) {
@@ -129,18 +122,14 @@ SparseMatrix alignment_of(const InvariantsFile& reference, const InvariantsFile&
 }
 
 BodyConstants in_coordinates(BodyConstants constants, const SparseMatrix& t) {
-  multiply(constants.shape, t);
-  multiply(constants.mixed, t);
-  for (SparseMatrix& moment : constants.moments) multiply_twice(moment, t);
-  multiply_twice(constants.mass_matrix, t);
-  multiply_twice(constants.stiffness, t);
-  multiply_twice(constants.damping, t);
-  for (BodyPlace& place : constants.places) {
-    multiply(place.displacement, t);
-    multiply(place.rotation, t);
-  }
-  if (constants.stress) multiply(constants.stress->of_coordinates, t);
-  if (constants.stretching) multiply(constants.stretching->displacements, t);
+  const auto transform = [&t](const ConstantsBlock& block, auto& numbers) {
+    if constexpr (std::is_same_v<decltype(numbers), SparseMatrix&>) {
+      if (block.indices == ByCoordinates::none) return;
+      numbers = SparseMatrix(numbers * t);
+      if (block.indices == ByCoordinates::both) numbers = SparseMatrix(t.transpose()) * numbers;
+    }
+  };
+  visit_constants(transform, constants);
   return constants;
 }
 

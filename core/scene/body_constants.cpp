@@ -27,29 +27,32 @@ double largest_of(const Eigen::MatrixBase<Derived>& matrix) {
 }  // namespace
 
 void add_constants(BodyConstants& to, double factor, const BodyConstants& change) {
-  visit_constants(to, change, [factor](auto& number, const auto& derivative) {
+  const auto add = [factor](const ConstantsBlock&, auto& number, const auto& derivative) {
     number += factor * derivative;
-  });
+  };
+  visit_constants(add, to, change);
 }
 
 bool is_zero(const BodyConstants& change) {
   double largest = 0.0;
-  visit_constants(change, change, [&](const auto& number, const auto&) {
+  const auto look_at = [&](const ConstantsBlock&, const auto& number) {
     largest = std::max(largest, largest_of(number));
-  });
+  };
+  visit_constants(look_at, change);
   return largest == 0.0;
 }
 
 BodyConstants zero_constants(const BodyConstants& like) {
   BodyConstants zero = like;
-  visit_constants(zero, like, [](auto& number, const auto&) {
+  const auto set_zero = [](const ConstantsBlock&, auto& number) {
     using Number = std::remove_reference_t<decltype(number)>;
     if constexpr (std::is_same_v<Number, double>) {
       number = 0.0;
     } else {
       number.setZero();
     }
-  });
+  };
+  visit_constants(set_zero, zero);
   return zero;
 }
 

@@ -1,43 +1,88 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <string_view>
 
 #include "core/base/strengths.hpp"
 
+/// The blocks of the constants of a body: the only list of them. What one block adds is visited in
+/// all that is done with constants.
 namespace pleuel {
 
-/// Visits the numbers of two sets of constants of the same arrangement, block by block: numbers,
-/// small matrices, sparse matrices. What one block adds is visited in all that is done with constants.
-template <class First, class Second, class Visit>
-void visit_constants(First& a, Second& b, const Visit& visit) {
-  visit(a.mass, b.mass);
-  visit(a.first_moment, b.first_moment);
-  visit(a.second_moment, b.second_moment);
-  visit(a.shape, b.shape);
-  visit(a.mixed, b.mixed);
-  for (std::size_t i = 0; i < a.moments.size(); ++i) visit(a.moments[i], b.moments[i]);
-  visit(a.mass_matrix, b.mass_matrix);
-  visit(a.stiffness, b.stiffness);
-  visit(a.damping, b.damping);
-  for (std::size_t i = 0; i < a.places.size(); ++i) {
-    visit(a.places[i].position, b.places[i].position);
-    visit(a.places[i].displacement, b.places[i].displacement);
-    visit(a.places[i].rotation, b.places[i].rotation);
+/// Which indices of a block count elastic coordinates.
+enum class ByCoordinates { none, columns, both };
+
+/// A block of numbers: a number, a small matrix, a sparse matrix.
+struct ConstantsBlock {
+  std::string_view word;  ///< in files
+  ByCoordinates indices = ByCoordinates::none;
+  bool may_be_missing = false;  ///< in files
+};
+
+/// In the order of moment_pairs.
+inline constexpr std::array<std::string_view, 6> moment_words = {
+    "moment_xx", "moment_yy", "moment_zz", "moment_xy", "moment_yz", "moment_xz"};
+
+// Each calls visit(block, numbers...) with the numbers of some objects of the same arrangement.
+
+template <class Visit, class... Constants>
+void visit_invariants(const Visit& visit, Constants&... of) {
+  using enum ByCoordinates;
+  visit(ConstantsBlock{"mass"}, of.mass...);
+  visit(ConstantsBlock{"first_moment"}, of.first_moment...);
+  visit(ConstantsBlock{"second_moment"}, of.second_moment...);
+  visit(ConstantsBlock{"shape", columns}, of.shape...);
+  visit(ConstantsBlock{"mixed", columns}, of.mixed...);
+  for (std::size_t i = 0; i < moment_words.size(); ++i) {
+    visit(ConstantsBlock{moment_words[i], both, true}, of.moments[i]...);
   }
-  if (a.stress) {
-    for (const auto& [word, member] : strength_members<double>) {
-      visit(a.stress->strengths.*member, b.stress->strengths.*member);
-    }
-    visit(a.stress->of_coordinates, b.stress->of_coordinates);
-    visit(a.stress->of_accelerations, b.stress->of_accelerations);
-    visit(a.stress->of_stretching, b.stress->of_stretching);
+  visit(ConstantsBlock{"mass_matrix", both}, of.mass_matrix...);
+  visit(ConstantsBlock{"stiffness", both}, of.stiffness...);
+  visit(ConstantsBlock{"damping", both, true}, of.damping...);
+}
+
+template <class Visit, class... Places>
+void visit_place(const Visit& visit, Places&... of) {
+  visit(ConstantsBlock{"position"}, of.position...);
+  visit(ConstantsBlock{"displacement", ByCoordinates::columns}, of.displacement...);
+  visit(ConstantsBlock{"rotation", ByCoordinates::columns}, of.rotation...);
+}
+
+template <class Visit, class... Recoveries>
+void visit_stress(const Visit& visit, Recoveries&... of) {
+  for (const auto& [word, member] : strength_members<double>) {
+    visit(ConstantsBlock{word}, (of.strengths.*member)...);
   }
-  if (!a.stretching) return;
-  visit(a.stretching->damping, b.stretching->damping);
-  visit(a.stretching->displacements, b.stretching->displacements);
-  for (std::size_t i = 0; i < a.stretching->elements.size(); ++i) {
-    visit(a.stretching->elements[i].axial_stiffness, b.stretching->elements[i].axial_stiffness);
-    visit(a.stretching->elements[i].slopes, b.stretching->elements[i].slopes);
+  visit(ConstantsBlock{"of_coordinates", ByCoordinates::columns}, of.of_coordinates...);
+  visit(ConstantsBlock{"of_accelerations"}, of.of_accelerations...);
+  visit(ConstantsBlock{"of_stretching"}, of.of_stretching...);
+}
+
+template <class Visit, class... Stretchings>
+void visit_stretching(const Visit& visit, Stretchings&... of) {
+  visit(ConstantsBlock{"damping"}, of.damping...);
+  visit(ConstantsBlock{"displacements", ByCoordinates::columns}, of.displacements...);
+}
+
+template <class Visit, class... Elements>
+void visit_element(const Visit& visit, Elements&... of) {
+  visit(ConstantsBlock{"axial_stiffness"}, of.axial_stiffness...);
+  visit(ConstantsBlock{"slopes"}, of.slopes...);
+}
+
+/// All of them.
+template <class Visit, class First, class... Others>
+void visit_constants(const Visit& visit, First& first, Others&... others) {
+  visit_invariants(visit, first, others...);
+  for (std::size_t i = 0; i < first.places.size(); ++i) {
+    visit_place(visit, first.places[i], others.places[i]...);
+  }
+  if (first.stress) visit_stress(visit, *first.stress, *others.stress...);
+  if (!first.stretching) return;
+  visit_stretching(visit, *first.stretching, *others.stretching...);
+  for (std::size_t i = 0; i < first.stretching->elements.size(); ++i) {
+    visit_element(visit, first.stretching->elements[i], others.stretching->elements[i]...);
   }
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/dense_solvers.hpp"
+#include "core/scene/visit_constants.hpp"
 
 namespace pleuel {
 
@@ -16,58 +17,72 @@ constexpr int most_rows = 1000000;
 constexpr int components = 6;  // of stress
 constexpr std::size_t most_displacements = 12;
 
-std::string moment_name(std::size_t pair) {
-  const auto [k, l] = moment_pairs[pair];
-  return fmt::format("moment_{}{}", "xyz"[k], "xyz"[l]);
-}
-
-double read_number(const JsonNode& node) {
-  const double number = node.number();
-  if (!std::isfinite(number)) node.fail_with_value("must be finite");
-  return number;
-}
-
-Eigen::VectorXd read_vector(const JsonNode& node, std::size_t size) {
-  Eigen::VectorXd vector(size);
-  Eigen::Index i = 0;
-  for (const JsonNode& item : node.items(size)) vector(i++) = read_number(item);
-  return vector;
-}
-
-Eigen::MatrixXd read_rows(const JsonNode& node, std::size_t size) {
-  Eigen::MatrixXd matrix(size, size);
-  Eigen::Index i = 0;
-  for (const JsonNode& row : node.items(size)) matrix.row(i++) = read_vector(row, size);
-  return matrix;
-}
-
 SparseMatrix empty_matrix(Eigen::Index rows, Eigen::Index columns) {
   return SparseMatrix(rows, columns);
 }
 
+// Numbers that have their sizes already.
+
+void read_numbers(const JsonNode& node, double& number) {
+  number = node.number();
+  if (!std::isfinite(number)) node.fail_with_value("must be finite");
+}
+
+template <int rows, int columns>
+void read_numbers(const JsonNode& node, Eigen::Matrix<double, rows, columns>& matrix) {
+  const std::vector<JsonNode> items = node.items(matrix.rows());
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    if constexpr (columns == 1) {
+      read_numbers(items[i], matrix(i));
+    } else {
+      Eigen::VectorXd row(matrix.cols());
+      read_numbers(items[i], row);
+      matrix.row(i) = row;
+    }
+  }
+}
+
 /// A list of [row, column, value], rows and columns from 0.
-SparseMatrix read_matrix(const JsonNode& node, Eigen::Index rows, Eigen::Index columns) {
+void read_numbers(const JsonNode& node, SparseMatrix& matrix) {
   std::vector<Eigen::Triplet<double>> entries;
   std::set<std::pair<int, int>> places;
   for (const JsonNode& item : node.items()) {
     const std::vector<JsonNode> entry = item.items(3);
-    const int row = entry[0].whole_number(0, static_cast<int>(rows) - 1);
-    const int column = entry[1].whole_number(0, static_cast<int>(columns) - 1);
+    const int row = entry[0].whole_number(0, static_cast<int>(matrix.rows()) - 1);
+    const int column = entry[1].whole_number(0, static_cast<int>(matrix.cols()) - 1);
     if (!places.insert({row, column}).second) {
       item.fail(fmt::format("is a second entry in row {}, column {}", row, column));
     }
-    entries.emplace_back(row, column, read_number(entry[2]));
+    double value = 0.0;
+    read_numbers(entry[2], value);
+    entries.emplace_back(row, column, value);
   }
-  SparseMatrix matrix = empty_matrix(rows, columns);
   matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
 }
 
-/// One of the matrices that are there or zero.
-void read_into(const JsonNode& node, const std::string& key, SparseMatrix& matrix) {
-  if (const auto entries = node.find(key)) {
-    matrix = read_matrix(*entries, matrix.rows(), matrix.cols());
-  }
+// Blocks of an object. `visit_blocks` is one of the functions of visit_constants.hpp for it.
+
+/// The node has keys of these blocks, and these besides, only.
+template <class VisitBlocks>
+void allow_blocks(const JsonNode& node, const VisitBlocks& visit_blocks,
+                  std::vector<std::string_view> keys = {}) {
+  visit_blocks([&](const ConstantsBlock& block, const auto&) { keys.push_back(block.word); });
+  node.allow_keys(keys);
+}
+
+/// What is missing stays as it is.
+template <class VisitBlocks>
+void fill_blocks(const JsonNode& node, const VisitBlocks& visit_blocks) {
+  visit_blocks([&](const ConstantsBlock& block, auto& numbers) {
+    if (const auto found = node.find(std::string(block.word))) read_numbers(*found, numbers);
+  });
+}
+
+template <class VisitBlocks>
+void read_blocks(const JsonNode& node, const VisitBlocks& visit_blocks,
+                 const std::vector<std::string_view>& others = {}) {
+  allow_blocks(node, visit_blocks, others);
+  fill_blocks(node, visit_blocks);
 }
 
 void set_sizes(BodyConstants& constants, int n) {
@@ -80,36 +95,16 @@ void set_sizes(BodyConstants& constants, int n) {
 }
 
 void read_invariants_block(const JsonNode& node, BodyConstants& constants, bool is_derivative) {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < moment_pairs.size(); ++i) names.push_back(moment_name(i));
-  std::vector<std::string_view> keys = {"mass",  "first_moment", "second_moment", "shape",
-                                        "mixed", "mass_matrix",  "stiffness",     "damping"};
-  keys.insert(keys.end(), names.begin(), names.end());
-  node.allow_keys(keys);
-  if (!is_derivative) {
-    for (const char* key :
-         {"mass", "first_moment", "second_moment", "shape", "mixed", "mass_matrix", "stiffness"}) {
-      node.at(key);
-    }
-  }
-  if (const auto mass = node.find("mass")) constants.mass = read_number(*mass);
-  if (const auto first = node.find("first_moment")) constants.first_moment = read_vector(*first, 3);
-  if (const auto second = node.find("second_moment")) {
-    constants.second_moment = read_rows(*second, 3);
-  }
-  read_into(node, "shape", constants.shape);
-  read_into(node, "mixed", constants.mixed);
-  for (std::size_t i = 0; i < names.size(); ++i) read_into(node, names[i], constants.moments[i]);
-  read_into(node, "mass_matrix", constants.mass_matrix);
-  read_into(node, "stiffness", constants.stiffness);
-  read_into(node, "damping", constants.damping);
+  const auto blocks = [&](const auto& visit) { visit_invariants(visit, constants); };
+  allow_blocks(node, blocks);
+  blocks([&](const ConstantsBlock& block, const auto&) {
+    if (!is_derivative && !block.may_be_missing) node.at(std::string(block.word));
+  });
+  fill_blocks(node, blocks);
 }
 
 void read_place(const JsonNode& node, BodyPlace& place) {
-  node.allow_keys({"position", "displacement", "rotation"});
-  if (const auto position = node.find("position")) place.position = read_vector(*position, 3);
-  read_into(node, "displacement", place.displacement);
-  read_into(node, "rotation", place.rotation);
+  read_blocks(node, [&](const auto& visit) { visit_place(visit, place); });
 }
 
 void read_places(const JsonNode& node, BodyConstants& constants) {
@@ -130,24 +125,6 @@ void read_changes_of_places(const JsonNode& node, BodyConstants& change) {
     if (found == names.end()) fail_unknown_name(node, "place", name, names);
     read_place(member, change.places[found - names.begin()]);
   }
-}
-
-/// Keys that derivatives have, too.
-std::vector<std::string_view> stress_keys() {
-  std::vector<std::string_view> keys = {"of_coordinates", "of_accelerations", "of_stretching"};
-  for (const auto& [word, member] : strength_members<double>) keys.push_back(word);
-  return keys;
-}
-
-void read_stress_numbers(const JsonNode& node, StressRecovery& stress) {
-  for (const auto& [word, member] : strength_members<double>) {
-    if (const auto strength = node.find(std::string(word))) {
-      stress.strengths.*member = read_number(*strength);
-    }
-  }
-  read_into(node, "of_coordinates", stress.of_coordinates);
-  read_into(node, "of_accelerations", stress.of_accelerations);
-  read_into(node, "of_stretching", stress.of_stretching);
 }
 
 std::vector<int> read_group(const JsonNode& node, const StressRecovery& stress) {
@@ -178,15 +155,14 @@ void read_strengths(const JsonNode& node, Strengths<double>& strengths) {
   }
   const auto exponent = node.find(std::string(fatigue_exponent_word));
   if (!exponent) return;
-  strengths.fatigue_exponent = read_number(*exponent);
+  read_numbers(*exponent, strengths.fatigue_exponent);
   if (strengths.fatigue_exponent < 1.0) exponent->fail_with_value("must be at least 1");
 }
 
 void read_stress(const JsonNode& node, BodyConstants& constants) {
-  std::vector<std::string_view> keys = stress_keys();
-  keys.insert(keys.end(), {"points", "groups", fatigue_exponent_word});
-  node.allow_keys(keys);
   StressRecovery stress;
+  const auto blocks = [&](const auto& visit) { visit_stress(visit, stress); };
+  allow_blocks(node, blocks, {"points", "groups", fatigue_exponent_word});
   for (const JsonNode& point : node.at("points").items()) stress.points.push_back(point.text());
   if (stress.points.empty()) node.at("points").fail("must have at least one point");
   const auto rows = components * static_cast<Eigen::Index>(stress.points.size());
@@ -199,14 +175,15 @@ void read_stress(const JsonNode& node, BodyConstants& constants) {
     node.at("of_stretching").fail("needs the block \"stiffening\"");
   }
   if (const auto groups = node.find("groups")) read_groups(*groups, stress);
-  read_stress_numbers(node, stress);
+  fill_blocks(node, blocks);
   read_strengths(node, stress.strengths);
   constants.stress = std::move(stress);
 }
 
 StretchedElement read_element(const JsonNode& node, Eigen::Index displacements) {
-  node.allow_keys({"displacements", "elongation", "axial_stiffness", "slopes"});
   StretchedElement element;
+  const auto blocks = [&](const auto& visit) { visit_element(visit, element); };
+  allow_blocks(node, blocks, {"displacements", "elongation"});
   const JsonNode list = node.at("displacements");
   for (const JsonNode& item : list.items()) {
     const int index = item.whole_number(0, static_cast<int>(displacements) - 1);
@@ -219,21 +196,23 @@ StretchedElement read_element(const JsonNode& node, Eigen::Index displacements) 
   if (size == 0 || size > most_displacements) {
     list.fail(fmt::format("must have 1 to {} values, got {}", most_displacements, size));
   }
-  element.elongation = read_vector(node.at("elongation"), size);
-  element.axial_stiffness = read_number(node.at("axial_stiffness"));
-  if (element.axial_stiffness <= 0.0) {
-    node.at("axial_stiffness").fail_with_value("must be positive [N/m]");
-  }
-  element.slopes = read_rows(node.at("slopes"), size);
+  element.elongation.resize(size);
+  element.slopes.resize(size, size);
+  read_numbers(node.at("elongation"), element.elongation);
+  const JsonNode stiffness = node.at("axial_stiffness"), slopes = node.at("slopes");
+  fill_blocks(node, blocks);
+  if (element.axial_stiffness <= 0.0) stiffness.fail_with_value("must be positive [N/m]");
   return element;
 }
 
 void read_stiffening(const JsonNode& node, BodyConstants& constants) {
-  node.allow_keys({"damping", "size", "displacements", "elements"});
   Stretching stretching;
-  if (const auto damping = node.find("damping")) stretching.damping = read_number(*damping);
-  stretching.displacements = read_matrix(
-      node.at("displacements"), node.at("size").whole_number(1, most_rows), constants.size());
+  const auto blocks = [&](const auto& visit) { visit_stretching(visit, stretching); };
+  allow_blocks(node, blocks, {"size", "elements"});
+  stretching.displacements =
+      empty_matrix(node.at("size").whole_number(1, most_rows), constants.size());
+  node.at("displacements");
+  fill_blocks(node, blocks);
   for (const JsonNode& item : node.at("elements").items()) {
     stretching.elements.push_back(read_element(item, stretching.displacements.rows()));
   }
@@ -242,21 +221,13 @@ void read_stiffening(const JsonNode& node, BodyConstants& constants) {
 }
 
 void read_change_of_stiffening(const JsonNode& node, Stretching& change) {
-  node.allow_keys({"damping", "displacements", "elements"});
-  if (const auto damping = node.find("damping")) change.damping = read_number(*damping);
-  read_into(node, "displacements", change.displacements);
+  read_blocks(node, [&](const auto& visit) { visit_stretching(visit, change); }, {"elements"});
   const auto elements = node.find("elements");
   if (!elements) return;
   std::size_t i = 0;
   for (const JsonNode& item : elements->items(change.elements.size())) {
-    item.allow_keys({"axial_stiffness", "slopes"});
     StretchedElement& element = change.elements[i++];
-    if (const auto stiffness = item.find("axial_stiffness")) {
-      element.axial_stiffness = read_number(*stiffness);
-    }
-    if (const auto slopes = item.find("slopes")) {
-      element.slopes = read_rows(*slopes, element.displacements.size());
-    }
+    read_blocks(item, [&](const auto& visit) { visit_element(visit, element); });
   }
 }
 
@@ -281,8 +252,7 @@ BodyConstants read_derivative(const JsonNode& node, const BodyConstants& of) {
   if (const auto places = node.find("places")) read_changes_of_places(*places, change);
   if (const auto stress = node.find("stress")) {
     if (!change.stress) stress->fail("has no block of the same name outside the derivatives");
-    stress->allow_keys(stress_keys());
-    read_stress_numbers(*stress, *change.stress);
+    read_blocks(*stress, [&](const auto& visit) { visit_stress(visit, *change.stress); });
   }
   if (const auto stiffening = node.find("stiffening")) {
     if (!change.stretching) {
@@ -325,7 +295,7 @@ bool is_positive_definite(const SparseMatrix& matrix) {
 /// S_xx + S_yy + S_zz is the mass matrix, if both come from one interpolation.
 void check_moments(const JsonNode& block, const BodyConstants& constants) {
   for (std::size_t i : {0U, 1U, 2U}) {
-    const std::string key = fmt::format("moment_{0}{0}", "xyz"[i]);
+    const std::string key(moment_words[i]);
     if (block.find(key)) check_symmetry(block, key, constants.moments[i]);
   }
   const SparseMatrix sum = constants.moments[0] + constants.moments[1] + constants.moments[2];

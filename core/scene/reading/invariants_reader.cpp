@@ -16,6 +16,7 @@
 #include "core/scene/reading/json_node.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 #include "core/scene/reading/syntax_error.hpp"
+#include "core/scene/visit_constants.hpp"
 
 namespace pleuel {
 
@@ -263,21 +264,24 @@ InvariantsFile read_invariants(const std::filesystem::path& path) {
 
 namespace {
 
-template <class Derived>
-Json vector_json(const Eigen::MatrixBase<Derived>& vector) {
-  Json json = Json::array();
-  for (const double number : vector) json.push_back(number);
-  return json;
+Json numbers_json(double number) {
+  return number;
 }
 
-Json rows_json(const Eigen::MatrixXd& matrix) {
+/// A list, or a list of rows.
+template <class Derived>
+Json numbers_json(const Eigen::MatrixBase<Derived>& matrix) {
   Json json = Json::array();
-  for (const auto& row : matrix.rowwise()) json.push_back(vector_json(row));
+  if constexpr (Derived::IsVectorAtCompileTime) {
+    for (const double number : matrix) json.push_back(number);
+  } else {
+    for (const auto& row : matrix.rowwise()) json.push_back(numbers_json(row));
+  }
   return json;
 }
 
 /// [row, column, value] of every entry that is not zero.
-Json entries_json(const SparseMatrix& matrix) {
+Json numbers_json(const SparseMatrix& matrix) {
   Json json = Json::array();
   for (int row = 0; row < matrix.outerSize(); ++row) {
     for (SparseMatrix::InnerIterator entry(matrix, row); entry; ++entry) {
@@ -287,29 +291,17 @@ Json entries_json(const SparseMatrix& matrix) {
   return json;
 }
 
-Json invariants_json(const BodyConstants& constants) {
-  Json json;
-  json["mass"] = constants.mass;
-  json["first_moment"] = vector_json(constants.first_moment);
-  json["second_moment"] = rows_json(constants.second_moment);
-  json["shape"] = entries_json(constants.shape);
-  json["mixed"] = entries_json(constants.mixed);
-  for (std::size_t i = 0; i < moment_pairs.size(); ++i) {
-    const auto [k, l] = moment_pairs[i];
-    json[fmt::format("moment_{}{}", "xyz"[k], "xyz"[l])] = entries_json(constants.moments[i]);
-  }
-  json["mass_matrix"] = entries_json(constants.mass_matrix);
-  json["stiffness"] = entries_json(constants.stiffness);
-  json["damping"] = entries_json(constants.damping);
-  return json;
+/// Writes the blocks that are visited.
+auto writer_to(Json& json) {
+  return [&json](const ConstantsBlock& block, const auto& numbers) {
+    json[std::string(block.word)] = numbers_json(numbers);
+  };
 }
 
 Json places_json(const BodyConstants& constants) {
   Json json = Json::object();
   for (const BodyPlace& place : constants.places) {
-    json[place.name] = {{"position", vector_json(place.position)},
-                        {"displacement", entries_json(place.displacement)},
-                        {"rotation", entries_json(place.rotation)}};
+    visit_place(writer_to(json[place.name]), place);
   }
   return json;
 }
@@ -336,10 +328,10 @@ Json stress_json(const StressRecovery& stress, bool is_derivative) {
   if (!is_derivative && stress.strengths.fatigue_exponent > 0.0) {
     json[std::string(fatigue_exponent_word)] = stress.strengths.fatigue_exponent;
   }
-  json["of_coordinates"] = entries_json(stress.of_coordinates);
-  json["of_accelerations"] = entries_json(stress.of_accelerations);
+  json["of_coordinates"] = numbers_json(stress.of_coordinates);
+  json["of_accelerations"] = numbers_json(stress.of_accelerations);
   if (stress.of_stretching.cols() > 0) {
-    json["of_stretching"] = entries_json(stress.of_stretching);
+    json["of_stretching"] = numbers_json(stress.of_stretching);
   }
   return json;
 }
@@ -348,16 +340,15 @@ Json stiffening_json(const Stretching& stretching, bool is_derivative) {
   Json json = Json::object();
   json["damping"] = stretching.damping;
   if (!is_derivative) json["size"] = stretching.displacements.rows();
-  json["displacements"] = entries_json(stretching.displacements);
+  json["displacements"] = numbers_json(stretching.displacements);
   json["elements"] = Json::array();
   for (const StretchedElement& element : stretching.elements) {
     Json item = Json::object();
     if (!is_derivative) {
       item["displacements"] = element.displacements;
-      item["elongation"] = vector_json(element.elongation);
+      item["elongation"] = numbers_json(element.elongation);
     }
-    item["axial_stiffness"] = element.axial_stiffness;
-    item["slopes"] = rows_json(element.slopes);
+    visit_element(writer_to(item), element);
     json["elements"].push_back(std::move(item));
   }
   return json;
@@ -371,16 +362,16 @@ double rounded(double number) {
 Json surface_json(const BodySurface& surface) {
   Json json = {{"young", surface.young}, {"poisson", surface.poisson}};
   const Eigen::Matrix3Xd positions = surface.positions.unaryExpr(&rounded);
-  json["positions"] = rows_json(positions.transpose());
+  json["positions"] = numbers_json(positions.transpose());
   json["triangles"] = surface.triangles;
   const Eigen::MatrixXd displacement = surface.displacement.unaryExpr(&rounded);
-  json["displacement"] = rows_json(displacement);
+  json["displacement"] = numbers_json(displacement);
   return json;
 }
 
 Json blocks_json(const BodyConstants& constants, bool is_derivative) {
   Json json;
-  json["invariants"] = invariants_json(constants);
+  visit_invariants(writer_to(json["invariants"]), constants);
   json["places"] = places_json(constants);
   if (constants.stress) json["stress"] = stress_json(*constants.stress, is_derivative);
   if (constants.stretching) {

@@ -407,8 +407,10 @@ double size_of_product(const Matrix& a, const Matrix& b) {
 /// Σ |dJ/dI · dI/dx|
 double sizes_along(const BodyConstants& gradient, const BodyConstants& change) {
   double sum = 0.0;
-  visit_constants(gradient, change,
-                  [&](const auto& a, const auto& b) { sum += size_of_product(a, b); });
+  const auto add = [&](const ConstantsBlock&, const auto& a, const auto& b) {
+    sum += size_of_product(a, b);
+  };
+  visit_constants(add, gradient, change);
   return sum;
 }
 
