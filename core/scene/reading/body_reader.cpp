@@ -1,4 +1,5 @@
 #include <cmath>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -9,8 +10,6 @@ namespace pleuel {
 namespace {
 
 constexpr int most_frames = 1000;
-
-enum class BodyType { beam, rigid, point_mass, imported };
 
 Segment read_segment(const JsonNode& node, NumberReader& numbers) {
   Segment segment;
@@ -185,21 +184,12 @@ void read_initial_deflections(const JsonNode& node, Body& body, NumberReader& nu
 
 Body read_body(const std::string& name, const JsonNode& node,
                const std::vector<std::string>& materials, NumberReader& numbers) {
-  const auto type = read_choice<BodyType>(node.at("type"), {{"beam", BodyType::beam},
-                                                            {"rigid", BodyType::rigid},
-                                                            {"point-mass", BodyType::point_mass},
-                                                            {"invariants", BodyType::imported}});
-  Body body;
-  body.name = name;
-  if (type == BodyType::beam) {
-    body.shape = read_beam(node, materials, numbers);
-  } else if (type == BodyType::rigid) {
-    body.shape = read_rigid(node, numbers);
-  } else if (type == BodyType::imported) {
-    body.shape = read_imported_body(name, node, numbers);
-  } else {
-    body.shape = read_point_mass(node, numbers);
-  }
+  const Choice<std::function<decltype(Body::shape)()>> shapes[] = {
+      {"beam", [&] { return read_beam(node, materials, numbers); }},
+      {"rigid", [&] { return read_rigid(node, numbers); }},
+      {"point-mass", [&] { return read_point_mass(node, numbers); }},
+      {"invariants", [&] { return read_imported_body(name, node, numbers); }}};
+  Body body{name, read_choice(node.at("type"), shapes)()};
   read_velocities(node, body, numbers);
   read_initial_deflections(node, body, numbers);
   return body;

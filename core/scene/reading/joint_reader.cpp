@@ -47,7 +47,7 @@ Joint read_joint(const std::string& name, const JsonNode& node,
                  const std::vector<std::string>& bodies, NumberReader& numbers) {
   Joint joint;
   joint.name = name;
-  joint.type = read_kind(node.at("type"), joint_kinds);
+  joint.type = read_row(node.at("type"), joint_kinds).type;
   read_keys(node, numbers, [&](Keys& keys) { describe(keys, joint); }, {"type"});
   joint.bodies = read_pair(node.at("bodies"), bodies);
   if (kind_of(joint.type).has_second_axis()) check_second_axis(node, numbers);

@@ -63,28 +63,21 @@ class JsonNode {
 /// Ends the reading: the node's text is none of the words.
 [[noreturn]] void fail_choice(const JsonNode& node, const std::vector<std::string>& words);
 
-/// What the node's text, which must be one of the words, means.
-template <class Meaning, std::size_t count>
-Meaning read_choice(const JsonNode& node, const Choice<Meaning> (&choices)[count]) {
+/// The row of a table whose word is the node's text, which must be one of them.
+template <class Table>
+const auto& read_row(const JsonNode& node, Table&& table) {
   std::vector<std::string> words;
-  for (const auto& [word, meaning] : choices) {
-    if (node.value().is_string() && node.value().get_ref<const std::string&>() == word) {
-      return meaning;
-    }
-    words.emplace_back(word);
+  for (const auto& row : table) {
+    words.emplace_back(row.word);
+    if (node.value() == words.back()) return row;
   }
   fail_choice(node, words);
 }
 
-/// The type of the kind in a table (joint_kind.hpp, response_kind.hpp) whose word is the node's text.
-template <class Kind, std::size_t count>
-auto read_kind(const JsonNode& node, const Kind (&kinds)[count]) {
-  std::vector<std::string> words;
-  for (const Kind& kind : kinds) {
-    words.emplace_back(kind.word);
-    if (node.value() == words.back()) return kind.type;
-  }
-  fail_choice(node, words);
+/// What the node's text, which must be one of the words, means.
+template <class Meaning, std::size_t count>
+Meaning read_choice(const JsonNode& node, const Choice<Meaning> (&choices)[count]) {
+  return read_row(node, choices).meaning;
 }
 
 /// Ends the reading: `names the unknown material "stel"; did you mean "steel"?`

@@ -78,20 +78,4 @@ void read_keys(const JsonNode& node, NumberReader& numbers, Struct& into,
   read_keys(node, numbers, [&](Keys& keys) { describe(keys, into, measures...); });
 }
 
-/// One of the kinds, which "type" names.
-template <class Variant>
-Variant read_kind(const JsonNode& node, NumberReader& numbers,
-                  const std::vector<ObjectKind<Variant>>& kinds) {
-  std::vector<std::string> words;
-  for (const ObjectKind<Variant>& kind : kinds) words.emplace_back(kind.word);
-  const JsonNode type = node.at("type");
-  for (const ObjectKind<Variant>& kind : kinds) {
-    if (type.value() != std::string(kind.word)) continue;
-    Variant made = kind.made;
-    read_keys(node, numbers, [&](Keys& keys) { describe(keys, made); }, {"type"});
-    return made;
-  }
-  fail_choice(type, words);
-}
-
 }  // namespace pleuel

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <functional>
 #include <optional>
 
 #include <fmt/format.h>
@@ -10,8 +11,6 @@
 
 namespace pleuel {
 namespace {
-
-enum class LoadType { force, torque, spring, joint };
 
 const Body& read_loaded_body(const JsonNode& node, const Scene& scene) {
   if (node.value() == ground_name) node.fail_with_value("must name a body that can move");
@@ -145,21 +144,13 @@ JointForce read_joint_force(const JsonNode& node, const Scene& scene, NumberRead
 
 Load read_load(const std::string& name, const JsonNode& node, const Scene& scene,
                NumberReader& numbers) {
-  const auto type = read_choice<LoadType>(node.at("type"), {{"force", LoadType::force},
-                                                            {"torque", LoadType::torque},
-                                                            {"spring", LoadType::spring},
-                                                            {"joint", LoadType::joint}});
-  switch (type) {
-    case LoadType::force:
-      return {name, read_force(node, scene, numbers)};
-    case LoadType::torque:
-      return {name, read_torque(node, scene, numbers)};
-    case LoadType::spring:
-      return {name, read_spring(node, scene, numbers)};
-    case LoadType::joint:
-      break;
-  }
-  return {name, read_joint_force(node, scene, numbers)};
+  using Element = decltype(Load::element);
+  using Read = std::function<Element(const JsonNode&, const Scene&, NumberReader&)>;
+  static const Choice<Read> elements[] = {{"force", read_force},
+                                          {"torque", read_torque},
+                                          {"spring", read_spring},
+                                          {"joint", read_joint_force}};
+  return {name, read_choice(node.at("type"), elements)(node, scene, numbers)};
 }
 
 }  // namespace pleuel

@@ -44,7 +44,7 @@ ResponseSettings read_response(const std::string& name, const JsonNode& node,
                                const ResponseScope& scope, NumberReader& numbers) {
   ResponseSettings response;
   response.name = name;
-  response.type = read_kind(node.at("type"), response_kinds);
+  response.type = read_row(node.at("type"), response_kinds).type;
   if (response.type == ResponseType::expression) return response;
   read_keys(node, numbers, [&](Keys& keys) { describe(keys, response, scope); }, {"type"});
   read_joint_coordinate(node, scope.scene, response);

@@ -36,7 +36,9 @@ Load read_load(const std::string& name, const JsonNode& node, const Scene& scene
 
 /// @throws InputError
 inline Section read_section(const JsonNode& node, NumberReader& numbers) {
-  return read_kind(node, numbers, section_kinds());
+  Section section = read_row(node.at("type"), section_kinds()).made;
+  read_keys(node, numbers, [&](Keys& keys) { describe(keys, section); }, {"type"});
+  return section;
 }
 
 }  // namespace pleuel

@@ -264,7 +264,7 @@ TableColumns read_table_file(const JsonNode& node, const std::array<Quantity, 2>
 /// What a table is a function of, and the key of its list.
 struct TableArgument {
   LawArgument argument = LawArgument::time;
-  std::string_view name, list;
+  std::string_view word, list;
   Quantity quantity;
 };
 
@@ -285,13 +285,7 @@ TableArgument find_argument(const LawSource& source, const std::vector<TableArgu
   }
   const bool is_given = source.node.find("over").has_value();
   if (!source.node.find("file") || (all.size() == 1 && !is_given)) return all.front();
-  const JsonNode over = source.node.at("over");
-  std::vector<std::string> words;
-  for (const TableArgument& one : all) {
-    if (over.value() == one.name) return one;
-    words.emplace_back(one.name);
-  }
-  fail_choice(over, words);
+  return read_row(source.node.at("over"), all);
 }
 
 std::vector<double> read_ascending(const JsonNode& node, const TableArgument& argument,
@@ -376,7 +370,7 @@ void read_table_period(const JsonNode& node, const TableArgument& argument,
 
 }  // namespace
 
-TableFunction read_table(const LawSource& source, NumberReader& numbers) {
+TableFunction read_table_law(const LawSource& source, NumberReader& numbers) {
   const std::vector<TableArgument> arguments = arguments_of(source);
   const bool has_file = source.node.find("file").has_value();
   const TableArgument argument = find_argument(source, arguments);

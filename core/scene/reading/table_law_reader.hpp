@@ -6,6 +6,6 @@ namespace pleuel {
 
 /// A law through points, of time or of the motion, which the file lists or another file has.
 /// @throws InputError
-TableFunction read_table(const LawSource& source, NumberReader& numbers);
+TableFunction read_table_law(const LawSource& source, NumberReader& numbers);
 
 }  // namespace pleuel

@@ -1,7 +1,9 @@
 #include "core/scene/reading/time_function_reader.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <memory>
+#include <ranges>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,27 +17,11 @@ namespace {
 
 constexpr std::size_t most_coefficients = 11;  // per_time() knows ten derivatives
 
-enum class FunctionType {
-  constant,
-  constant_speed,
-  ramp_to_speed,
-  polynomial,
-  harmonic,
-  table,
-  step,
-  ramp,
-  half_sine,
-  trapezoid,
-  expression,
-  friction,
-  clearance
-};
-
 /// A function that its table of keys says all of.
-template <class Function, class Measures>
-Function read_keys_of(const LawSource& source, NumberReader& numbers, const Measures& measures) {
+template <class Function>
+Function read_by_keys(const LawSource& source, NumberReader& numbers) {
   Function function;
-  source.read(numbers, function, measures);
+  source.read(numbers, function, source.value);
   return function;
 }
 
@@ -54,6 +40,111 @@ PolynomialFunction read_polynomial(const LawSource& source, NumberReader& number
     polynomial.coefficients.push_back(numbers.designable(items[i], quantity));
   }
   return polynomial;
+}
+
+// Laws that have a shape: steps, ramps, pulses.
+
+Number number_or(const LawSource& source, const char* key, double otherwise,
+                 NumberReader& numbers) {
+  const auto node = source.node.find(key);
+  return node ? numbers.designable(*node, source.value) : Number(otherwise);
+}
+
+/// A fixed time [s].
+double time_or(const LawSource& source, const char* key, double otherwise, Range range,
+               const NumberReader& numbers) {
+  const auto node = source.node.find(key);
+  return node ? numbers.fixed(*node, quantities::time, range) : otherwise;
+}
+
+/// A duration that a drive must have: it cannot move in no time.
+double duration_of_drive(const LawSource& source, const char* key, const NumberReader& numbers) {
+  if (source.purpose == LawPurpose::drive) {
+    return numbers.fixed(source.node.at(key), quantities::time, Range::positive);
+  }
+  return time_or(source, key, 0.0, Range::not_negative, numbers);
+}
+
+/// @param longest  what it must be at least [s]
+double read_period(const LawSource& source, double longest, const NumberReader& numbers) {
+  const auto node = source.node.find("period");
+  if (!node) return 0.0;
+  const double period = numbers.fixed(*node, quantities::time, Range::positive);
+  if (period < longest * (1.0 - 1e-9)) {
+    node->fail_with_value(
+        fmt::format("must be at least as long as what is repeated, {:g} s", longest));
+  }
+  return period;
+}
+
+/// From one value to another at a time; with "rise" by a quintic without rate and acceleration at
+/// its ends, which drives need.
+TableFunction read_step(const LawSource& source, NumberReader& numbers) {
+  source.allow_keys({"from", "to", "time", "rise"});
+  TableFunction table;
+  table.values = {number_or(source, "from", 0.0, numbers),
+                  numbers.designable(source.node.at("to"), source.value)};
+  const double time = time_or(source, "time", 0.0, Range::any, numbers);
+  const double rise = duration_of_drive(source, "rise", numbers);
+  table.interpolation = rise > 0.0 ? Interpolation::resting : Interpolation::step;
+  table.times = {time, time + rise};
+  // Of a jump the first point only says what was before.
+  if (rise == 0.0) table.times = {std::min(time, 0.0) - 1.0, time};
+  return table;
+}
+
+/// With "rounding" twice differentiable, which drives need.
+RampFunction read_ramp(const LawSource& source, NumberReader& numbers) {
+  RampFunction ramp;
+  source.read(numbers, ramp, source.value);
+  ramp.rounding = duration_of_drive(source, "rounding", numbers);
+  const double most = 0.5 * (ramp.end - ramp.begin);
+  if (ramp.rounding > most * (1.0 + 1e-9)) {
+    source.node.at("rounding")
+        .fail_with_value(fmt::format("must be at most half of the duration, {:g} s", most));
+  }
+  return ramp;
+}
+
+HalfSineFunction read_half_sine(const LawSource& source, NumberReader& numbers) {
+  HalfSineFunction wave;
+  source.read(numbers, wave, source.value);
+  wave.period = read_period(source, wave.duration, numbers);
+  return wave;
+}
+
+/// Up, a hold, and down. Flanks are straight, or quintics as those of a step, which drives need.
+TableFunction read_trapezoid(const LawSource& source, NumberReader& numbers) {
+  source.allow_keys({"value", "base", "begin", "rise", "hold", "fall", "flanks", "period"});
+  const bool is_drive = source.purpose == LawPurpose::drive;
+  const Number base = number_or(source, "base", 0.0, numbers);
+  const Number value = numbers.designable(source.node.at("value"), source.value);
+  const double begin = time_or(source, "begin", 0.0, Range::any, numbers);
+  const double rise = numbers.fixed(source.node.at("rise"), quantities::time, Range::positive);
+  const double hold = time_or(source, "hold", 0.0, Range::not_negative, numbers);
+  const double fall = time_or(source, "fall", rise, Range::positive, numbers);
+  TableFunction table;
+  table.interpolation = is_drive ? Interpolation::resting : Interpolation::linear;
+  if (const auto flanks = source.node.find("flanks")) {
+    table.interpolation = read_choice<Interpolation>(
+        *flanks, {{"straight", Interpolation::linear}, {"smooth", Interpolation::resting}});
+    if (is_drive && table.interpolation == Interpolation::linear) {
+      flanks->fail_with_value("must be \"smooth\" of a drive, whose speed would jump");
+    }
+  }
+  table.times = {begin, begin + rise};
+  table.values = {base, value};
+  const auto add = [&](double duration, const Number& number) {
+    table.times.push_back(table.times.back() + duration);
+    table.values.push_back(number);
+  };
+  if (hold > 0.0) add(hold, value);
+  add(fall, base);
+  const double duration = rise + hold + fall, period = read_period(source, duration, numbers);
+  if (period == 0.0) return table;
+  table.repetition = Repetition::periodic;
+  if (period > duration * (1.0 + 1e-9)) add(period - duration, base);
+  return table;
 }
 
 // Formulas.
@@ -121,62 +212,52 @@ ClearanceLaw read_clearance(const LawSource& source, NumberReader& numbers) {
   return law;
 }
 
-TimeFunction read_function(FunctionType type, const LawSource& source, NumberReader& numbers) {
-  switch (type) {
-    case FunctionType::constant:
-      return read_keys_of<ConstantFunction>(source, numbers, source.value);
-    case FunctionType::constant_speed:
-      return read_keys_of<ConstantSpeedDrive>(source, numbers, source.value);
-    case FunctionType::ramp_to_speed:
-      return read_keys_of<RampToSpeedDrive>(source, numbers, source.value);
-    case FunctionType::polynomial:
-      return read_polynomial(source, numbers);
-    case FunctionType::harmonic:
-      return read_keys_of<HarmonicFunction>(source, numbers, source.value);
-    case FunctionType::step:
-      return read_step(source, numbers);
-    case FunctionType::ramp:
-      return read_ramp(source, numbers);
-    case FunctionType::half_sine:
-      return read_half_sine(source, numbers);
-    case FunctionType::trapezoid:
-      return read_trapezoid(source, numbers);
-    case FunctionType::expression:
-      return read_expression_object(source, numbers);
-    case FunctionType::friction:
-      return read_keys_of<FrictionLaw>(source, numbers, along(source.value));
-    case FunctionType::clearance:
-      return read_clearance(source, numbers);
-    case FunctionType::table:
-      break;
-  }
-  return read_table(source, numbers);
+FrictionLaw read_friction(const LawSource& source, NumberReader& numbers) {
+  FrictionLaw law;
+  source.read(numbers, law, along(source.value));
+  return law;
 }
 
-TimeFunction read_motion(const LawSource& source, NumberReader& numbers) {
-  const auto type = read_choice<FunctionType>(source.node.at("type"),
-                                              {{"constant-speed", FunctionType::constant_speed},
-                                               {"ramp-to-speed", FunctionType::ramp_to_speed},
-                                               {"constant", FunctionType::constant},
-                                               {"polynomial", FunctionType::polynomial},
-                                               {"harmonic", FunctionType::harmonic},
-                                               {"table", FunctionType::table},
-                                               {"step", FunctionType::step},
-                                               {"ramp", FunctionType::ramp},
-                                               {"trapezoid", FunctionType::trapezoid},
-                                               {"expression", FunctionType::expression}});
-  return read_function(type, source, numbers);
+struct LawKind {
+  enum Use : unsigned { motion = 1, load = 2, resistance = 4 };
+
+  std::string_view word;
+  unsigned uses;  ///< sum of Use
+  std::function<TimeFunction(const LawSource&, NumberReader&)> read;
+};
+
+/// By the type of the function, one of those that are for this use.
+TimeFunction read_law(const LawSource& source, NumberReader& numbers, LawKind::Use use) {
+  using enum LawKind::Use;
+  static const LawKind kinds[] = {
+      {"constant-speed", motion, read_by_keys<ConstantSpeedDrive>},
+      {"ramp-to-speed", motion, read_by_keys<RampToSpeedDrive>},
+      {"constant", motion | load, read_by_keys<ConstantFunction>},
+      {"polynomial", motion | load, read_polynomial},
+      {"harmonic", motion | load, read_by_keys<HarmonicFunction>},
+      {"table", motion | load | resistance, read_table_law},
+      {"step", motion | load, read_step},
+      {"ramp", motion | load, read_ramp},
+      {"half-sine", load, read_half_sine},
+      {"trapezoid", motion | load, read_trapezoid},
+      {"expression", motion | load | resistance, read_expression_object},
+      {"friction", resistance, read_friction},
+      {"clearance", resistance, read_clearance}};
+  const auto is_for_use = [use](const LawKind& kind) { return (kind.uses & use) != 0; };
+  return read_row(source.node.at("type"), kinds | std::views::filter(is_for_use))
+      .read(source, numbers);
 }
 
 }  // namespace
 
 TimeFunction read_drive_function(const JsonNode& node, const Quantity& value,
                                  NumberReader& numbers) {
-  return read_motion({node, value, LawPurpose::drive, std::nullopt, {"coordinate"}}, numbers);
+  return read_law({node, value, LawPurpose::drive, std::nullopt, {"coordinate"}}, numbers,
+                  LawKind::motion);
 }
 
 TimeFunction read_target(const JsonNode& node, const Quantity& value, NumberReader& numbers) {
-  return read_motion({node, value, LawPurpose::drive}, numbers);
+  return read_law({node, value, LawPurpose::drive}, numbers, LawKind::motion);
 }
 
 TimeFunction read_load_function(const LawSource& source, NumberReader& numbers) {
@@ -186,130 +267,12 @@ TimeFunction read_load_function(const LawSource& source, NumberReader& numbers) 
   if (!node.value().is_object() || is_binding) {
     return ConstantFunction{numbers.designable(node, source.value)};
   }
-  const auto type =
-      read_choice<FunctionType>(node.at("type"), {{"constant", FunctionType::constant},
-                                                  {"polynomial", FunctionType::polynomial},
-                                                  {"harmonic", FunctionType::harmonic},
-                                                  {"table", FunctionType::table},
-                                                  {"step", FunctionType::step},
-                                                  {"ramp", FunctionType::ramp},
-                                                  {"half-sine", FunctionType::half_sine},
-                                                  {"trapezoid", FunctionType::trapezoid},
-                                                  {"expression", FunctionType::expression}});
-  return read_function(type, source, numbers);
+  return read_law(source, numbers, LawKind::load);
 }
 
 TimeFunction read_resistance(const LawSource& source, NumberReader& numbers) {
   if (is_formula(source.node)) return read_expression_law(source.node, source, numbers);
-  const auto type =
-      read_choice<FunctionType>(source.node.at("type"), {{"table", FunctionType::table},
-                                                         {"expression", FunctionType::expression},
-                                                         {"friction", FunctionType::friction},
-                                                         {"clearance", FunctionType::clearance}});
-  return read_function(type, source, numbers);
-}
-
-namespace {
-
-Number number_or(const LawSource& source, const char* key, double otherwise,
-                 NumberReader& numbers) {
-  const auto node = source.node.find(key);
-  return node ? numbers.designable(*node, source.value) : Number(otherwise);
-}
-
-/// A fixed time [s].
-double time_or(const LawSource& source, const char* key, double otherwise, Range range,
-               const NumberReader& numbers) {
-  const auto node = source.node.find(key);
-  return node ? numbers.fixed(*node, quantities::time, range) : otherwise;
-}
-
-/// A duration that a drive must have: it cannot move in no time.
-double duration_of_drive(const LawSource& source, const char* key, const NumberReader& numbers) {
-  if (source.purpose == LawPurpose::drive) {
-    return numbers.fixed(source.node.at(key), quantities::time, Range::positive);
-  }
-  return time_or(source, key, 0.0, Range::not_negative, numbers);
-}
-
-/// @param longest  what it must be at least [s]
-double read_period(const LawSource& source, double longest, const NumberReader& numbers) {
-  const auto node = source.node.find("period");
-  if (!node) return 0.0;
-  const double period = numbers.fixed(*node, quantities::time, Range::positive);
-  if (period < longest * (1.0 - 1e-9)) {
-    node->fail_with_value(
-        fmt::format("must be at least as long as what is repeated, {:g} s", longest));
-  }
-  return period;
-}
-
-}  // namespace
-
-TableFunction read_step(const LawSource& source, NumberReader& numbers) {
-  source.allow_keys({"from", "to", "time", "rise"});
-  TableFunction table;
-  table.values = {number_or(source, "from", 0.0, numbers),
-                  numbers.designable(source.node.at("to"), source.value)};
-  const double time = time_or(source, "time", 0.0, Range::any, numbers);
-  const double rise = duration_of_drive(source, "rise", numbers);
-  table.interpolation = rise > 0.0 ? Interpolation::resting : Interpolation::step;
-  table.times = {time, time + rise};
-  // Of a jump the first point only says what was before.
-  if (rise == 0.0) table.times = {std::min(time, 0.0) - 1.0, time};
-  return table;
-}
-
-RampFunction read_ramp(const LawSource& source, NumberReader& numbers) {
-  RampFunction ramp;
-  source.read(numbers, ramp, source.value);
-  ramp.rounding = duration_of_drive(source, "rounding", numbers);
-  const double most = 0.5 * (ramp.end - ramp.begin);
-  if (ramp.rounding > most * (1.0 + 1e-9)) {
-    source.node.at("rounding")
-        .fail_with_value(fmt::format("must be at most half of the duration, {:g} s", most));
-  }
-  return ramp;
-}
-
-HalfSineFunction read_half_sine(const LawSource& source, NumberReader& numbers) {
-  HalfSineFunction wave;
-  source.read(numbers, wave, source.value);
-  wave.period = read_period(source, wave.duration, numbers);
-  return wave;
-}
-
-TableFunction read_trapezoid(const LawSource& source, NumberReader& numbers) {
-  source.allow_keys({"value", "base", "begin", "rise", "hold", "fall", "flanks", "period"});
-  const bool is_drive = source.purpose == LawPurpose::drive;
-  const Number base = number_or(source, "base", 0.0, numbers);
-  const Number value = numbers.designable(source.node.at("value"), source.value);
-  const double begin = time_or(source, "begin", 0.0, Range::any, numbers);
-  const double rise = numbers.fixed(source.node.at("rise"), quantities::time, Range::positive);
-  const double hold = time_or(source, "hold", 0.0, Range::not_negative, numbers);
-  const double fall = time_or(source, "fall", rise, Range::positive, numbers);
-  TableFunction table;
-  table.interpolation = is_drive ? Interpolation::resting : Interpolation::linear;
-  if (const auto flanks = source.node.find("flanks")) {
-    table.interpolation = read_choice<Interpolation>(
-        *flanks, {{"straight", Interpolation::linear}, {"smooth", Interpolation::resting}});
-    if (is_drive && table.interpolation == Interpolation::linear) {
-      flanks->fail_with_value("must be \"smooth\" of a drive, whose speed would jump");
-    }
-  }
-  table.times = {begin, begin + rise};
-  table.values = {base, value};
-  const auto add = [&](double duration, const Number& number) {
-    table.times.push_back(table.times.back() + duration);
-    table.values.push_back(number);
-  };
-  if (hold > 0.0) add(hold, value);
-  add(fall, base);
-  const double duration = rise + hold + fall, period = read_period(source, duration, numbers);
-  if (period == 0.0) return table;
-  table.repetition = Repetition::periodic;
-  if (period > duration * (1.0 + 1e-9)) add(period - duration, base);
-  return table;
+  return read_law(source, numbers, LawKind::resistance);
 }
 
 }  // namespace pleuel
