@@ -191,16 +191,6 @@ void BodyChart::change(Way way, BodyConstants& constants,
   change_axial(is_logarithm, constants, derivatives);
 }
 
-void BodyChart::take_logarithms(BodyConstants& constants,
-                                std::vector<BodyConstants>& derivatives) const {
-  change(Way::to_chart, constants, derivatives);
-}
-
-void BodyChart::take_exponentials(BodyConstants& constants,
-                                  std::vector<BodyConstants>& derivatives) const {
-  change(Way::back, constants, derivatives);
-}
-
 void BodyChart::scale(BodyConstants& constants, double factor) {
   for (const PositiveMatrix& matrix : positive_matrices) {
     matrix.set(constants, factor * matrix.of(constants));

@@ -26,10 +26,11 @@ class BodyChart {
  public:
   explicit BodyChart(const BodyConstants& reference);
 
-  /// To the chart and back, with derivatives.
+  enum class Way { to_chart, back };
+
+  /// Takes logarithms, or exponentials, with derivatives.
   /// @throws SimulationError if what has a logarithm is not positive
-  void take_logarithms(BodyConstants& constants, std::vector<BodyConstants>& derivatives) const;
-  void take_exponentials(BodyConstants& constants, std::vector<BodyConstants>& derivatives) const;
+  void change(Way way, BodyConstants& constants, std::vector<BodyConstants>& derivatives) const;
 
   /// Multiplies what is a logarithm.
   static void scale(BodyConstants& constants, double factor);
@@ -40,10 +41,7 @@ class BodyChart {
     Eigen::VectorXd scale;
     Eigen::MatrixXd vectors;
   };
-  enum class Way { to_chart, back };
-
   static Basis basis_of(const Eigen::MatrixXd& matrix);
-  void change(Way way, BodyConstants& constants, std::vector<BodyConstants>& derivatives) const;
 
   std::vector<Basis> bases_;  ///< in the order of the matrices
 };

@@ -23,38 +23,6 @@ struct Expansion {
   std::vector<BodyConstants> slopes;  ///< one a coordinate
 };
 
-/// A function that has values and slopes of some expansions: a mean of their Taylor polynomials,
-///     z(x) = Σ wⱼ (zⱼ + zⱼ′ (x − xⱼ) + ½ (x − xⱼ)ᵀ Bⱼ (x − xⱼ)),   wⱼ ∝ 1/|x − xⱼ|⁴,   Σ wⱼ = 1
-/// (Shepard 1968; with derivatives Farwig 1986): the weights are flat at the places. The second
-/// derivatives Bⱼ are the smallest that explain how slopes differ from place to place,
-///     Bⱼ (xᵢ − xⱼ) = zᵢ′ − zⱼ′,
-/// by least squares with weights 1/|xᵢ − xⱼ|⁴, as what third derivatives leave goes with the square of the
-/// distance.
-class ExpansionMean {
- public:
-  /// @param expansions  at least one, at different places, of one arrangement
-  explicit ExpansionMean(std::vector<Expansion> expansions);
-
-  /// Value and slopes.
-  Expansion at(const Eigen::VectorXd& place) const;
-
- private:
-  /// B of an expansion: its columns, as derivatives of slopes.
-  using Bends = std::vector<std::vector<BodyConstants>>;
-  /// Weights and their slopes, expansions × coordinates.
-  struct Weights {
-    Eigen::VectorXd values;
-    Eigen::MatrixXd slopes;
-  };
-
-  Bends bends_of(std::size_t expansion) const;
-  Weights weights_at(const Eigen::VectorXd& place) const;
-  Expansion polynomial(std::size_t expansion, const Eigen::VectorXd& place) const;
-
-  std::vector<Expansion> expansions_;
-  std::vector<Bends> bends_;
-};
-
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
@@ -85,93 +53,114 @@ MatrixXd pseudo_inverse(const MatrixXd& a) {
   return modes.vectors * inverse.asDiagonal() * modes.vectors.transpose() * a.transpose();
 }
 
-ExpansionMean::ExpansionMean(std::vector<Expansion> expansions)
-    : expansions_(std::move(expansions)) {
-  for (std::size_t j = 0; j < expansions_.size(); ++j) bends_.push_back(bends_of(j));
-}
-
-ExpansionMean::Bends ExpansionMean::bends_of(std::size_t expansion) const {
-  const Expansion& here = expansions_[expansion];
-  const int n = int_size(here.place), others = int_size(expansions_) - 1;
-  if (others == 0 || n == 0) return {};
-  MatrixXd rows(n * others, n * (n + 1) / 2);
-  std::vector<BodyConstants> right;
-  for (std::size_t i = 0; i < expansions_.size(); ++i) {
-    if (i == expansion) continue;
-    const VectorXd away = expansions_[i].place - here.place;
-    const double weight = 1.0 / away.squaredNorm();
-    rows.middleRows(int_size(right), n) = weight * rows_of(away);
-    for (int a = 0; a < n; ++a) {
-      right.push_back(zero_constants(here.value));
-      add_constants(right.back(), weight, expansions_[i].slopes[a]);
-      add_constants(right.back(), -weight, here.slopes[a]);
-    }
+/// A function that has values and slopes of some expansions: a mean of their Taylor polynomials,
+///     z(x) = Σ wⱼ (zⱼ + zⱼ′ (x − xⱼ) + ½ (x − xⱼ)ᵀ Bⱼ (x − xⱼ)),   wⱼ ∝ 1/|x − xⱼ|⁴,   Σ wⱼ = 1
+/// (Shepard 1968; with derivatives Farwig 1986): the weights are flat at the places. The second
+/// derivatives Bⱼ are the smallest that explain how slopes differ from place to place,
+///     Bⱼ (xᵢ − xⱼ) = zᵢ′ − zⱼ′,
+/// by least squares with weights 1/|xᵢ − xⱼ|⁴, as what third derivatives leave goes with the square of the
+/// distance.
+class ExpansionMean {
+ public:
+  /// @param expansions  at least one, at different places, of one arrangement
+  explicit ExpansionMean(std::vector<Expansion> expansions) : expansions_(std::move(expansions)) {
+    for (std::size_t j = 0; j < expansions_.size(); ++j) bends_.push_back(bends_of(j));
   }
-  const MatrixXd solution = pseudo_inverse(rows);
-  Bends bends(n, std::vector<BodyConstants>(n, zero_constants(here.value)));
-  for (int a = 0; a < n; ++a) {
-    for (int b = 0; b < n; ++b) {
-      for (int r = 0; r < int_size(right); ++r) {
-        add_constants(bends[a][b], solution(packed_index(a, b), r), right[r]);
+
+  /// Value and slopes.
+  Expansion at(const VectorXd& place) const {
+    for (const Expansion& known : expansions_) {
+      if (known.place == place) return known;
+    }
+    const Weights weights = weights_at(place);
+    const BodyConstants zero = zero_constants(expansions_.front().value);
+    Expansion sum{place, zero, std::vector<BodyConstants>(place.size(), zero)};
+    for (int j = 0; j < int_size(expansions_); ++j) {
+      const Expansion one = polynomial(static_cast<std::size_t>(j), place);
+      add_constants(sum.value, weights.values(j), one.value);
+      for (int a = 0; a < int_size(place); ++a) {
+        add_constants(sum.slopes[a], weights.values(j), one.slopes[a]);
+        add_constants(sum.slopes[a], weights.slopes(j, a), one.value);
       }
     }
+    return sum;
   }
-  return bends;
-}
 
-ExpansionMean::Weights ExpansionMean::weights_at(const VectorXd& place) const {
-  const int count = int_size(expansions_);
-  Weights weights{VectorXd(count), MatrixXd(count, place.size())};
-  for (int j = 0; j < count; ++j) {
-    const VectorXd away = place - expansions_[j].place;
-    const double square = away.squaredNorm();
-    weights.values(j) = 1.0 / (square * square);
-    weights.slopes.row(j) = (-4.0 / square) * away.transpose();
-  }
-  weights.values /= weights.values.sum();
-  const Eigen::RowVectorXd mean = weights.values.transpose() * weights.slopes;
-  for (int j = 0; j < count; ++j) {
-    weights.slopes.row(j) = weights.values(j) * (weights.slopes.row(j) - mean);
-  }
-  return weights;
-}
+ private:
+  /// B of an expansion: its columns, as derivatives of slopes.
+  using Bends = std::vector<std::vector<BodyConstants>>;
+  /// Weights and their slopes, expansions × coordinates.
+  struct Weights {
+    Eigen::VectorXd values;
+    Eigen::MatrixXd slopes;
+  };
 
-Expansion ExpansionMean::polynomial(std::size_t expansion, const VectorXd& place) const {
-  Expansion there = expansions_[expansion];
-  const VectorXd away = place - there.place;
-  const std::vector<BodyConstants> slopes = there.slopes;
-  for (int a = 0; a < int_size(away); ++a) {
-    add_constants(there.value, away(a), slopes[a]);
-    if (bends_[expansion].empty()) continue;
-    for (int b = 0; b < int_size(away); ++b) {
-      add_constants(there.value, 0.5 * away(a) * away(b), bends_[expansion][a][b]);
-      add_constants(there.slopes[a], away(b), bends_[expansion][a][b]);
+  Bends bends_of(std::size_t expansion) const {
+    const Expansion& here = expansions_[expansion];
+    const int n = int_size(here.place), others = int_size(expansions_) - 1;
+    if (others == 0 || n == 0) return {};
+    MatrixXd rows(n * others, n * (n + 1) / 2);
+    std::vector<BodyConstants> right;
+    for (std::size_t i = 0; i < expansions_.size(); ++i) {
+      if (i == expansion) continue;
+      const VectorXd away = expansions_[i].place - here.place;
+      const double weight = 1.0 / away.squaredNorm();
+      rows.middleRows(int_size(right), n) = weight * rows_of(away);
+      for (int a = 0; a < n; ++a) {
+        right.push_back(zero_constants(here.value));
+        add_constants(right.back(), weight, expansions_[i].slopes[a]);
+        add_constants(right.back(), -weight, here.slopes[a]);
+      }
     }
-  }
-  return there;
-}
-
-Expansion ExpansionMean::at(const VectorXd& place) const {
-  for (const Expansion& known : expansions_) {
-    if (known.place == place) return known;
-  }
-  const Weights weights = weights_at(place);
-  const BodyConstants zero = zero_constants(expansions_.front().value);
-  Expansion sum{place, zero, std::vector<BodyConstants>(place.size(), zero)};
-  for (int j = 0; j < int_size(expansions_); ++j) {
-    const Expansion one = polynomial(static_cast<std::size_t>(j), place);
-    add_constants(sum.value, weights.values(j), one.value);
-    for (int a = 0; a < int_size(place); ++a) {
-      add_constants(sum.slopes[a], weights.values(j), one.slopes[a]);
-      add_constants(sum.slopes[a], weights.slopes(j, a), one.value);
+    const MatrixXd solution = pseudo_inverse(rows);
+    Bends bends(n, std::vector<BodyConstants>(n, zero_constants(here.value)));
+    for (int a = 0; a < n; ++a) {
+      for (int b = 0; b < n; ++b) {
+        for (int r = 0; r < int_size(right); ++r) {
+          add_constants(bends[a][b], solution(packed_index(a, b), r), right[r]);
+        }
+      }
     }
+    return bends;
   }
-  return sum;
-}
+
+  Weights weights_at(const VectorXd& place) const {
+    const int count = int_size(expansions_);
+    Weights weights{VectorXd(count), MatrixXd(count, place.size())};
+    for (int j = 0; j < count; ++j) {
+      const VectorXd away = place - expansions_[j].place;
+      const double square = away.squaredNorm();
+      weights.values(j) = 1.0 / (square * square);
+      weights.slopes.row(j) = (-4.0 / square) * away.transpose();
+    }
+    weights.values /= weights.values.sum();
+    const Eigen::RowVectorXd mean = weights.values.transpose() * weights.slopes;
+    for (int j = 0; j < count; ++j) {
+      weights.slopes.row(j) = weights.values(j) * (weights.slopes.row(j) - mean);
+    }
+    return weights;
+  }
+
+  Expansion polynomial(std::size_t expansion, const VectorXd& place) const {
+    Expansion there = expansions_[expansion];
+    const VectorXd away = place - there.place;
+    const std::vector<BodyConstants> slopes = there.slopes;
+    for (int a = 0; a < int_size(away); ++a) {
+      add_constants(there.value, away(a), slopes[a]);
+      if (bends_[expansion].empty()) continue;
+      for (int b = 0; b < int_size(away); ++b) {
+        add_constants(there.value, 0.5 * away(a) * away(b), bends_[expansion][a][b]);
+        add_constants(there.slopes[a], away(b), bends_[expansion][a][b]);
+      }
+    }
+    return there;
+  }
+
+  std::vector<Expansion> expansions_;
+  std::vector<Bends> bends_;
+};
 
 using FilePointer = std::shared_ptr<const InvariantsFile>;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 
 VectorXd values_of(const InvariantsFile& file) {
   VectorXd values(int_size(file.design));
@@ -247,7 +236,7 @@ class ContinuedBody : public BodySource {
     BodyConstants value = file.constants;
     std::vector<BodyConstants> slopes;
     for (const ConstantsDerivative& of : file.design) slopes.push_back(*of.derivative);
-    chart_.take_logarithms(value, slopes);
+    chart_.change(BodyChart::Way::to_chart, value, slopes);
     Expansion& inside = logarithms.emplace_back(Expansion{logarithmic_place(x), value, {}});
     Expansion& outside = others.emplace_back(Expansion{x.cwiseQuotient(unit_), value, {}});
     BodyChart::scale(outside.value, 0.0);
@@ -270,7 +259,7 @@ class ContinuedBody : public BodySource {
   InvariantsFile between(const VectorXd& x) const {
     Expansion inside = logarithms_->at(logarithmic_place(x));
     const Expansion outside = others_->at(x.cwiseQuotient(unit_));
-    chart_.take_exponentials(inside.value, inside.slopes);
+    chart_.change(BodyChart::Way::back, inside.value, inside.slopes);
     InvariantsFile file = *files_.front();
     file.surface.reset();  // nobody has seen it
     file.constants = outside.value;

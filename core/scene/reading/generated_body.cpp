@@ -27,29 +27,6 @@ namespace pleuel {
 
 namespace {
 
-/// What calls of one program returned, by their input: a folder, one file a call. Any number of threads and
-/// processes may use it.
-class CallRecord {
- public:
-  /// Calls of another command, or with other contents of the files that it names, are others.
-  explicit CallRecord(const BodyGenerator& generator);
-
-  /// @returns what the call returned; empty if it is not known
-  std::string find(const std::string& input) const;
-
-  /// A folder that cannot be written to costs a call later, no more.
-  void keep(const std::string& input, const std::string& output) const;
-
-  /// Of the command and its files.
-  std::string identity() const { return identity_.text(); }
-
- private:
-  std::filesystem::path path_of(const std::string& input) const;
-
-  std::filesystem::path folder_;
-  Fingerprint identity_;
-};
-
 namespace fs = std::filesystem;
 
 std::string content_of_file(const fs::path& path) {
@@ -57,40 +34,55 @@ std::string content_of_file(const fs::path& path) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-CallRecord::CallRecord(const BodyGenerator& generator) : folder_(generator.record) {
-  std::vector<std::string> words = generator.command;
-  words.insert(words.end(), generator.files.begin(), generator.files.end());
-  for (const std::string& word : words) {
-    identity_.add(word);
-    const fs::path file = fs::path(generator.folder) / word;
-    std::error_code error;
-    if (fs::is_regular_file(file, error)) identity_.add(content_of_file(file));
+/// What calls of one program returned, by their input: a folder, one file a call. Any number of threads and
+/// processes may use it.
+class CallRecord {
+ public:
+  /// Calls of another command, or with other contents of the files that it names, are others.
+  explicit CallRecord(const BodyGenerator& generator) : folder_(generator.record) {
+    std::vector<std::string> words = generator.command;
+    words.insert(words.end(), generator.files.begin(), generator.files.end());
+    for (const std::string& word : words) {
+      identity_.add(word);
+      const fs::path file = fs::path(generator.folder) / word;
+      std::error_code error;
+      if (fs::is_regular_file(file, error)) identity_.add(content_of_file(file));
+    }
   }
-}
 
-std::string CallRecord::find(const std::string& input) const {
-  return folder_.empty() ? "" : content_of_file(path_of(input));
-}
+  /// @returns what the call returned; empty if it is not known
+  std::string find(const std::string& input) const {
+    return folder_.empty() ? "" : content_of_file(path_of(input));
+  }
 
-/// Written beside it and renamed: nobody reads half of it.
-void CallRecord::keep(const std::string& input, const std::string& output) const {
-  if (folder_.empty()) return;
-  static std::atomic<int> count = 0;
-  std::error_code error;
-  fs::create_directories(folder_, error);
-  const fs::path path = path_of(input);
-  const fs::path draft = fmt::format("{}.{}.{}", path.string(), ::getpid(), count++);
-  std::ofstream stream(draft, std::ios::binary);
-  stream << output;
-  stream.close();
-  if (stream) fs::rename(draft, path, error);
-}
+  /// A folder that cannot be written to costs a call later, no more.
+  /// Written beside it and renamed: nobody reads half of it.
+  void keep(const std::string& input, const std::string& output) const {
+    if (folder_.empty()) return;
+    static std::atomic<int> count = 0;
+    std::error_code error;
+    fs::create_directories(folder_, error);
+    const fs::path path = path_of(input);
+    const fs::path draft = fmt::format("{}.{}.{}", path.string(), ::getpid(), count++);
+    std::ofstream stream(draft, std::ios::binary);
+    stream << output;
+    stream.close();
+    if (stream) fs::rename(draft, path, error);
+  }
 
-fs::path CallRecord::path_of(const std::string& input) const {
-  Fingerprint fingerprint = identity_;
-  fingerprint.add(input);
-  return folder_ / (plain_file_name(fingerprint.text()) + ".json");
-}
+  /// Of the command and its files.
+  std::string identity() const { return identity_.text(); }
+
+ private:
+  fs::path path_of(const std::string& input) const {
+    Fingerprint fingerprint = identity_;
+    fingerprint.add(input);
+    return folder_ / (plain_file_name(fingerprint.text()) + ".json");
+  }
+
+  std::filesystem::path folder_;
+  Fingerprint identity_;
+};
 
 using FilePointer = std::shared_ptr<const InvariantsFile>;
 

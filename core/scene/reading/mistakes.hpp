@@ -75,8 +75,6 @@ inline constexpr double rounding_tolerance = 1e-9;
 inline constexpr double placement_tolerance = 1e-6;
 
 inline constexpr int most_elements = 10000;  ///< of a segment
-inline constexpr int most_modes = 1000;      ///< of a body
-inline constexpr int most_iterations = 1000000;
 
 /// A relative error: a tolerance of one or more asks for nothing. @throws InputError
 inline double read_tolerance(const JsonNode& node) {
