@@ -1,5 +1,8 @@
 #include "core/scene/dimension.hpp"
 
+#include <mutex>
+#include <set>
+
 #include <fmt/format.h>
 
 namespace pleuel {
@@ -38,6 +41,13 @@ std::string base_units(const Dimension& dimension) {
     below[at] = '/';
   }
   return above + "/" + below;
+}
+
+std::string_view kept_text(const std::string& text) {
+  static std::mutex mutex;
+  static std::set<std::string> texts;
+  const std::lock_guard<std::mutex> lock(mutex);
+  return *texts.insert(text).first;
 }
 
 }  // namespace pleuel

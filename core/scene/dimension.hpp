@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <string_view>
 
 namespace pleuel {
 
@@ -46,5 +47,9 @@ struct MeasuredUnit {
 
 /// The SI unit of this dimension in base units: "kg m^2/s^3"; "1" of a number.
 std::string base_units(const Dimension& dimension);
+
+/// The same text, as long as the program lives: quantities hold views of name and unit, also of those
+/// that are derived or received. Any thread may call it.
+std::string_view kept_text(const std::string& text);
 
 }  // namespace pleuel

@@ -1,10 +1,9 @@
 #include "core/scene/packed_problem.hpp"
 
-#include <set>
-
 #include "core/jobs/child_program.hpp"
 #include "core/scene/body_constants.hpp"
 #include "core/scene/body_source.hpp"
+#include "core/scene/dimension.hpp"
 
 /// What does not go member by member.
 namespace pleuel {
@@ -23,15 +22,11 @@ void transfer(Archive& archive, Drive& drive) {
   archive(motion, coordinate);
 }
 
-/// Names of quantities live as long as the program.
 template <class Archive>
 void transfer(Archive& archive, Quantity& quantity) {
-  static std::set<std::string> names;
   std::string name(quantity.name), unit(quantity.unit);
   archive(name, unit);
-  if constexpr (Archive::is_filling) {
-    quantity = {*names.insert(name).first, *names.insert(unit).first};
-  }
+  if constexpr (Archive::is_filling) quantity = {kept_text(name), kept_text(unit)};
 }
 
 /// Texts of invariants read back exactly.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
@@ -9,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/base/find_named.hpp"
+#include "core/scene/dimension.hpp"
 #include "core/scene/response_kind.hpp"
 #include "core/scene/visit_numbers.hpp"
 
@@ -40,34 +42,6 @@ Quantity instant_quantity(const ResponseSettings& response) {
   return kind_of(response.type).quantity;
 }
 
-/// Quantities hold views: the texts of integrals live as long as the program.
-struct TimeIntegral {
-  std::string base, name, unit;
-};
-
-const TimeIntegral* find_integral(const std::vector<TimeIntegral>& table, const Quantity& base) {
-  const auto found = std::ranges::find(table, base.unit, &TimeIntegral::base);
-  return found == table.end() ? nullptr : &*found;
-}
-
-/// One row a unit: that of the first quantity that has it.
-void add_integral(const Quantity& base, std::vector<TimeIntegral>& table) {
-  if (find_integral(table, base) != nullptr) return;
-  table.push_back({std::string(base.unit), fmt::format("{} times a time", base.name),
-                   fmt::format("{} s", base.unit)});
-}
-
-/// Of everything that responses measure.
-const std::vector<TimeIntegral>& time_integrals() {
-  static const std::vector<TimeIntegral> table = [] {
-    std::vector<TimeIntegral> rows = {{"1", "a time", "s"}, {"W", "an energy", "J"}};
-    add_integral(quantities::angular_speed, rows);  // not a frequency, which has its unit
-    for (const ResponseKind& kind : response_kinds) add_integral(kind.quantity, rows);
-    return rows;
-  }();
-  return table;
-}
-
 std::optional<Quantity> find_quantity(const Scene& scene, int variable) {
   std::optional<Quantity> found;
   visit_numbers(scene, [&](const Number& number, const Quantity& quantity) {
@@ -86,11 +60,17 @@ bool names(const ConstraintSettings& constraint, int variable) {
 }  // namespace
 
 Quantity times_time(const Quantity& quantity) {
-  const TimeIntegral* integral = find_integral(time_integrals(), quantity);
-  if (integral == nullptr) {
+  if (quantity == quantities::pure_number) return quantities::time;
+  if (quantity == quantities::power) return quantities::energy;
+  // Of a unit the first quantity that has it; rad/s is not called a frequency.
+  const auto kind = std::ranges::find(response_kinds, quantity, &ResponseKind::quantity);
+  if (kind == std::end(response_kinds)) {
     throw std::logic_error(fmt::format("no response measures {}", quantity.name));
   }
-  return {integral->name, integral->unit};
+  const Quantity& base =
+      quantity == quantities::angular_speed ? quantities::angular_speed : kind->quantity;
+  return {kept_text(fmt::format("{} times a time", base.name)),
+          kept_text(fmt::format("{} s", base.unit))};
 }
 
 Quantity quantity_of(const ResponseSettings& response) {

@@ -368,39 +368,20 @@ WrittenQuantity split_quantity(const std::string& text) {
   return written;
 }
 
-namespace {
-
-/// Quantities hold views: the texts of derived ones live as long as the program.
-struct DerivedQuantity {
-  std::string base, name, unit;
-};
-
-const std::vector<DerivedQuantity>& time_derivatives() {
-  static const std::vector<DerivedQuantity> table = [] {
-    constexpr int most_derivatives = 10;
-    std::vector<DerivedQuantity> rows = {{"rad", "an angular speed", "rad/s"},
-                                         {"m", "a speed", "m/s"},
-                                         {"N", "a force per time", "N/s"},
-                                         {"N m", "a torque per time", "N m/s"}};
-    const std::size_t bases = rows.size();
-    for (int order = 2; order <= most_derivatives; ++order) {
-      for (std::size_t i = 0; i < bases; ++i) {
-        const std::string base = rows[i].base;
-        const std::string below = rows[rows.size() - bases].unit;
-        rows.push_back({below, fmt::format("a coefficient of t^{}", order),
-                        fmt::format("{}/s^{}", base, order)});
-      }
-    }
-    return rows;
-  }();
-  return table;
-}
-
-}  // namespace
-
 Quantity per_time(const Quantity& quantity) {
-  for (const DerivedQuantity& row : time_derivatives()) {
-    if (row.base == quantity.unit) return {row.name, row.unit};
+  constexpr int most_derivatives = 10;
+  const std::pair<std::string, std::string> rates[] = {{"rad", "an angular speed"},
+                                                       {"m", "a speed"},
+                                                       {"N", "a force per time"},
+                                                       {"N m", "a torque per time"}};
+  for (const auto& [base, rate] : rates) {
+    std::string below = base, name = rate, unit = base + "/s";
+    for (int order = 1; order <= most_derivatives; ++order) {
+      if (quantity.unit == below) return {kept_text(name), kept_text(unit)};
+      below = unit;
+      name = fmt::format("a coefficient of t^{}", order + 1);
+      unit = fmt::format("{}/s^{}", base, order + 1);
+    }
   }
   throw std::logic_error(fmt::format("no quantity is derived from {}", quantity.name));
 }
