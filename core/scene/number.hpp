@@ -8,6 +8,7 @@
 
 #include "core/base/dual.hpp"
 #include "core/base/expression.hpp"
+#include "core/scene/kind_table.hpp"
 
 namespace pleuel {
 
@@ -89,6 +90,33 @@ enum class Range {
   fraction,  ///< from 0 to 1
   below_one  ///< from 0 to less than 1
 };
+
+struct RangeKind {
+  Range type;
+  bool (*holds)(double);
+  const char* rule;    ///< what a number must
+  const char* limits;  ///< of plain numbers, in a JSON schema
+};
+
+/// In the order of Range.
+inline constexpr RangeKind range_kinds[] = {
+    {Range::any, [](double) { return true; }, "be", "{}"},
+    {Range::positive, [](double x) { return x > 0.0; }, "be positive",
+     R"({"exclusiveMinimum": 0})"},
+    {Range::not_negative, [](double x) { return x >= 0.0; }, "not be negative",
+     R"({"minimum": 0})"},
+    {Range::poisson, [](double x) { return x > -1.0 && x < 0.5; },
+     "be greater than -1 and less than 0.5",
+     R"({"exclusiveMinimum": -1, "exclusiveMaximum": 0.5})"},
+    {Range::fraction, [](double x) { return x >= 0.0 && x <= 1.0; }, "be from 0 to 1",
+     R"({"minimum": 0, "maximum": 1})"},
+    {Range::below_one, [](double x) { return x >= 0.0 && x < 1.0; },
+     "be at least 0 and less than 1", R"({"minimum": 0, "exclusiveMaximum": 1})"}};
+static_assert(are_in_order(range_kinds));
+
+constexpr const RangeKind& kind_of(Range range) {
+  return range_kinds[static_cast<std::size_t>(range)];
+}
 
 /// Whether the value is finite and keeps to the range.
 bool is_within(Range range, double value);

@@ -18,33 +18,16 @@ Json reference(const std::string& definition) {
   return {{"$ref", "#/definitions/" + definition}};
 }
 
-struct RangeWords {
-  Range range;
-  const char *text, *limits;  ///< for people, and for plain numbers of the schema
-};
-constexpr RangeWords range_words[] = {
-    {Range::any, "", "{}"},
-    {Range::positive, "positive", R"({"exclusiveMinimum": 0})"},
-    {Range::not_negative, "not negative", R"({"minimum": 0})"},
-    {Range::poisson, "greater than -1 and less than 0.5",
-     R"({"exclusiveMinimum": -1, "exclusiveMaximum": 0.5})"},
-    {Range::fraction, "from 0 to 1", R"({"minimum": 0, "maximum": 1})"},
-    {Range::below_one, "at least 0 and less than 1", R"({"minimum": 0, "exclusiveMaximum": 1})"}};
-
-const RangeWords& words_of(Range range) {
-  return *std::find_if(std::begin(range_words), std::end(range_words),
-                       [&](const RangeWords& words) { return words.range == range; });
-}
-
 Json limited(const Json& type, Range range) {
   Json schema = {{"type", type}};
-  schema.update(Json::parse(words_of(range).limits));
+  schema.update(Json::parse(kind_of(range).limits));
   return schema;
 }
 
 /// "[m], positive"
 std::string measure_text(const Measure& measure) {
-  const std::string range = words_of(measure.range).text;
+  std::string range = kind_of(measure.range).rule;  // "not be negative"
+  range.erase(range.find("be"), 3);
   if (measure.quantity == quantities::pure_number) return range;
   return fmt::format("[{}]{}{}", measure.quantity.unit, range.empty() ? "" : ", ", range);
 }

@@ -10,31 +10,12 @@
 #include "core/scene/reading/unit_scanner.hpp"
 
 namespace pleuel {
-namespace {
-
-std::string unit_in_brackets(const Quantity& quantity) {
-  if (quantity == quantities::pure_number) return "";
-  return fmt::format(" [{}]", quantity.unit);
-}
-
-}  // namespace
 
 std::string rule_of(Range range, const Quantity& quantity) {
-  switch (range) {
-    case Range::any:
-      break;
-    case Range::positive:
-      return "must be positive" + unit_in_brackets(quantity);
-    case Range::not_negative:
-      return "must not be negative" + unit_in_brackets(quantity);
-    case Range::poisson:
-      return "must be greater than -1 and less than 0.5";
-    case Range::fraction:
-      return "must be from 0 to 1";
-    case Range::below_one:
-      return "must be at least 0 and less than 1";
-  }
-  return "must be " + describe(quantity);
+  if (range == Range::any) return "must be " + describe(quantity);
+  const std::string rule = fmt::format("must {}", kind_of(range).rule);
+  if (quantity == quantities::pure_number) return rule;
+  return fmt::format("{} [{}]", rule, quantity.unit);
 }
 
 NumberReader::NumberReader(const UnitSystem& units, std::vector<std::string> variables)
