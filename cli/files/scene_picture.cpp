@@ -145,24 +145,19 @@ Json joint_document(const Joint& joint) {
 
 class LoadDescription {
  public:
-  Json operator()(const PointForce& load) const { return at_point("force", load, "N"); }
-  Json operator()(const PointTorque& load) const { return at_point("torque", load, "N m"); }
+  Json operator()(const PointLoad& load) const {
+    return {{"type", load.is_force() ? "force" : "torque"},
+            {"bodies", {load.body}},
+            {"direction", load.direction},
+            {"follows_body", load.follows_body},
+            {"unit", load.unit()}};
+  }
   Json operator()(const SpringDamper& load) const {
     return {{"type", "spring"}, {"bodies", load.bodies}};
   }
   Json operator()(const JointForce& load) const {
     const bool turns = load.coordinate == DrivenCoordinate::angle;
     return {{"type", "joint-force"}, {"joint", load.joint}, {"unit", turns ? "N m" : "N"}};
-  }
-
- private:
-  template <class PointLoad>
-  static Json at_point(const char* type, const PointLoad& load, const char* unit) {
-    return {{"type", type},
-            {"bodies", {load.body}},
-            {"direction", load.direction},
-            {"follows_body", load.follows_body},
-            {"unit", unit}};
   }
 };
 
@@ -189,14 +184,13 @@ class GeometryWriter {
   }
 
   /// Of a spread force the middle of its stretch.
-  Json operator()(const PointForce& load) const {
+  Json operator()(const PointLoad& load) const {
     if (!load.to) return at_place(load);
-    PointForce middle = load;
+    PointLoad middle = load;
     const Eigen::Vector3d sum = resolve_point(load.at, design_) + resolve_point(*load.to, design_);
     middle.at = {0.5 * sum.x(), 0.5 * sum.y(), 0.5 * sum.z()};
     return at_place(middle);
   }
-  Json operator()(const PointTorque& load) const { return at_place(load); }
   Json operator()(const SpringDamper& load) const {
     return {{"places", {place(load.bodies[0], load.at[0]), place(load.bodies[1], load.at[1])}},
             {"text", spring_text(load, design_)}};
@@ -218,7 +212,6 @@ class GeometryWriter {
     return packed_numbers(curve);
   }
 
-  template <class PointLoad>
   Json at_place(const PointLoad& load) const {
     Json document = {{"places", {place(load.body, load.at)}}};
     if (depends_on_state(load.value)) {

@@ -219,11 +219,8 @@ class ActionRow {
   ActionRow(const ProblemFile& problem, const Design<double>& design)
       : end_time_(problem.simulation.end_time), design_(design) {}
 
-  std::vector<std::string> operator()(const PointForce& load) const {
-    return {"force", load.body, value_text(load, "N")};
-  }
-  std::vector<std::string> operator()(const PointTorque& load) const {
-    return {"torque", load.body, value_text(load, "N m")};
+  std::vector<std::string> operator()(const PointLoad& load) const {
+    return {load.is_force() ? "force" : "torque", load.body, value_text(load, load.unit())};
   }
   std::vector<std::string> operator()(const SpringDamper& load) const {
     return {"spring", both(load.bodies), spring_text(load, design_)};
@@ -241,7 +238,6 @@ class ActionRow {
   }
 
  private:
-  template <class PointLoad>
   std::string value_text(const PointLoad& load, const char* unit) const {
     if (!load.over) return range_text(points(load.value), unit);
     const bool turns = load.over->coordinate == DrivenCoordinate::angle;

@@ -18,13 +18,16 @@ enum class LoadDirection {
   body    ///< follows the marker: frame and elastic rotation
 };
 
-/// The numbers of a point force, which may depend on the design.
+enum class LoadKind { force, torque };
+
+/// The numbers of a force or torque, which may depend on the design.
 template <class Scalar>
-struct PointForceData {
-  Vector3<Scalar> point = Vector3<Scalar>::Constant(Scalar(0));  ///< undeformed, local axes [m]
+struct PointLoadData {
+  /// Of a force: undeformed, local axes [m].
+  Vector3<Scalar> point = Vector3<Scalar>::Constant(Scalar(0));
   /// Unit vector: global axes for LoadDirection::space, local axes for LoadDirection::body.
   Vector3<Scalar> direction = Vector3<Scalar>::Constant(Scalar(0));
-  TimeLaw<Scalar> value;  ///< [N]
+  TimeLaw<Scalar> value;  ///< [N] or [N m]
 
   template <class Function, class... Data>
   static void visit(Function&& function, Data&... data) {
@@ -34,46 +37,20 @@ struct PointForceData {
   }
 };
 
-struct PointForceTopology {
+struct PointLoadTopology {
   std::string name;
   Marker marker;
+  LoadKind kind = LoadKind::force;
   LoadDirection direction = LoadDirection::space;
 };
 
-/// A force f(t) d on a point of a body: d fixed in space, or d = A R s, turning with the marker,
-/// which has no potential.
+/// A force f(t) d on a point of a body, or a torque: d fixed in space, or d = A R s, turning with the
+/// marker, which has no potential. A torque does work on the rotation of the frame and on the elastic
+/// rotation of the marker; a point mass does not notice.
 /// @param derivatives  of the numbers with respect to the variables they depend on
-std::unique_ptr<Term> make_point_force_term(
-    PointForceTopology topology, PointForceData<double> data,
-    std::vector<DesignDerivative<PointForceData<double>>> derivatives);
-
-/// The numbers of a torque, which may depend on the design.
-template <class Scalar>
-struct PointTorqueData {
-  /// Unit vector: global axes for LoadDirection::space, local axes for LoadDirection::body.
-  Vector3<Scalar> direction = Vector3<Scalar>::Constant(Scalar(0));
-  TimeLaw<Scalar> value;  ///< [N m]
-
-  template <class Function, class... Data>
-  static void visit(Function&& function, Data&... data) {
-    function(data.direction...);
-    function(data.value...);
-  }
-};
-
-struct PointTorqueTopology {
-  std::string name;
-  Marker marker;
-  LoadDirection direction = LoadDirection::space;
-};
-
-/// A torque m(t) d on a marker: d fixed in space, or d = A R s, turning with the marker. It does
-/// work on the rotation of the frame and on the elastic rotation of the marker; a point mass does
-/// not notice.
-/// @param derivatives  of the numbers with respect to the variables they depend on
-std::unique_ptr<Term> make_point_torque_term(
-    PointTorqueTopology topology, PointTorqueData<double> data,
-    std::vector<DesignDerivative<PointTorqueData<double>>> derivatives);
+std::unique_ptr<Term> make_point_load_term(
+    PointLoadTopology topology, PointLoadData<double> data,
+    std::vector<DesignDerivative<PointLoadData<double>>> derivatives);
 
 /// The numbers of a force or torque that is a function of the coordinate of a joint; they may depend
 /// on the design.
@@ -100,8 +77,6 @@ struct LoadOverJointData {
     function(data.offset...);
   }
 };
-
-enum class LoadKind { force, torque };
 
 struct LoadOverJointTopology {
   std::string name;

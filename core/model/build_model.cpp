@@ -271,8 +271,7 @@ class ModelBuilder {
   /// Whether a force is a law of the motion that is more than a stiffness and a damping.
   static bool follows_motion(const Load& load) {
     struct Visitor {
-      bool operator()(const PointForce& force) const { return force.over.has_value(); }
-      bool operator()(const PointTorque& torque) const { return torque.over.has_value(); }
+      bool operator()(const PointLoad& load) const { return load.over.has_value(); }
       bool operator()(const SpringDamper& spring) const { return spring.resistance.has_value(); }
       bool operator()(const JointForce& force) const {
         return force.resistance || (force.motor && depends_on_state(*force.motor));

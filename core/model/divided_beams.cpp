@@ -159,7 +159,7 @@ class Division {
   void split_stretches(std::vector<Load>& loads) const {
     std::vector<Load> split;
     for (const Load& load : loads) {
-      const auto* force = std::get_if<PointForce>(&load.element);
+      const auto* force = std::get_if<PointLoad>(&load.element);
       const bool is_split = force != nullptr && force->to && parts_.contains(force->body);
       if (!is_split) {
         split.push_back(load);
@@ -171,7 +171,7 @@ class Division {
   }
 
   /// Of the stretch of a force, what lies on one part of the beam.
-  void add_piece(const Load& load, const PointForce& force, const Body& part,
+  void add_piece(const Load& load, const PointLoad& force, const Body& part,
                  std::vector<Load>& split) const {
     const auto& beam = std::get<BeamBody>(part.shape);
     if (share_of_stretch(beam, {force.at, *force.to}, start_) <= part_tolerance) return;
@@ -184,7 +184,7 @@ class Division {
       const Eigen::Vector3d end = pose.origin + (share > 1.0 ? length : 0.0) * pose.rotation.col(0);
       return {end.x(), end.y(), end.z()};
     };
-    PointForce piece = force;
+    PointLoad piece = force;
     piece.body = part.name;
     piece.whole = {force.at, *force.to};
     piece.at = on_part(force.at);

@@ -31,41 +31,20 @@ class LoadBuilder {
               int coordinates)
       : load_(load), bodies_(bodies), context_(context), coordinates_(coordinates) {}
 
-  BuiltLoad operator()(const PointForce& force) {
-    places_.emplace_back(force.body, force.at, bodies_, context_, force.to);
-    if (force.over) return over_joint(force, LoadKind::force);
-    PointForceTopology topology;
+  BuiltLoad operator()(const PointLoad& load) {
+    places_.emplace_back(load.body, load.at, bodies_, context_, load.to);
+    if (load.over) return over_joint(load);
+    PointLoadTopology topology;
     topology.name = load_.name;
-    topology.direction = force.follows_body ? LoadDirection::body : LoadDirection::space;
-    const auto data = [&](const auto& design) {
-      PointForceData<ScalarOf<decltype(design)>> numbers;
-      numbers.point = places_[0].local_point(design);
-      numbers.direction =
-          share_of(force, design) * load_direction(force.direction, force.follows_body, design);
-      numbers.value = resolve_time_law(force.value, design);
+    topology.kind = load_kind(load);
+    topology.direction = load.follows_body ? LoadDirection::body : LoadDirection::space;
+    const auto parts = parts_of<PointLoadData>([&](const auto& design) {
+      PointLoadData<ScalarOf<decltype(design)>> numbers;
+      set_numbers(load, design, numbers);
       return numbers;
-    };
-    const auto parts = parts_of<PointForceData>(data);
+    });
     topology.marker = parts.markers[0];
-    return {project(make_point_force_term(topology, parts.numbers, parts.derivatives), parts.map),
-            std::nullopt};
-  }
-
-  BuiltLoad operator()(const PointTorque& torque) {
-    attach(torque.body, torque.at);
-    if (torque.over) return over_joint(torque, LoadKind::torque);
-    PointTorqueTopology topology;
-    topology.name = load_.name;
-    topology.direction = torque.follows_body ? LoadDirection::body : LoadDirection::space;
-    const auto data = [&](const auto& design) {
-      PointTorqueData<ScalarOf<decltype(design)>> numbers;
-      numbers.direction = load_direction(torque.direction, torque.follows_body, design);
-      numbers.value = resolve_time_law(torque.value, design);
-      return numbers;
-    };
-    const auto parts = parts_of<PointTorqueData>(data);
-    topology.marker = parts.markers[0];
-    return {project(make_point_torque_term(topology, parts.numbers, parts.derivatives), parts.map),
+    return {project(make_point_load_term(topology, parts.numbers, parts.derivatives), parts.map),
             std::nullopt};
   }
 
@@ -132,25 +111,21 @@ class LoadBuilder {
   using Sides = std::span<const Attachment>;
 
   /// A force or a torque over the coordinate of a joint. @pre its own body is attached
-  template <class PointLoad>
-  BuiltLoad over_joint(const PointLoad& load, LoadKind kind) {
+  BuiltLoad over_joint(const PointLoad& load) {
     const Joint& joint = find_joint(context_.scene, load.over->joint);
     for (const std::string& body : joint.bodies) attach(body, joint.at);
     visit_joint_ = &joint;
     const JointForceTopology along = joint_topology(joint, load.over->coordinate);
     LoadOverJointTopology topology;
     topology.name = load_.name;
-    topology.kind = kind;
+    topology.kind = load_kind(load);
     topology.direction = load.follows_body ? LoadDirection::body : LoadDirection::space;
     topology.coordinate = along.coordinate;
     topology.sense = along.sense;
     const auto data = [&](const auto& design) {
       const auto of_joint = joint_numbers(joint, along.coordinate, design, sides_from(1));
       LoadOverJointData<ScalarOf<decltype(design)>> numbers;
-      numbers.point = places_[0].local_point(design);
-      numbers.direction =
-          share_of(load, design) * load_direction(load.direction, load.follows_body, design);
-      numbers.value = resolve_time_law(load.value, design);
+      set_numbers(load, design, numbers);
       numbers.points = of_joint.points;
       numbers.directions = of_joint.directions;
       numbers.offset = of_joint.offset;
@@ -189,29 +164,28 @@ class LoadBuilder {
   /// The sides of a joint among the places.
   Sides sides_from(std::size_t first) const { return Sides(places_).subspan(first, 2); }
 
-  /// Of the value of a force, that acts on this part of its stretch.
-  template <class PointLoad, class Scalar>
-  Scalar share_of(const PointLoad& load, const Design<Scalar>& design) const {
-    if constexpr (std::is_same_v<PointLoad, PointForce>) {
-      if (load.whole) return share_of_stretch(beam_named(load.body), *load.whole, design);
-    }
-    return Scalar(1.0);
+  static LoadKind load_kind(const PointLoad& load) {
+    return load.is_force() ? LoadKind::force : LoadKind::torque;
   }
 
-  const BeamBody& beam_named(const std::string& name) const {
-    return std::get<BeamBody>(find_named(context_.scene.bodies, name)->shape);
+  /// @pre its own body is attached
+  template <class Scalar, class Data>
+  void set_numbers(const PointLoad& load, const Design<Scalar>& design, Data& numbers) const {
+    const Eigen::Vector3d global = to_vector(load.direction).normalized();
+    numbers.direction = load.follows_body ? places_[0].local_direction(global, design)
+                                          : Vector3<Scalar>(global.template cast<Scalar>());
+    numbers.value = resolve_time_law(load.value, design);
+    if (!load.is_force()) return;
+    numbers.point = places_[0].local_point(design);
+    if (!load.whole) return;
+    // Of the value, that acts on this part of its stretch.
+    const auto* body = find_named(context_.scene.bodies, load.body);
+    const Scalar share = share_of_stretch(std::get<BeamBody>(body->shape), *load.whole, design);
+    numbers.direction = share * numbers.direction;
   }
 
   void attach(const std::string& body, const Point& at) {
     places_.emplace_back(body, at, bodies_, context_);
-  }
-
-  template <class Scalar>
-  Vector3<Scalar> load_direction(const std::array<double, 3>& direction, bool follows,
-                                 const Design<Scalar>& design) const {
-    const Eigen::Vector3d global = to_vector(direction).normalized();
-    if (!follows) return global.template cast<Scalar>();
-    return places_[0].local_direction(global, design);
   }
 
   template <class Scalar>

@@ -148,12 +148,11 @@ class PlaneCheck {
     const std::string what = "load " + load.name;
     visit_held_points(
         load, [&](const std::string&, const Point& at, const PointKey&) { check_point(at, what); });
-    if (const auto* force = std::get_if<PointForce>(&load.element)) {
-      require(are_normal(to_vector(force->direction), normal_), what);
-      if (force->over) check_coordinate(force->over->joint, force->over->coordinate, what);
-    } else if (const auto* torque = std::get_if<PointTorque>(&load.element)) {
-      require(are_parallel(to_vector(torque->direction), normal_), what);
-      if (torque->over) check_coordinate(torque->over->joint, torque->over->coordinate, what);
+    if (const auto* point = std::get_if<PointLoad>(&load.element)) {
+      const Eigen::Vector3d direction = to_vector(point->direction);
+      require(point->is_force() ? are_normal(direction, normal_) : are_parallel(direction, normal_),
+              what);
+      if (point->over) check_coordinate(point->over->joint, point->over->coordinate, what);
     } else if (const auto* of_joint = std::get_if<JointForce>(&load.element)) {
       check_coordinate(of_joint->joint, of_joint->coordinate, what);
     }
@@ -219,10 +218,8 @@ std::vector<Eigen::Vector3d> candidate_normals(const Scene& scene, const Design<
   const Eigen::Vector3d gravity = resolve_point(scene.gravity, start);
   if (!gravity.isZero()) directions.push_back(gravity);
   for (const Load& load : scene.loads) {
-    if (const auto* force = std::get_if<PointForce>(&load.element)) {
-      directions.push_back(to_vector(force->direction));
-    } else if (const auto* torque = std::get_if<PointTorque>(&load.element)) {
-      directions.push_back(to_vector(torque->direction));
+    if (const auto* point = std::get_if<PointLoad>(&load.element)) {
+      directions.push_back(to_vector(point->direction));
     }
   }
   normals = directions;  // an axis may itself be the normal

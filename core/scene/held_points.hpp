@@ -38,9 +38,7 @@ void visit_held_points(Holder& holder, Visit&& visit) {
             }
           } else if constexpr (!std::is_same_v<Element, JointForce>) {
             visit(element.body, element.at, PointKey{"at"});
-            if constexpr (std::is_same_v<Element, PointForce>) {
-              if (element.to) visit(element.body, *element.to, PointKey{"to"});
-            }
+            if (element.to) visit(element.body, *element.to, PointKey{"to"});
           }
         },
         holder.element);
@@ -60,7 +58,8 @@ void visit_held_places(const Holder& holder, Visit&& visit) {
 /// Whether a load is made of forces. Only their places tell how large a mechanism is and how far
 /// its parts reach: a torque may be written at any point of a rigid body.
 inline bool has_forces(const Load& load) {
-  return !std::holds_alternative<PointTorque>(load.element);
+  const auto* point = std::get_if<PointLoad>(&load.element);
+  return point == nullptr || point->is_force();
 }
 
 /// Where a joint or a load holds on to a body, or an initial deflection is given.

@@ -257,27 +257,25 @@ struct JointCoordinate {
   DrivenCoordinate coordinate = DrivenCoordinate::angle;
 };
 
-/// A force on a point of a body, or spread evenly along a stretch of it: value(t) · direction.
-struct PointForce {
-  std::string body;
-  Point at;                                  ///< at t = 0, global axes [m]
-  std::array<double, 3> direction;           ///< unit vector, global axes at t = 0
-  TimeFunction value;                        ///< [N]
+enum class PointLoadKind { force, torque };
+
+/// A force on a point of a body, or spread evenly along a stretch of it, or a torque on a body:
+/// value(t) · direction.
+struct PointLoad {
+  PointLoadKind kind = PointLoadKind::force;
+  std::string body = {};
+  /// At t = 0, global axes [m]; of a torque on a beam the place whose rotation does the work.
+  Point at = {};
+  std::array<double, 3> direction = {};      ///< unit vector, global axes at t = 0
+  TimeFunction value = {};                   ///< [N] or [N m]
   bool follows_body = false;                 ///< whether the direction turns with the body
   std::optional<JointCoordinate> over = {};  ///< what the value is a function of, besides time
-  std::optional<Point> to = {};              ///< end of the stretch that begins at `at`
+  std::optional<Point> to = {};              ///< of a force: end of the stretch that begins at `at`
   /// Of the part of a stretch that lies on one frame of a beam: the whole of it, which has the value.
   std::optional<std::array<Point, 2>> whole = {};
-};
 
-/// A torque on a body: value(t) · direction.
-struct PointTorque {
-  std::string body;
-  Point at;  ///< at t = 0: of a beam, the place whose rotation does the work
-  std::array<double, 3> direction;
-  TimeFunction value;  ///< [N m]
-  bool follows_body = false;
-  std::optional<JointCoordinate> over = {};
+  bool is_force() const { return kind == PointLoadKind::force; }
+  const char* unit() const { return is_force() ? "N" : "N m"; }
 };
 
 /// Between two points: force k (l − l₀) + c l̇ + r(l − l₀, l̇, t) along their connection.
@@ -314,7 +312,7 @@ struct JointForce {
 
 struct Load {
   std::string name;
-  std::variant<PointForce, PointTorque, SpringDamper, JointForce> element;
+  std::variant<PointLoad, SpringDamper, JointForce> element;
 };
 
 inline constexpr const char* ground_name = "ground";

@@ -98,10 +98,8 @@ std::vector<double> time_breaks(const Scene& scene, const TimeIntegration& integ
     if (joint.drive) add(joint.drive->motion, Of::drive);
   }
   for (const Load& load : scene.loads) {
-    if (const auto* force = std::get_if<PointForce>(&load.element)) {
-      add(force->value, Of::load);
-    } else if (const auto* torque = std::get_if<PointTorque>(&load.element)) {
-      add(torque->value, Of::load);
+    if (const auto* point = std::get_if<PointLoad>(&load.element)) {
+      add(point->value, Of::load);
     } else if (const auto* joint = std::get_if<JointForce>(&load.element)) {
       if (joint->motor) add(*joint->motor, Of::load);
       if (joint->control) add(joint->control->target, Of::drive);

@@ -90,19 +90,14 @@ struct ShapeNumbers {
 struct LoadNumbers {
   const NumberVisit& visit;
 
-  void operator()(const PointForce& force) const {
-    const auto& [body, at, direction, value, follows_body, over, to, whole] = force;
+  void operator()(const PointLoad& load) const {
+    const auto& [kind, body, at, direction, value, follows_body, over, to, whole] = load;
     all(at, quantities::length, visit);
     if (to) all(*to, quantities::length, visit);
     if (whole) {
       for (const Point& point : *whole) all(point, quantities::length, visit);
     }
-    visit_numbers(value, quantities::force, visit);
-  }
-  void operator()(const PointTorque& torque) const {
-    const auto& [body, at, direction, value, follows_body, over] = torque;
-    all(at, quantities::length, visit);
-    visit_numbers(value, quantities::torque, visit);
+    visit_numbers(value, load.is_force() ? quantities::force : quantities::torque, visit);
   }
   void operator()(const SpringDamper& spring) const {
     const auto& [bodies, at, stiffness, damping, free_length, resistance] = spring;

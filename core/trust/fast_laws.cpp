@@ -99,10 +99,8 @@ std::vector<Finding> find_fast_laws(const Scene& scene, const Design<double>& de
   };
   for (const Load& load : scene.loads) {
     const std::string who = fmt::format("the load \"{}\"", load.name);
-    if (const auto* force = std::get_if<PointForce>(&load.element)) {
-      add(who, "value", force->value, LawOf::load);
-    } else if (const auto* torque = std::get_if<PointTorque>(&load.element)) {
-      add(who, "value", torque->value, LawOf::load);
+    if (const auto* point = std::get_if<PointLoad>(&load.element)) {
+      add(who, "value", point->value, LawOf::load);
     } else if (const auto* joint = std::get_if<JointForce>(&load.element)) {
       if (joint->motor) add(who, "value", *joint->motor, LawOf::load);
       if (joint->control) {

@@ -122,13 +122,11 @@ bool jumps(const JointForce& force, const Design<double>& design, double end_tim
 /// The joint that a load counts the angle of, if what the load does jumps after half a turn.
 std::optional<std::string> find_counted_joint(const Load& load, const Design<double>& design,
                                               double end_time) {
-  const auto of_value = [&](const auto& point) -> std::optional<std::string> {
-    if (!point.over || point.over->coordinate != DrivenCoordinate::angle) return std::nullopt;
-    if (!jumps(point.value, design, end_time, 0.0)) return std::nullopt;
-    return point.over->joint;
-  };
-  if (const auto* force = std::get_if<PointForce>(&load.element)) return of_value(*force);
-  if (const auto* torque = std::get_if<PointTorque>(&load.element)) return of_value(*torque);
+  if (const auto* point = std::get_if<PointLoad>(&load.element)) {
+    if (!point->over || point->over->coordinate != DrivenCoordinate::angle) return std::nullopt;
+    if (!jumps(point->value, design, end_time, 0.0)) return std::nullopt;
+    return point->over->joint;
+  }
   const auto* force = std::get_if<JointForce>(&load.element);
   if (!force || force->coordinate != DrivenCoordinate::angle) return std::nullopt;
   if (!jumps(*force, design, end_time)) return std::nullopt;

@@ -119,10 +119,8 @@ std::vector<LawOverCoordinate> laws_over_coordinates(const TrustedRun& run) {
     laws.push_back({load, over.joint, over.coordinate, std::move(law), rest});
   };
   for (const Load& load : run.problem.scene.loads) {
-    if (const auto* force = std::get_if<PointForce>(&load.element)) {
-      if (force->over) add(load.name, *force->over, force->value, 0.0);
-    } else if (const auto* torque = std::get_if<PointTorque>(&load.element)) {
-      if (torque->over) add(load.name, *torque->over, torque->value, 0.0);
+    if (const auto* point = std::get_if<PointLoad>(&load.element)) {
+      if (point->over) add(load.name, *point->over, point->value, 0.0);
     } else if (const auto* joint = std::get_if<JointForce>(&load.element)) {
       const JointCoordinate over{joint->joint, joint->coordinate};
       if (joint->motor) add(load.name, over, *joint->motor, 0.0);

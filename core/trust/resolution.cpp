@@ -281,8 +281,7 @@ std::string what_may_jump(const Scene& scene) {
            std::holds_alternative<JointForce>(load.element);
   });
   const bool has_load = std::ranges::any_of(scene.loads, [](const Load& load) {
-    return std::holds_alternative<PointForce>(load.element) ||
-           std::holds_alternative<PointTorque>(load.element);
+    return std::holds_alternative<PointLoad>(load.element);
   });
   std::vector<std::string> names;
   if (has_drive) names.emplace_back("a drive");

@@ -48,9 +48,8 @@ bool has_given_velocity(const Body& body, const std::vector<double>& design) {
 /// Whether a force or a torque acts on a body.
 bool has_load(const Scene& scene, const std::string& body) {
   return std::ranges::any_of(scene.loads, [&](const Load& load) {
-    const auto* force = std::get_if<PointForce>(&load.element);
-    const auto* torque = std::get_if<PointTorque>(&load.element);
-    return (force && force->body == body) || (torque && torque->body == body);
+    const auto* point = std::get_if<PointLoad>(&load.element);
+    return point && point->body == body;
   });
 }
 

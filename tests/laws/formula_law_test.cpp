@@ -158,7 +158,7 @@ constexpr double pi = std::numbers::pi;
 /// The law of the push on the block.
 TimeLaw<double> load_law(const std::string& value) {
   const ProblemFile problem = pushed_block(value);
-  return resolve_time_law(std::get<PointForce>(problem.scene.loads[0].element).value,
+  return resolve_time_law(std::get<PointLoad>(problem.scene.loads[0].element).value,
                           Design<double>{});
 }
 

@@ -252,7 +252,7 @@ class TableFile : public testing::Test {
                                                  keys + R"(}}}},
   "simulation": {"end_time": 0.1, "step": 1e-3}})";
     const ProblemFile problem = read_problem((folder_ / "block.json").string()).complete();
-    return std::get<TableFunction>(std::get<PointForce>(problem.scene.loads[0].element).value);
+    return std::get<TableFunction>(std::get<PointLoad>(problem.scene.loads[0].element).value);
   }
 
   std::string refusal(const std::string& text, const std::string& keys) const {

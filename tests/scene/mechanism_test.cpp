@@ -114,20 +114,20 @@ TEST_F(Mechanism, HasDrivesOfTheCoordinateThatTheJointHas) {
 }
 
 TEST_F(Mechanism, HasForcesAndTorques) {
-  const auto& push = load<PointForce>("push");
+  const auto& push = load<PointLoad>("push");
   EXPECT_EQ(push.body, "arm");
   EXPECT_EQ(push.at[0].constant, 0.37);
   EXPECT_THAT(push.direction,
               ElementsAre(0.0, DoubleNear(0.6, rounding), DoubleNear(0.8, rounding)));
   EXPECT_EQ(std::get<ConstantFunction>(push.value).value.constant, 2000.0);
   EXPECT_TRUE(push.follows_body);
-  const auto& pull = std::get<ConstantFunction>(load<PointForce>("pull").value);
+  const auto& pull = std::get<ConstantFunction>(load<PointLoad>("pull").value);
   EXPECT_EQ(pull.value.variable, 2);
   EXPECT_EQ(pull.value.factor, 2.0);
-  const auto& gust = load<PointForce>("gust");
+  const auto& gust = load<PointLoad>("gust");
   EXPECT_FALSE(gust.follows_body);
   EXPECT_EQ(std::get<PolynomialFunction>(gust.value).coefficients[1].constant, 2.0);
-  const auto& twist = load<PointTorque>("twist");
+  const auto& twist = load<PointLoad>("twist");
   EXPECT_THAT(twist.direction, ElementsAre(-1.0, 0.0, 0.0));
   EXPECT_EQ(std::get<HarmonicFunction>(twist.value).amplitude.constant, 3.0);
   EXPECT_EQ(std::get<HarmonicFunction>(twist.value).phase.constant, 0.0);

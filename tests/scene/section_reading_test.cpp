@@ -214,7 +214,7 @@ struct LoadedBeam {
     Scene scene;
     scene.bodies.push_back({"beam", beam});
     for (const Number& place : places) {
-      PointForce force;
+      PointLoad force;
       force.body = "beam";
       force.at = {place, 0.0, 0.0};
       scene.loads.push_back({"load", force});

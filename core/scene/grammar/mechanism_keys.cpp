@@ -51,28 +51,16 @@ void describe(Keys& keys, Joint& s) {
   keys.other(optional_key("drive"), drive_definition(kind), "");
 }
 
-namespace {
-
-template <class PointLoad>
-void describe_point_load(Keys& keys, PointLoad& s, std::string_view value) {
+void describe(Keys& keys, PointLoad& s) {
   keys.about("On a point of a body: value times a unit vector along direction.");
   keys.other("body", "name", "Not \"ground\"; a torque needs a body that can turn.");
   keys.point("at", s.at, quantities::length, "Where it acts at the start {}.");
   keys.unit_vector("direction", s.direction, "Global axes at the start; of any length.");
-  keys.other("value", "load_function", value);
+  keys.other("value", "load_function", s.is_force() ? "[N]" : "[N m]");
   keys.flag(optional_key("follows"), s.follows_body, "Whether the direction turns with the body.");
-}
-
-}  // namespace
-
-void describe(Keys& keys, PointForce& s) {
-  describe_point_load(keys, s, "[N]");
+  if (!s.is_force()) return;
   keys.point(optional_key("to"), s.to, quantities::length,
              "The force is spread evenly from at to here, along a beam {}.");
-}
-
-void describe(Keys& keys, PointTorque& s) {
-  describe_point_load(keys, s, "[N m]");
 }
 
 void describe(Keys& keys, SpringDamper& s) {

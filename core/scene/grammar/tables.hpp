@@ -43,8 +43,7 @@ void describe(Keys& keys, Joint& joint);
 
 // mechanism_keys.cpp: what acts along a coordinate measures what that says.
 
-void describe(Keys& keys, PointForce& force);
-void describe(Keys& keys, PointTorque& torque);
+void describe(Keys& keys, PointLoad& load);
 void describe(Keys& keys, SpringDamper& spring);
 void describe(Keys& keys, JointForce& force, const AlongCoordinate& along);
 void describe(Keys& keys, MotorControl& control, const AlongCoordinate& along);

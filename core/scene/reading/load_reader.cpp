@@ -50,35 +50,25 @@ TimeFunction read_value(const JsonNode& node, const Quantity& quantity, const Sc
   return function;
 }
 
-/// What forces and torques have in common.
-template <class PointLoad>
-PointLoad read_point_load(const JsonNode& node, const Quantity& quantity, const Scene& scene,
-                          NumberReader& numbers) {
-  PointLoad load;
+template <PointLoadKind kind>
+PointLoad read_point_load(const JsonNode& node, const Scene& scene, NumberReader& numbers) {
+  PointLoad load{kind};
   read_keys(node, numbers, [&](Keys& keys) { describe(keys, load); }, {"type"});
-  load.body = read_loaded_body(node.at("body"), scene).name;
-  load.value = read_value(node.at("value"), quantity, scene, numbers, load.over);
-  return load;
-}
-
-PointForce read_force(const JsonNode& node, const Scene& scene, NumberReader& numbers) {
-  auto force = read_point_load<PointForce>(node, quantities::force, scene, numbers);
-  const Body& body = *find_named(scene.bodies, force.body);
-  if (force.to && std::holds_alternative<ImportedBody>(body.shape)) {
+  const Body& body = read_loaded_body(node.at("body"), scene);
+  load.body = body.name;
+  load.value =
+      read_value(node.at("value"), load.is_force() ? quantities::force : quantities::torque, scene,
+                 numbers, load.over);
+  if (load.to && std::holds_alternative<ImportedBody>(body.shape)) {
     node.at("to").fail(fmt::format(
         "does not work with the body \"{}\": of a body from a file only places are known",
         body.name));
   }
-  return force;
-}
-
-PointTorque read_torque(const JsonNode& node, const Scene& scene, NumberReader& numbers) {
-  auto torque = read_point_load<PointTorque>(node, quantities::torque, scene, numbers);
-  if (std::holds_alternative<PointMass>(find_named(scene.bodies, torque.body)->shape)) {
+  if (!load.is_force() && std::holds_alternative<PointMass>(body.shape)) {
     node.at("body").fail(
-        fmt::format("must name a body that can turn, but \"{}\" is a point mass", torque.body));
+        fmt::format("must name a body that can turn, but \"{}\" is a point mass", body.name));
   }
-  return torque;
+  return load;
 }
 
 SpringDamper read_spring(const JsonNode& node, const Scene& scene, NumberReader& numbers) {
@@ -146,8 +136,8 @@ Load read_load(const std::string& name, const JsonNode& node, const Scene& scene
                NumberReader& numbers) {
   using Element = decltype(Load::element);
   using Read = std::function<Element(const JsonNode&, const Scene&, NumberReader&)>;
-  static const Choice<Read> elements[] = {{"force", read_force},
-                                          {"torque", read_torque},
+  static const Choice<Read> elements[] = {{"force", read_point_load<PointLoadKind::force>},
+                                          {"torque", read_point_load<PointLoadKind::torque>},
                                           {"spring", read_spring},
                                           {"joint", read_joint_force}};
   return {name, read_choice(node.at("type"), elements)(node, scene, numbers)};

@@ -140,8 +140,7 @@ void check_that_bodies_can_turn(const JsonNode& node, const Scene& scene, const 
 
 /// The coordinate of a joint that a load acts along, or is a function of.
 std::optional<JointCoordinate> coordinate_of(const Load& load) {
-  if (const auto* force = std::get_if<PointForce>(&load.element)) return force->over;
-  if (const auto* torque = std::get_if<PointTorque>(&load.element)) return torque->over;
+  if (const auto* point = std::get_if<PointLoad>(&load.element)) return point->over;
   const auto* force = std::get_if<JointForce>(&load.element);
   if (force == nullptr) return std::nullopt;
   return JointCoordinate{force->joint, force->coordinate};
@@ -240,10 +239,10 @@ std::vector<PointPair> pairs_of(const JsonNode& node, const Scene& scene) {
       pairs.push_back({place.at("at"), &spring->at[0], &spring->at[1],
                        "must be two different points where \"free_length\" is not 0"});
     }
-    const auto* force = std::get_if<PointForce>(&load.element);
-    if (force == nullptr || !force->to) continue;
+    const auto* point = std::get_if<PointLoad>(&load.element);
+    if (point == nullptr || !point->to) continue;
     pairs.push_back(
-        {place.at("to"), &force->at, &*force->to, "must not be the same point as \"at\""});
+        {place.at("to"), &point->at, &*point->to, "must not be the same point as \"at\""});
   }
   return pairs;
 }

@@ -114,7 +114,7 @@ class PointLoad : public testing::Test {
 
 /// R = −∂(F · P)/∂q with P = r + A (p + u): a weight has a potential.
 TEST_F(PointLoad, InSpaceIsTheGradientOfForceTimesPosition) {
-  const auto term = make_point_force_term({"f", marker_}, {point_, direction_, constant(7.0)}, {});
+  const auto term = make_point_load_term({"f", marker_}, {point_, direction_, constant(7.0)}, {});
   const VectorXd found = residual_of(*term, state_, position_level);
   for (Eigen::Index i = 0; i < state_.q.size(); ++i) {
     const auto potential = [&](double s) {
@@ -128,8 +128,8 @@ TEST_F(PointLoad, InSpaceIsTheGradientOfForceTimesPosition) {
 
 /// In body axes: force f R s with R = exp(ψ̃), moment (p + u) × force, nothing on elastic rotations.
 TEST_F(PointLoad, OnTheBodyTurnsWithIt) {
-  const auto term = make_point_force_term({"f", marker_, LoadDirection::body},
-                                          {point_, direction_, constant(7.0)}, {});
+  const auto term = make_point_load_term({"f", marker_, LoadKind::force, LoadDirection::body},
+                                         {point_, direction_, constant(7.0)}, {});
   const VectorXd Q = -residual_of(*term, state_, position_level);
   const Vector3d local = 7.0 * (rotation_of(psi_) * direction_);
   EXPECT_LE((Q.head<3>() - A_ * local).norm(), 1e-14);
@@ -143,8 +143,8 @@ TEST_F(PointLoad, InSpaceAndOnTheBodyAgreeBeforeAnyRotation) {
   state_.q.setZero();
   VectorXd forces[2];
   for (LoadDirection direction : {LoadDirection::space, LoadDirection::body}) {
-    const auto term =
-        make_point_force_term({"f", marker_, direction}, {point_, direction_, constant(7.0)}, {});
+    const auto term = make_point_load_term({"f", marker_, LoadKind::force, direction},
+                                           {point_, direction_, constant(7.0)}, {});
     forces[static_cast<int>(direction)] = residual_of(*term, state_, position_level);
   }
   EXPECT_LE((forces[0] - forces[1]).norm(), 1e-14);
@@ -153,9 +153,10 @@ TEST_F(PointLoad, InSpaceAndOnTheBodyAgreeBeforeAnyRotation) {
 /// The marker stands in space as A exp(ψ̃). Whatever coordinate changes, a torque does the work of
 /// the rotation vector by which the marker turns, found by differences.
 TEST_F(PointLoad, OfATorqueDoesItsWorkOnTheRotationOfItsMarker) {
-  const auto in_space = make_point_torque_term({"m", marker_}, {direction_, constant(7.0)}, {});
-  const auto on_body =
-      make_point_torque_term({"m", marker_, LoadDirection::body}, {direction_, constant(7.0)}, {});
+  const auto in_space = make_point_load_term({"m", marker_, LoadKind::torque},
+                                             {point_, direction_, constant(7.0)}, {});
+  const auto on_body = make_point_load_term({"m", marker_, LoadKind::torque, LoadDirection::body},
+                                            {point_, direction_, constant(7.0)}, {});
   const auto marker_at = [&](const VectorXd& q) -> Eigen::Matrix3d {
     return rotation_of(q.segment<3>(3)) * rotation_of(q.segment<3>(9));
   };
@@ -180,7 +181,7 @@ TEST_F(PointLoad, OfATorqueDoesItsWorkOnTheRotationOfItsMarker) {
 /// f(t) = 2 + 3 t at t = 0.13.
 TEST_F(PointLoad, HasTheValueOfItsTimeLaw) {
   const TimeLaw<double> law{TimeLaw<double>::Kind::polynomial, {2.0, 3.0}, {}};
-  const auto term = make_point_force_term({"f", marker_}, {point_, direction_, law}, {});
+  const auto term = make_point_load_term({"f", marker_}, {point_, direction_, law}, {});
   const VectorXd Q = -residual_of(*term, state_, position_level);
   EXPECT_LE((Q.head<3>() - 2.39 * direction_).norm(), 1e-14);
 }
@@ -431,11 +432,11 @@ TEST(PointForce, MakesAPendulumOnlyWhenFixedInSpace) {
   Marker wheel{.frame = wheel_frame()};
   for (const auto& [direction, square] :
        {std::pair{LoadDirection::space, 30.0 * 0.7 / 0.5}, {LoadDirection::body, 0.0}}) {
-    const PointForceData<double> data{
+    const PointLoadData<double> data{
         {0.0, -0.7, 0.0}, {0.0, -1.0, 0.0}, {TimeLaw<double>::Kind::polynomial, {30.0}, {}}};
     std::vector<std::unique_ptr<Term>> terms;
     terms.push_back(rigid_body(wheel.frame, second_moment()));
-    terms.push_back(make_point_force_term({"weight", wheel, direction}, data, {}));
+    terms.push_back(make_point_load_term({"weight", wheel, LoadKind::force, direction}, data, {}));
     System system = make_system(1, std::move(terms));
     EXPECT_NEAR(largest_square_frequency(system), square, 42.0 * 1e-13);
   }

@@ -121,22 +121,13 @@ TimeLaw<double> harmonic() {
   return {TimeLaw<double>::Kind::harmonic, {3.0, 5.0, 0.4, 2.0}, {}};
 }
 
-ForceSample point_force_sample(const Mount& mount, LoadDirection direction) {
-  const char* where = direction == LoadDirection::space ? "SpaceForce" : "BodyForce";
-  ForceSample sample{where + mount.name, mount};
-  const PointForceData<double> data{{0.3, -0.2, 0.5}, {0.6, 0.48, 0.64}, harmonic()};
+ForceSample point_load_sample(const Mount& mount, LoadKind kind, LoadDirection direction) {
+  const std::string what = kind == LoadKind::force ? "Force" : "Torque";
+  const char* where = direction == LoadDirection::space ? "Space" : "Body";
+  ForceSample sample{where + what + mount.name, mount};
+  const PointLoadData<double> data{{0.3, -0.2, 0.5}, {0.6, 0.48, 0.64}, harmonic()};
   set_data(sample, data, [=](const auto& at, auto derivatives) {
-    return make_point_force_term({"f", mount.markers[1], direction}, at, derivatives);
-  });
-  return sample;
-}
-
-ForceSample point_torque_sample(const Mount& mount, LoadDirection direction) {
-  const char* where = direction == LoadDirection::space ? "SpaceTorque" : "BodyTorque";
-  ForceSample sample{where + mount.name, mount};
-  const PointTorqueData<double> data{{0.6, 0.48, 0.64}, harmonic()};
-  set_data(sample, data, [=](const auto& at, auto derivatives) {
-    return make_point_torque_term({"m", mount.markers[1], direction}, at, derivatives);
+    return make_point_load_term({"f", mount.markers[1], kind, direction}, at, derivatives);
   });
   return sample;
 }
@@ -209,8 +200,8 @@ std::vector<ForceSample> all_force_samples() {
   std::vector<ForceSample> samples;
   for (const Mount& mount : all_mounts()) {
     for (LoadDirection direction : {LoadDirection::space, LoadDirection::body}) {
-      samples.push_back(point_force_sample(mount, direction));
-      samples.push_back(point_torque_sample(mount, direction));
+      samples.push_back(point_load_sample(mount, LoadKind::force, direction));
+      samples.push_back(point_load_sample(mount, LoadKind::torque, direction));
     }
     samples.push_back(spring_damper_sample(mount));
     samples.push_back(joint_force_sample(mount, RelativeCoordinate::displacement, "Slider"));

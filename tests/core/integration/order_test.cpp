@@ -163,11 +163,12 @@ constexpr double jerk = 24.0, mass = 1.7;
 Model pushed_mass() {
   Scene scene;
   scene.bodies = {{"mass", PointMass{{0.3, 0.0, 0.0}, mass}}};
-  scene.loads = {{"push", PointForce{"mass",
-                                     {0.3, 0.0, 0.0},
-                                     {1.0, 0.0, 0.0},
-                                     PolynomialFunction{{0.0, mass * jerk}},
-                                     false}}};
+  scene.loads = {{"push", PointLoad{PointLoadKind::force,
+                                    "mass",
+                                    {0.3, 0.0, 0.0},
+                                    {1.0, 0.0, 0.0},
+                                    PolynomialFunction{{0.0, mass * jerk}},
+                                    false}}};
   return build_model(scene, {}, {}, {});
 }
 

@@ -290,7 +290,7 @@ TEST(DividedBeam, HasAnElementAFrameAndItsJointsWhereTheyAre) {
   cantilever.frames = 3;
   cantilever.elements = 2;
   ProblemFile problem = cantilever.problem();
-  std::get<PointForce>(problem.scene.loads.front().element).at = {0.5, 0.0, 0.0};
+  std::get<PointLoad>(problem.scene.loads.front().element).at = {0.5, 0.0, 0.0};
   const DividedScene divided = divide_beams(problem.scene, problem.effects, {});
   ASSERT_EQ(divided.scene.bodies.size(), 3u);
   EXPECT_EQ(divided.divisions, 2);
@@ -302,7 +302,7 @@ TEST(DividedBeam, HasAnElementAFrameAndItsJointsWhereTheyAre) {
     elements += part.segments.front().elements;
   }
   EXPECT_EQ(elements, 4);
-  const auto& load = std::get<PointForce>(divided.scene.loads.front().element);
+  const auto& load = std::get<PointLoad>(divided.scene.loads.front().element);
   const auto holder = std::find_if(divided.scene.bodies.begin(), divided.scene.bodies.end(),
                                    [&](const Body& body) { return body.name == load.body; });
   ASSERT_NE(holder, divided.scene.bodies.end());

@@ -69,11 +69,7 @@ class MovedScene {
       point.at = moved(point.at);
     }
   }
-  void move_load(PointForce& load) const {
-    load.at = moved(load.at);
-    load.direction = rotated(load.direction);
-  }
-  void move_load(PointTorque& load) const {
+  void move_load(PointLoad& load) const {
     load.at = moved(load.at);
     load.direction = rotated(load.direction);
   }
@@ -225,7 +221,7 @@ Scene slider_crank(ReferenceCondition frame, double young) {
                   joint("guide", JointType::point_on_line, ground_name, "slider", end)};
   scene.joints[0].drive = RampToSpeedDrive{6.0, 0.2};
   scene.joints[3].axis = {1, 0, 0};
-  PointForce push{"rod", {0.21, 0.04, 0.0}, {0.0, -1.0, 0.0}, {}, false};
+  PointLoad push{PointLoadKind::force, "rod", {0.21, 0.04, 0.0}, {0.0, -1.0, 0.0}, {}, false};
   push.value = RampToSpeedDrive{4.0, 0.1};
   scene.loads = {{"push", push}};
   return scene;

@@ -66,12 +66,15 @@ TEST(PlaneOfACantilever, IsThatOfItsLoad) {
   };
   const Point tip{0.7, 0.0, 0.0};
   const double slope = std::sqrt(0.5);
-  const auto of_force = plane_with(PointForce{"beam", tip, {0.0, 1.0, 0.0}, {}, false});
-  const auto of_torque = plane_with(PointTorque{"beam", tip, {0.0, -1.0, 0.0}, {}, false});
+  const auto of_force =
+      plane_with(PointLoad{PointLoadKind::force, "beam", tip, {0.0, 1.0, 0.0}, {}, false});
+  const auto of_torque =
+      plane_with(PointLoad{PointLoadKind::torque, "beam", tip, {0.0, -1.0, 0.0}, {}, false});
   ASSERT_TRUE(of_force && of_torque);
   EXPECT_EQ(of_force->normal.cwiseAbs(), Eigen::Vector3d::UnitZ());
   EXPECT_EQ(of_torque->normal.cwiseAbs(), Eigen::Vector3d::UnitY());
-  EXPECT_FALSE(plane_with(PointForce{"beam", tip, {0.0, slope, slope}, {}, false}));
+  EXPECT_FALSE(
+      plane_with(PointLoad{PointLoadKind::force, "beam", tip, {0.0, slope, slope}, {}, false}));
 }
 
 /// What leads out of the plane is said, each of it; without it the pendulum moves in the plane.
@@ -250,17 +253,24 @@ INSTANTIATE_TEST_SUITE_P(
         OutOfPlane{
             "load push",
             [](Scene& scene) {
-              scene.loads = {{"push", PointForce{"mass", {0.7, 0.0, 0.0}, {0, 0, 1}, {}, false}}};
+              scene.loads = {
+                  {"push",
+                   PointLoad{PointLoadKind::force, "mass", {0.7, 0.0, 0.0}, {0, 0, 1}, {}, false}}};
             }},
         OutOfPlane{
             "load push",
             [](Scene& scene) {
-              scene.loads = {{"push", PointForce{"mass", {0.7, 0.0, 0.1}, {0, 1, 0}, {}, false}}};
+              scene.loads = {
+                  {"push",
+                   PointLoad{PointLoadKind::force, "mass", {0.7, 0.0, 0.1}, {0, 1, 0}, {}, false}}};
             }},
         OutOfPlane{
             "load twist",
             [](Scene& scene) {
-              scene.loads = {{"twist", PointTorque{"mass", {0.7, 0.0, 0.0}, {1, 0, 0}, {}, false}}};
+              scene.loads = {
+                  {"twist",
+                   PointLoad{
+                       PointLoadKind::torque, "mass", {0.7, 0.0, 0.0}, {1, 0, 0}, {}, false}}};
             }}),
     named_by(&OutOfPlane::reason));
 
