@@ -83,24 +83,18 @@ class PlaneCheck {
     const std::string what = "body " + body.name;
     check_velocity(body);
     check_deflections(body);
+    visit_body_points(body, [&](const Point& at, const PointKey&) { check_point(at, what); });
     if (const auto* beam = std::get_if<BeamBody>(&body.shape)) {
-      check_point(beam->from, what);
-      check_point(beam->to, what);
       const Pose<double> pose = beam_pose(*beam, start_);
       require(are_normal(pose.rotation.col(0), normal_), what);
       require(are_parallel(pose.rotation.col(1), normal_) ||
                   are_parallel(pose.rotation.col(2), normal_),
               "a principal axis of the sections of " + what);
     } else if (const auto* rigid = std::get_if<RigidBody>(&body.shape)) {
-      check_point(rigid->at, what);
       check_inertia(*rigid, what);
     } else if (const auto* imported = std::get_if<ImportedBody>(&body.shape)) {
-      check_point(imported->from, what);
-      check_point(imported->to, what);
       const Eigen::Vector3d local = beam_pose(*imported, start_).rotation.transpose() * normal_;
       require(is_symmetric(imported->file->constants, local), what);
-    } else {
-      check_point(std::get<PointMass>(body.shape).at, what);
     }
   }
 

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/dense_solvers.hpp"
+#include "core/scene/held_points.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/reading/geometry.hpp"
 #include "core/scene/reading/sample_design.hpp"
@@ -243,25 +243,11 @@ std::vector<std::string> impossible_corners(const ProblemFile& problem) {
 
 std::vector<Eigen::Vector3d> bound_points(const Scene& scene, const Design<double>& design) {
   std::vector<Eigen::Vector3d> points;
-  const auto add = [&](const Point& point) {
-    if (std::ranges::any_of(point, std::mem_fn(&Number::is_bound))) {
-      points.push_back(position(point, design));
-    }
+  const auto add = [&](const Point& point, const PointKey&) {
+    if (is_bound(point)) points.push_back(resolve_point(point, design));
   };
-  for (const Body& body : scene.bodies) {
-    if (const auto* beam = std::get_if<BeamBody>(&body.shape)) {
-      add(beam->from);
-      add(beam->to);
-    } else if (const auto* imported = std::get_if<ImportedBody>(&body.shape)) {
-      add(imported->from);
-      add(imported->to);
-    } else if (const auto* rigid = std::get_if<RigidBody>(&body.shape)) {
-      add(rigid->at);
-    } else {
-      add(std::get<PointMass>(body.shape).at);
-    }
-  }
-  for (const PlacedPoint& placed : placed_points(scene)) add(*placed.point);
+  for (const Body& body : scene.bodies) visit_body_points(body, add);
+  for (const PlacedPoint& placed : placed_points(scene)) add(*placed.point, {});
   return points;
 }
 

@@ -55,6 +55,21 @@ void visit_held_places(const Holder& holder, Visit&& visit) {
   });
 }
 
+/// Calls visit(at, key) for each point that says where a body is.
+template <class Visit>
+void visit_body_points(const Body& body, Visit&& visit) {
+  std::visit(
+      [&](const auto& shape) {
+        if constexpr (requires { shape.from; }) {
+          visit(shape.from, PointKey{"from"});
+          visit(shape.to, PointKey{"to"});
+        } else {
+          visit(shape.at, PointKey{"at"});
+        }
+      },
+      body.shape);
+}
+
 /// Whether a load is made of forces. Only their places tell how large a mechanism is and how far
 /// its parts reach: a torque may be written at any point of a rigid body.
 inline bool has_forces(const Load& load) {

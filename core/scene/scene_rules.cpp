@@ -69,16 +69,16 @@ std::optional<std::string> complaint(const PlacedPoint& placed, const BeamBody& 
                                 : of_beam.find_taken_along(*placed.point, design);
   if (!found) return std::nullopt;
   return fmt::format("{} {}, is {}", placed.pointer(), *found,
-                     describe(position(*placed.point, design)));
+                     describe(resolve_point(*placed.point, design)));
 }
 
 std::optional<std::string> complaint(const PlacedPoint& placed, const PointMass& mass,
                                      const Scene& scene, const Design<double>& design) {
   if (!is_bound(*placed.point) && !is_bound(mass.at)) return std::nullopt;
-  const Eigen::Vector3d at = position(*placed.point, design);
+  const Eigen::Vector3d at = resolve_point(*placed.point, design);
   if (is_on_mass(mass, at, scene, design)) return std::nullopt;
   return fmt::format("{} must be where the point mass \"{}\" is, {} [m], is {}", placed.pointer(),
-                     placed.body->name, describe(position(mass.at, design)), describe(at));
+                     placed.body->name, describe(resolve_point(mass.at, design)), describe(at));
 }
 
 /// Whether a place of an elastic body becomes another one of it that the model does not follow.
@@ -91,8 +91,8 @@ bool is_moved_along(const PlacedPoint& placed, PlacesOfBeams& places, const Desi
   if (const auto* imported = std::get_if<ImportedBody>(&placed.body->shape)) {
     Design<double> moved = start;
     moved[variable] += change;
-    const Eigen::Vector3d before = local_point(*imported, position(point, start), start);
-    const Eigen::Vector3d after = local_point(*imported, position(point, moved), moved);
+    const Eigen::Vector3d before = local_point(*imported, resolve_point(point, start), start);
+    const Eigen::Vector3d after = local_point(*imported, resolve_point(point, moved), moved);
     return (after - before).stableNorm() > placement_tolerance * size_of(imported->file->constants);
   }
   return false;

@@ -79,18 +79,15 @@ class Proportions {
   void collect_places() {
     for (const Body& body : scene_.bodies) {
       const std::string at = "/scene/bodies/" + body.name;
-      if (const auto* beam = std::get_if<BeamBody>(&body.shape)) {
-        place(at + "/from", beam->from);
-        place(at + "/to", beam->to);
-      } else if (const auto* imported = std::get_if<ImportedBody>(&body.shape)) {
+      if (const auto* imported = std::get_if<ImportedBody>(&body.shape)) {
         const Pose<double> pose = beam_pose(*imported, design_);
         for (const BodyPlace& one : imported->file->constants.places) {
           places_.push_back({at, pose.origin + pose.rotation * one.position});
         }
-      } else if (const auto* rigid = std::get_if<RigidBody>(&body.shape)) {
-        place(at + "/at", rigid->at);
       } else {
-        place(at + "/at", std::get<PointMass>(body.shape).at);
+        visit_body_points(body, [&](const Point& point, const PointKey& key) {
+          place(fmt::format("{}/{}", at, key.key), point);
+        });
       }
     }
     for (const Joint& joint : scene_.joints) place_held("/scene/joints/", joint);

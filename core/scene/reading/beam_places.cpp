@@ -30,8 +30,8 @@ BeamPlaces::BeamPlaces(const Body& body, const Scene& scene, const Design<double
 
 std::optional<std::string> BeamPlaces::find_misplaced(const Point& at,
                                                       const Design<double>& design) const {
-  const Eigen::Vector3d there = position(at, design);
-  const double before = nearest_share(beam_, position(at, start_), start_);
+  const Eigen::Vector3d there = resolve_point(at, design);
+  const double before = nearest_share(beam_, resolve_point(at, start_), start_);
   const double modelled = modelled_share(before, design);
   if (is_on_beam(beam_, modelled, there, design)) return find_disorder(at, design);
   const double now = nearest_share(beam_, there, design);
@@ -52,9 +52,9 @@ std::optional<std::string> BeamPlaces::find_misplaced(const Point& at,
 
 std::optional<std::string> BeamPlaces::find_taken_along(const Point& at,
                                                         const Design<double>& design) const {
-  const double before = nearest_share(beam_, position(at, start_), start_);
+  const double before = nearest_share(beam_, resolve_point(at, start_), start_);
   const double modelled = modelled_share(before, design);
-  const double now = nearest_share(beam_, position(at, design), design);
+  const double now = nearest_share(beam_, resolve_point(at, design), design);
   const bool is_taken_along = std::abs(modelled - before) > placement_tolerance &&
                               std::abs(std::clamp(modelled, 0.0, 1.0) - now) > placement_tolerance;
   return is_taken_along ? find_misplaced(at, design) : find_disorder(at, design);
@@ -63,12 +63,14 @@ std::optional<std::string> BeamPlaces::find_taken_along(const Point& at,
 bool BeamPlaces::leaves(const Point& at, std::size_t variable, double change) const {
   Design<Dual> seeded(start_.begin(), start_.end());
   seeded[variable].derivatives()[0] = 1.0;
-  const Dual share = modelled_share(nearest_share(beam_, position(at, start_), start_), seeded);
+  const Dual share =
+      modelled_share(nearest_share(beam_, resolve_point(at, start_), start_), seeded);
   const Eigen::Matrix<Dual, 3, 1> from = resolve_point(beam_.from, seeded);
   const Eigen::Matrix<Dual, 3, 1> modelled =
       from + share * (resolve_point(beam_.to, seeded) - from);
   const Eigen::Matrix<Dual, 3, 1> off = resolve_point(at, seeded) - modelled;
-  const double length = (position(beam_.to, start_) - position(beam_.from, start_)).norm();
+  const double length =
+      (resolve_point(beam_.to, start_) - resolve_point(beam_.from, start_)).norm();
   return std::abs(change) * derivative_matrix(off).norm() > placement_tolerance * length;
 }
 
@@ -85,7 +87,8 @@ std::string BeamPlaces::describe(int node) const {
 
 std::optional<std::string> BeamPlaces::find_disorder(const Point& at,
                                                      const Design<double>& design) const {
-  const ElementPlace place = find_place(mesh_, nearest_share(beam_, position(at, start_), start_));
+  const ElementPlace place =
+      find_place(mesh_, nearest_share(beam_, resolve_point(at, start_), start_));
   const bool moves = place.is_node() && std::ranges::any_of(mesh_.knots, [&](const MeshKnot& knot) {
                        return knot.node == place.node() && knot.at;
                      });

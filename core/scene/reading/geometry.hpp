@@ -4,13 +4,11 @@
 
 #include <Eigen/Core>
 
+#include "core/scene/point.hpp"
 #include "core/scene/scene.hpp"
 
 /// Where things of a scene are at t = 0.
 namespace pleuel {
-
-/// [m]
-Eigen::Vector3d position(const Point& point, const Design<double>& design);
 
 /// The point of the axis of a beam at a share of its length, 0 … 1 [m].
 Eigen::Vector3d point_at(const BeamBody& beam, double share, const Design<double>& design);

@@ -64,7 +64,8 @@ std::vector<PlacedPoint> placed_points(const Scene& scene) {
 
 bool is_on_beam(const BeamBody& beam, double share, const Eigen::Vector3d& at,
                 const Design<double>& design) {
-  const double length = (position(beam.to, design) - position(beam.from, design)).stableNorm();
+  const double length =
+      (resolve_point(beam.to, design) - resolve_point(beam.from, design)).stableNorm();
   return (at - point_at(beam, share, design)).stableNorm() <= placement_tolerance * length;
 }
 
@@ -74,7 +75,7 @@ std::optional<std::string> find_off_place(const Body& body, const Point& at,
   const auto& imported = std::get<ImportedBody>(body.shape);
   const BodyConstants& constants = imported.file->constants;
   const auto number = static_cast<std::size_t>(
-      nearest_place(constants, local_point(imported, position(at, start), start)));
+      nearest_place(constants, local_point(imported, resolve_point(at, start), start)));
   const BodyPlace& place = constants.places[number];
   Eigen::Vector3d there = place.position;
   for (const ImportedVariable& of : imported.variables) {
@@ -83,7 +84,7 @@ std::optional<std::string> find_off_place(const Body& body, const Point& at,
     there += (resolve(of.number, design) - derivative.value) *
              derivative.derivative->places[number].position;
   }
-  const Eigen::Vector3d local = local_point(imported, position(at, design), design);
+  const Eigen::Vector3d local = local_point(imported, resolve_point(at, design), design);
   if ((local - there).stableNorm() <= placement_tolerance * size_of(constants)) return std::nullopt;
   return fmt::format(
       "must be at a place of the body \"{}\"; in its axes, the nearest one is \"{}\" at {} [m], "
@@ -94,7 +95,7 @@ std::optional<std::string> find_off_place(const Body& body, const Point& at,
 
 bool is_on_mass(const PointMass& mass, const Eigen::Vector3d& at, const Scene& scene,
                 const Design<double>& design) {
-  return (at - position(mass.at, design)).stableNorm() <=
+  return (at - resolve_point(mass.at, design)).stableNorm() <=
          placement_tolerance * extent(scene, design);
 }
 

@@ -25,9 +25,9 @@ namespace {
 template <class Beam>
 void check_axes(const JsonNode& node, const Beam& beam, const SampleDesign& sample) {
   const Eigen::Vector3d axis =
-      position(beam.to, sample.design) - position(beam.from, sample.design);
-  const double size = std::max(position(beam.to, sample.design).stableNorm(),
-                               position(beam.from, sample.design).stableNorm());
+      resolve_point(beam.to, sample.design) - resolve_point(beam.from, sample.design);
+  const double size = std::max(resolve_point(beam.to, sample.design).stableNorm(),
+                               resolve_point(beam.from, sample.design).stableNorm());
   if (axis.stableNorm() <= rounding_tolerance * size) {
     node.fail("has zero length: \"from\" and \"to\" are the same point" + sample.where);
   }
@@ -251,7 +251,7 @@ void check_on_beam(const JsonNode& node, const PlacedPoint& place, PlacesOfBeams
                    const std::vector<SampleDesign>& samples) {
   const auto& beam = std::get<BeamBody>(place.body->shape);
   const Design<double>& start = samples.front().design;
-  const Eigen::Vector3d at_start = position(*place.point, start);
+  const Eigen::Vector3d at_start = resolve_point(*place.point, start);
   const double share = nearest_share(beam, at_start, start);
   if (!is_on_beam(beam, share, at_start, start)) {
     node.fail(
@@ -263,8 +263,8 @@ void check_on_beam(const JsonNode& node, const PlacedPoint& place, PlacesOfBeams
   for (const SampleDesign& sample : samples) {
     const auto found = of_beam.find_misplaced(*place.point, sample.design);
     if (!found) continue;
-    node.fail(fmt::format("{}, got {}{}", *found, describe(position(*place.point, sample.design)),
-                          sample.where));
+    node.fail(fmt::format("{}, got {}{}", *found,
+                          describe(resolve_point(*place.point, sample.design)), sample.where));
   }
 }
 
@@ -280,9 +280,9 @@ void check_on_imported(const JsonNode& node, const PlacedPoint& place,
 void check_on_mass(const JsonNode& node, const PlacedPoint& place, const PointMass& mass,
                    const Scene& scene, const std::vector<SampleDesign>& samples) {
   for (const SampleDesign& sample : samples) {
-    const Eigen::Vector3d at = position(*place.point, sample.design);
+    const Eigen::Vector3d at = resolve_point(*place.point, sample.design);
     if (is_on_mass(mass, at, scene, sample.design)) continue;
-    const Eigen::Vector3d point = position(mass.at, sample.design);
+    const Eigen::Vector3d point = resolve_point(mass.at, sample.design);
     node.fail(fmt::format("must be where the point mass \"{}\" is, {} [m], got {}{}",
                           place.body->name, describe(point), describe(at), sample.where));
   }
@@ -290,8 +290,8 @@ void check_on_mass(const JsonNode& node, const PlacedPoint& place, const PointMa
 
 void check_pair(const PointPair& pair, const std::vector<SampleDesign>& samples) {
   for (const SampleDesign& sample : samples) {
-    const Eigen::Vector3d first = position(*pair.first, sample.design);
-    const Eigen::Vector3d second = position(*pair.second, sample.design);
+    const Eigen::Vector3d first = resolve_point(*pair.first, sample.design);
+    const Eigen::Vector3d second = resolve_point(*pair.second, sample.design);
     const double size = std::max(first.stableNorm(), second.stableNorm());
     if ((second - first).stableNorm() > rounding_tolerance * size) continue;
     pair.node.fail_with_value(pair.rule, sample.where);
