@@ -1,5 +1,3 @@
-#include "core/model/beam_builder.hpp"
-
 #include <algorithm>
 #include <array>
 #include <set>
@@ -7,7 +5,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/beam/beam_shape.hpp"
 #include "core/beam/elastic_basis.hpp"
-#include "core/model/beam_shapes.hpp"
+#include "core/model/elastic_builders.hpp"
 #include "core/model/invariant_derivatives.hpp"
 #include "core/model/resolve_beam.hpp"
 #include "core/scene/beam_mesh.hpp"

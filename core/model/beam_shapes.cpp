@@ -1,10 +1,9 @@
-#include "core/model/beam_shapes.hpp"
-
 #include "core/base/eager_matrices.hpp"
 #include "core/base/int_size.hpp"
 #include "core/beam/beam_shape.hpp"
 #include "core/beam/elastic_coordinates.hpp"
 #include "core/effects/geometric_stiffening.hpp"
+#include "core/model/elastic_builders.hpp"
 
 namespace pleuel {
 

@@ -5,9 +5,8 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/effects/floating_frame_body.hpp"
-#include "core/model/beam_builder.hpp"
 #include "core/model/divided_beams.hpp"
-#include "core/model/imported_builder.hpp"
+#include "core/model/elastic_builders.hpp"
 #include "core/model/invariant_derivatives.hpp"
 #include "core/scene/body_rules.hpp"
 

@@ -35,7 +35,11 @@ struct BuildContext {
   const BodyEffects& effects_of(const std::string& beam) const { return beam_effects.at(beam); }
   int variables() const { return int_size(design); }
   /// The design with one variable seeded.
-  Design<Dual> seeded(int variable) const;
+  Design<Dual> seeded(int variable) const {
+    Design<Dual> dual(design.begin(), design.end());
+    dual[variable].derivatives()[0] = 1.0;
+    return dual;
+  }
 };
 
 }  // namespace pleuel

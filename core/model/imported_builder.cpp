@@ -1,5 +1,3 @@
-#include "core/model/imported_builder.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -9,6 +7,7 @@
 #include "core/base/error.hpp"
 #include "core/base/int_size.hpp"
 #include "core/model/effect_decisions.hpp"
+#include "core/model/elastic_builders.hpp"
 #include "core/model/imported_constants.hpp"
 
 namespace pleuel {

@@ -15,7 +15,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/model/attachment.hpp"
-#include "core/model/beam_shapes.hpp"
+#include "core/model/elastic_builders.hpp"
 #include "core/model/model.hpp"
 #include "core/system/term.hpp"
 

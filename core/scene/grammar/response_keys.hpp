@@ -4,9 +4,18 @@
 #include <variant>
 
 #include "core/scene/grammar/keys.hpp"
-#include "core/scene/grammar/response_scope.hpp"
 #include "core/scene/problem_file.hpp"
 #include "core/scene/response_kind.hpp"
+
+namespace pleuel {
+
+/// What responses name, and the end of the simulation [s].
+struct ResponseScope {
+  const Scene& scene;
+  double end_time = 0.0;
+};
+
+}  // namespace pleuel
 
 /// Keys that several responses have, and a table for each kind of response (response_table.cpp says
 /// which types are of a kind).

@@ -1,8 +1,6 @@
 #pragma once
 
-#include "core/scene/grammar/keys.hpp"
-#include "core/scene/grammar/response_scope.hpp"
-#include "core/scene/problem_file.hpp"
+#include "core/scene/grammar/response_keys.hpp"
 
 /// The table of keys of each type of response.
 namespace pleuel {

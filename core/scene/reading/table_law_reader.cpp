@@ -1,5 +1,3 @@
-#include "core/scene/reading/table_law_reader.hpp"
-
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -14,6 +12,7 @@
 
 #include "core/scene/reading/json_node.hpp"
 #include "core/scene/reading/syntax_error.hpp"
+#include "core/scene/reading/time_function_reader.hpp"
 #include "core/scene/units.hpp"
 
 namespace pleuel {

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include "core/scene/reading/symbols.hpp"
-#include "core/scene/reading/table_law_reader.hpp"
 
 namespace pleuel {
 

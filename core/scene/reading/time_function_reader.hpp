@@ -1,9 +1,53 @@
 #pragma once
 
-#include "core/scene/reading/law_source.hpp"
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "core/scene/reading/json_node.hpp"
+#include "core/scene/reading/key_reader.hpp"
+#include "core/scene/reading/number_reader.hpp"
+#include "core/scene/time_function.hpp"
 
 /// Reads functions of time, and of the state of a force element. All throw InputError.
 namespace pleuel {
+
+// A function before it is read.
+
+enum class LawPurpose { drive, load };
+
+/// What a law may be a function of besides time, by the names that formulas and tables have for it.
+/// The rate is called "speed".
+struct StateNames {
+  std::string_view coordinate;   ///< "angle"
+  std::string_view coordinates;  ///< "angles", of a table
+  Quantity coordinate_quantity, rate_quantity;
+};
+
+/// A function in the document and what it measures.
+struct LawSource {
+  JsonNode node;
+  Quantity value;
+  LawPurpose purpose = LawPurpose::load;
+  std::optional<StateNames> state = {};
+  std::vector<std::string_view> other_keys = {};  ///< that are not the function's
+
+  /// Its keys may be "type", these, and the others.
+  void allow_keys(std::vector<std::string_view> keys) const {
+    keys.insert(keys.begin(), "type");
+    keys.insert(keys.end(), other_keys.begin(), other_keys.end());
+    node.allow_keys(keys);
+  }
+
+  /// Reads a function by its table of keys.
+  template <class Function, class Measures>
+  void read(NumberReader& numbers, Function& function, const Measures& measures) const {
+    std::vector<std::string_view> others = other_keys;
+    others.push_back("type");
+    read_keys(
+        node, numbers, [&](Keys& keys) { describe(keys, function, measures); }, others);
+  }
+};
 
 /// {"type": …, …}; the key "coordinate" may stand beside it.
 /// @param value  what the drive prescribes: an angle or a length
@@ -19,5 +63,9 @@ TimeFunction read_load_function(const LawSource& source, NumberReader& numbers);
 
 /// What springs and dampers resist with: a function of the state, or "friction" or "clearance".
 TimeFunction read_resistance(const LawSource& source, NumberReader& numbers);
+
+/// A law through points, of time or of the motion, which the file lists or another file has
+/// (table_law_reader.cpp).
+TableFunction read_table_law(const LawSource& source, NumberReader& numbers);
 
 }  // namespace pleuel
