@@ -11,13 +11,9 @@ std::optional<Quantity> find_quantity(const std::string& unit) {
   return std::nullopt;
 }
 
-bool has_dimension(const Quantity& quantity, const Dimension& dimension, const UnitSystem& units) {
-  return units.measure(std::string(quantity.unit)).dimension == dimension;
-}
-
 std::optional<Quantity> find_quantity(const Dimension& dimension, const UnitSystem& units) {
   for (const Quantity& quantity : named_quantities) {
-    if (has_dimension(quantity, dimension, units)) return quantity;
+    if (units.measure(std::string(quantity.unit)).dimension == dimension) return quantity;
   }
   return std::nullopt;
 }

@@ -44,7 +44,4 @@ std::optional<Quantity> find_quantity(const Dimension& dimension, const UnitSyst
 /// "a length [m]", "a number without unit"; of a quantity without name "a quantity [kg m]".
 std::string describe(const Dimension& dimension, const UnitSystem& units);
 
-/// Whether a unit has this dimension. @pre the unit is known
-bool has_dimension(const Quantity& quantity, const Dimension& dimension, const UnitSystem& units);
-
 }  // namespace pleuel

@@ -27,8 +27,28 @@ void check_second_axis(const JsonNode& node, const NumberReader& numbers) {
   }
 }
 
+/// Those of a joint that a drive can prescribe: none, one, or for a cylindrical joint two.
+std::vector<DrivenCoordinate> drivable_coordinates(const JointKind& kind) {
+  std::vector<DrivenCoordinate> all;
+  if (kind.has_angle()) all.push_back(DrivenCoordinate::angle);
+  if (kind.has_displacement() || kind.has_length()) all.push_back(DrivenCoordinate::displacement);
+  return all;
+}
+
+/// @throws InputError unless joints of this type have what is needed
+template <class Predicate>
+void require(const JsonNode& node, const Joint& joint, const Predicate& has_it) {
+  if (has_it(kind_of(joint.type))) return;
+  std::vector<std::string> names;
+  for (const JointKind& kind : joint_kinds) {
+    if (has_it(kind)) names.emplace_back(kind.word);
+  }
+  node.fail(fmt::format("needs a joint of the type {}, but \"{}\" is of the type \"{}\"",
+                        quoted_list(names, "or"), joint.name, name_of(joint.type)));
+}
+
 Drive read_drive(const JsonNode& node, const Joint& joint, NumberReader& numbers) {
-  check_drivable(node, joint);
+  require(node, joint, [](const JointKind& kind) { return !drivable_coordinates(kind).empty(); });
   const DrivenCoordinate coordinate = read_coordinate(node, joint);
   return {read_drive_function(node, driven_quantity(coordinate), numbers), coordinate};
 }
@@ -66,16 +86,8 @@ std::string name_of(JointType type) {
   return std::string(kind_of(type).word);
 }
 
-std::vector<DrivenCoordinate> drivable_coordinates(JointType type) {
-  const JointKind& kind = kind_of(type);
-  std::vector<DrivenCoordinate> all;
-  if (kind.has_angle()) all.push_back(DrivenCoordinate::angle);
-  if (kind.has_displacement() || kind.has_length()) all.push_back(DrivenCoordinate::displacement);
-  return all;
-}
-
 DrivenCoordinate read_coordinate(const JsonNode& node, const Joint& joint) {
-  const std::vector<DrivenCoordinate> possible = drivable_coordinates(joint.type);
+  const std::vector<DrivenCoordinate> possible = drivable_coordinates(kind_of(joint.type));
   const std::optional<JsonNode> key = node.find("coordinate");
   if (!key && possible.size() == 1) return possible.front();
   const JsonNode coordinate = node.at("coordinate");
@@ -86,27 +98,6 @@ DrivenCoordinate read_coordinate(const JsonNode& node, const Joint& joint) {
                                            name_of(joint.type)));
   }
   return chosen;
-}
-
-namespace {
-
-/// @throws InputError unless joints of this type have what is needed
-template <class Predicate>
-void require(const JsonNode& node, const Joint& joint, const Predicate& has_it) {
-  if (has_it(kind_of(joint.type))) return;
-  std::vector<std::string> names;
-  for (const JointKind& kind : joint_kinds) {
-    if (has_it(kind)) names.emplace_back(kind.word);
-  }
-  node.fail(fmt::format("needs a joint of the type {}, but \"{}\" is of the type \"{}\"",
-                        quoted_list(names, "or"), joint.name, name_of(joint.type)));
-}
-
-}  // namespace
-
-void check_drivable(const JsonNode& node, const Joint& joint) {
-  require(node, joint,
-          [](const JointKind& kind) { return !drivable_coordinates(kind.type).empty(); });
 }
 
 void check_coordinate_between_bodies(const JsonNode& node, const Joint& joint) {

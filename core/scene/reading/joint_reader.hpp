@@ -12,15 +12,9 @@ namespace pleuel {
 /// As in a file: "point-on-line".
 std::string name_of(JointType type);
 
-/// Those of a joint that a drive can prescribe: none, one, or for a cylindrical joint two.
-std::vector<DrivenCoordinate> drivable_coordinates(JointType type);
-
 /// The coordinate that a drive or load of this joint acts on: the one that the key "coordinate" of
 /// `node` says, which may be missing if there is only one. @throws InputError
 DrivenCoordinate read_coordinate(const JsonNode& node, const Joint& joint);
-
-/// @throws InputError unless the joint has a coordinate that can be driven
-void check_drivable(const JsonNode& node, const Joint& joint);
 
 /// @throws InputError unless the joint has an angle or a displacement of one body against the other,
 /// which loads act along and responses look at. A distance has none.
