@@ -52,6 +52,7 @@ class SizeTexts : public Keys {
 std::string section_text(const Section& section, const Values& design) {
   static constexpr std::array<const char*, 6> names = {"rectangle", "circle", "tube",
                                                        "ellipse",   "box",    "I"};
+  static_assert(std::variant_size_v<Section> == names.size() + 1, "and the general one");
   if (std::holds_alternative<GeneralSection>(section)) {
     return "general (drawn as the rectangle with its radii of gyration)";
   }
