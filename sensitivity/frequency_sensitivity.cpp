@@ -25,8 +25,9 @@ struct Direction {
 class FrequencySensitivity {
  public:
   FrequencySensitivity(const Model& model, const State& state, const ModeChoice& choice)
-      : FrequencySensitivity(LinearizedModes(model, state, choice.counts_damping()), state,
-                             choice) {}
+      : FrequencySensitivity(
+            LinearizedModes(model, state, choice.counts_damping(), axes_of(choice)), state,
+            choice) {}
 
   FrequencySensitivity(const LinearizedModes& modes, const State& state, const ModeChoice& choice)
       : mechanism_(modes.model.mechanism),

@@ -145,7 +145,8 @@ bool turns_alike(const Mechanism& mechanism, const State& state, const BodyTurn&
          });
 }
 
-/// A state after a short time, as bodies do not deform.
+}  // namespace
+
 State advanced(const Mechanism& mechanism, const State& state, double time) {
   const BodyTurn rotor = fastest_turn(mechanism, state);
   const Eigen::Vector3d omega = rotor.axes * rotor.omega;
@@ -168,6 +169,8 @@ State advanced(const Mechanism& mechanism, const State& state, double time) {
   for (const int point : mechanism.points) turn(point, translations_of_points(mechanism));
   return next;
 }
+
+namespace {
 
 /// Whether the stiffness of a rotor changes as it turns, as in bearings that are softer one way: by
 /// more than what is negative in it, so that one instant does not tell whether it grows. What couples

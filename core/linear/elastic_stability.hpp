@@ -41,6 +41,9 @@ State without_forces(const Mechanism& mechanism, const State& loaded);
 /// Whether all that turns does so alike and at a constant speed, but for small vibrations.
 bool is_rotor(const Mechanism& mechanism, const State& state);
 
+/// A state after a short time, as bodies do not deform.
+State advanced(const Mechanism& mechanism, const State& state, double time);
+
 /// A mechanism at a state.
 struct MechanismState {
   const Mechanism& mechanism;

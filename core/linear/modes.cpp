@@ -37,6 +37,9 @@ class ReducedMotions {
 
   Eigen::Index count() const { return null_space_.cols(); }
 
+  /// By how much constraints Φ do not allow these motions.
+  double apart(const Eigen::MatrixXd& phi) const { return (phi * null_space_).norm(); }
+
   /// L⁻¹ Zᵀ (matrix) Z L⁻ᵀ
   Eigen::MatrixXd project(const Eigen::MatrixXd& matrix) const {
     const Eigen::MatrixXd half = mass_.solve_lower(null_space_.transpose() * matrix);
@@ -61,21 +64,44 @@ class ReducedMotions {
 
 }  // namespace
 
-MotionAxes::MotionAxes(const Mechanism& mechanism, const State& state, bool is_damped)
-    : mechanism_(mechanism) {
-  if (!is_damped || !is_rotor(mechanism, state)) return;
-  const double fastest = fastest_turn(mechanism, state).omega.norm();
+MotionAxes::MotionAxes(const Mechanism& mechanism, const State& state, Kind kind)
+    : mechanism_(mechanism), kind_(kind) {
+  if (kind != Kind::rotor) return;
+  kind_ = Kind::standing;
+  if (!is_rotor(mechanism, state)) return;
   const std::vector<TurningBody> bodies = turning_bodies(mechanism, state);
-  const std::vector<int>& elastic = mechanism.elastic;
-  for (std::size_t i = 0; i < bodies.size() && !rotor_; ++i) {
-    const bool is_elastic = std::ranges::find(elastic, bodies[i].elastic) != elastic.end();
-    if (is_elastic && bodies[i].turn.omega.norm() > 0.5 * fastest) rotor_ = i;
-  }
+  const double fastest = fastest_turn(mechanism, state).omega.norm();
+  const auto rotor = std::ranges::find_if(bodies, [&](const TurningBody& body) {
+    return std::ranges::find(mechanism.elastic, body.elastic) != mechanism.elastic.end() &&
+           body.turn.omega.norm() > 0.5 * fastest;
+  });
+  if (rotor == bodies.end()) return;
+  kind_ = Kind::rotor;
+  rotor_ = static_cast<std::size_t>(rotor - bodies.begin());
+  if (!is_constant(state)) kind_ = Kind::standing;
 }
 
 Turning MotionAxes::at(const State& state) const {
-  if (!rotor_) return standing_axes(mechanism_, state);
-  return rotor_turning(mechanism_, state, turning_bodies(mechanism_, state)[*rotor_].turn);
+  if (kind_ == Kind::standing) return standing_axes(mechanism_, state);
+  if (kind_ == Kind::turning) return turning_of(mechanism_, state);
+  return rotor_turning(mechanism_, state, turning_bodies(mechanism_, state)[rotor_].turn);
+}
+
+/// Whether a small turn changes hardly anything, relative to the stiffness of the motions, which stay
+/// allowed.
+bool MotionAxes::is_constant(const State& state) const {
+  constexpr double angle = 1e-4, share = 1e-2;
+  const double speed = fastest_turn(mechanism_, state).omega.norm();
+  const State moved = advanced(mechanism_, state, angle / speed);
+  const Linearization here = linearize(mechanism_, state, at(state), true),
+                      there = linearize(mechanism_, moved, at(moved), true);
+  const ReducedMotions motions(here);
+  const Eigen::MatrixXd flexibility = motions.flexibility(speed);
+  const Eigen::MatrixXd change = motions.project(there.K - here.K) +
+                                 speed * motions.project(there.G - here.G) +
+                                 speed * speed * motions.project(there.M - here.M);
+  return (flexibility * change).norm() <= angle * share &&
+         motions.apart(there.phi) <= angle * share * there.phi.norm();
 }
 
 Pencil pencil_at(const Linearization& linearized, std::complex<double> s) {

@@ -10,19 +10,28 @@
 /// Small vibrations of a whole mechanism about an instant of its motion.
 namespace pleuel {
 
-/// The axes in which the small motions of a mechanism are counted: those that stand still; with damping,
-/// of a rotor of elastic bodies, those that turn with it, as its damping does. There they have constant
-/// coefficients, if what stands still is alike in all directions across the axis.
+/// The axes in which the small motions of a mechanism are counted.
 class MotionAxes {
  public:
-  MotionAxes(const Mechanism& mechanism, const State& state, bool is_damped);
+  enum class Kind {
+    standing,  ///< that stand still
+    turning,   ///< that turn with each body
+    /// That turn with a rotor of elastic bodies at a constant speed, as its damping does, if coefficients
+    /// are constant there: what stands still is alike in all directions across the axis. Else standing.
+    rotor
+  };
+  MotionAxes(const Mechanism& mechanism, const State& state, Kind kind);
 
+  Kind kind() const { return kind_; }  ///< that was found
   /// At a state close by.
   Turning at(const State& state) const;
 
  private:
+  bool is_constant(const State& state) const;
+
   const Mechanism& mechanism_;
-  std::optional<std::size_t> rotor_;  ///< which of turning_bodies()
+  Kind kind_;
+  std::size_t rotor_ = 0;  ///< which of turning_bodies()
 };
 
 /// [ s²M + sG + K  κΦ_qᵀ ; κΦ_q  0 ], singular where s is an eigenvalue. κ makes the multipliers as

@@ -48,17 +48,21 @@ void set_full_mechanism(const ProblemFile& problem, const Design<double>& start,
   }
 }
 
-/// Of the modes without damping, or of those with it.
-void choose_modes(bool is_damped, Analysis& analysis) {
+/// Of responses that count damping or do not, in some axes.
+void choose_modes(bool is_damped, MotionAxes::Kind axes, Analysis& analysis) {
   std::optional<LinearizedModes> mechanism;
+  const auto first = static_cast<int>(analysis.damped_modes.size());
   for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
     const Response& response = analysis.responses[i];
-    if (!response.mode() || response.mode()->choice.counts_damping() != is_damped) continue;
+    if (!response.mode()) continue;
+    const ModeChoice& choice = response.mode()->choice;
+    if (choice.counts_damping() != is_damped || axes_of(choice) != axes) continue;
     if (!mechanism) {
-      mechanism.emplace(model_of_modes(analysis), analysis.vibrating->initial.state, is_damped);
+      mechanism.emplace(model_of_modes(analysis), analysis.vibrating->initial.state, is_damped,
+                        axes);
     }
     try {
-      analysis.mechanism_modes[i] = find_mode(*mechanism, response.mode()->choice);
+      analysis.mechanism_modes[i] = (is_damped ? first : 0) + find_mode(*mechanism, choice);
     } catch (const InputError& error) {
       // Whether something vibrates changes with the design.
       if (is_damped) throw SimulationError(error.what());
@@ -67,7 +71,9 @@ void choose_modes(bool is_damped, Analysis& analysis) {
   }
   if (!mechanism) return;
   if (is_damped) {
-    analysis.damped_modes = mechanism->modes;
+    Eigen::VectorXcd all(first + mechanism->modes.size());
+    all << analysis.damped_modes, mechanism->modes;
+    analysis.damped_modes = std::move(all);
   } else {
     analysis.mechanism_frequencies = mechanism->modes.unaryExpr(&frequency_of).real();
   }
@@ -81,7 +87,9 @@ void set_modes(Analysis& analysis) {
   }
   analysis.vibrating =
       analysis.full ? analysis.full->vibrating : vibration_state(analysis.model.mechanism);
-  for (const bool is_damped : {false, true}) choose_modes(is_damped, analysis);
+  choose_modes(false, MotionAxes::Kind::standing, analysis);
+  choose_modes(true, MotionAxes::Kind::standing, analysis);
+  choose_modes(true, MotionAxes::Kind::rotor, analysis);
 }
 
 /// The problem without elasticity, for the positions that deflections are measured against.
@@ -106,10 +114,12 @@ void set_rigid_mechanism(const ProblemFile& problem, const Eigen::VectorXd& x, A
   try {
     analysis.rigid = analyze(rigid, x);
   } catch (const SimulationError& error) {
-    const bool is_blocked = analysis.rigid_path.end == RigidPath::End::bends;
-    throw SimulationError(
-        fmt::format("the mechanism without elasticity, which a deflection is measured against: {}",
-                    is_blocked ? bending_text(analysis.model) : error.what()));
+    std::string why = error.what();
+    if (analysis.rigid_path.end == RigidPath::End::bends) {
+      why = bending_text(analysis.model) + " (" + why + ")";
+    }
+    throw SimulationError(fmt::format(
+        "the mechanism without elasticity, which a deflection is measured against: {}", why));
   }
 }
 

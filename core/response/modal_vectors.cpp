@@ -191,10 +191,16 @@ ModalVectors modal_vectors(const Linearization& linearized, const Eigen::VectorX
   return vectors;
 }
 
-LinearizedModes::LinearizedModes(const Model& of_model, const State& at, bool is_damped)
+MotionAxes::Kind axes_of(const ModeChoice& choice) {
+  const bool turns = choice.of == ModeNumber::growth_rate && !choice.axis;
+  return turns ? MotionAxes::Kind::rotor : MotionAxes::Kind::standing;
+}
+
+LinearizedModes::LinearizedModes(const Model& of_model, const State& at, bool is_damped,
+                                 MotionAxes::Kind kind)
     : model(of_model),
       state(at),
-      axes(model.mechanism, state, is_damped),
+      axes(model.mechanism, state, kind),
       linearized(linearize(model.mechanism, state, axes.at(state), is_damped)),
       modes(modes_of(linearized)) {}
 

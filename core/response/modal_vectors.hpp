@@ -50,6 +50,10 @@ struct ModalVectors {
 ModalVectors modal_vectors(const Linearization& linearized, const Eigen::VectorXcd& modes,
                            int mode);
 
+/// A growth rate is counted with the rotor; a ratio, which is that of a whirl as it is seen, and what
+/// moves along an axis are not.
+MotionAxes::Kind axes_of(const ModeChoice& choice);
+
 /// A mechanism that is linearized in a state, with its modes.
 struct LinearizedModes {
   const Model& model;
@@ -58,7 +62,7 @@ struct LinearizedModes {
   Linearization linearized;
   Eigen::VectorXcd modes;  ///< modes_of(linearized)
 
-  LinearizedModes(const Model& of_model, const State& at, bool is_damped = false);
+  LinearizedModes(const Model& of_model, const State& at, bool is_damped, MotionAxes::Kind kind);
 
   /// mass_along() of what is counted in these axes.
   Eigen::MatrixXd mass_along(const std::array<double, 3>& d) const;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <optional>
 #include <string>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include "core/linear/linearization.hpp"
 #include "core/linear/modes.hpp"
 #include "core/response/full_mechanism.hpp"
+#include "core/response/modal_vectors.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "core/trust/check_list.hpp"
 
@@ -21,10 +23,10 @@ namespace {
 /// Relative change of a frequency that is worth a word.
 constexpr double small_shift = 1e-2;
 
-std::vector<const Response*> frequencies_of_mechanism(const TrustedRun& run) {
+std::vector<const Response*> modes_of_mechanism(const TrustedRun& run) {
   std::vector<const Response*> found;
   for (const Response& response : run.analysis.responses) {
-    if (response.mode() && !response.mode()->choice.counts_damping()) found.push_back(&response);
+    if (response.mode()) found.push_back(&response);
   }
   return found;
 }
@@ -35,31 +37,21 @@ std::vector<std::string> names_of(const std::vector<const Response*>& responses)
   return names;
 }
 
-/// A frequency that is another one by more than is worth a word, as it may be looked at otherwise.
-struct Shift {
-  const Response* response;
-  std::string shown, other;  ///< as people see them: "12.4 Hz"
-};
-
 /// In the unit of a response.
-std::string frequency_text(const TrustedRun& run, const Response& response, double frequency) {
+std::string number_text(const TrustedRun& run, const Response& response, double number) {
   const ShownUnit unit = unit_of(find_response(run.problem, response.name));
-  return fmt::format("{:.5g}{}", unit.shown(frequency), unit.suffix());
+  return fmt::format("{:.5g}{}", unit.shown(number), unit.suffix());
 }
 
-/// @param others  frequencies of the mechanism, one a mode
-std::vector<Shift> shifts(const TrustedRun& run, const std::vector<const Response*>& responses,
-                          const Eigen::VectorXd& others) {
-  std::vector<Shift> found;
-  for (const Response* response : responses) {
-    const int mode = run.analysis.mechanism_modes[response - run.analysis.responses.data()];
-    if (mode >= others.size()) continue;
-    const double shown = run.analysis.mechanism_frequencies(mode);
-    if (std::abs(others(mode) - shown) <= small_shift * std::abs(shown)) continue;
-    found.push_back({response, frequency_text(run, *response, shown),
-                     frequency_text(run, *response, others(mode))});
+/// What a response would be in axes that turn with the bodies; none where that cannot be told.
+std::optional<double> number_in_turning_axes(const LinearizedModes& turning,
+                                             const ModeChoice& choice) {
+  try {
+    return number_of(choice.of, turning.modes(find_mode(turning, choice)));
+  } catch (const InputError&) {
+  } catch (const SimulationError&) {
   }
-  return found;
+  return std::nullopt;
 }
 
 void add_missing_stress(const TrustedRun& run, const std::vector<const Response*>& responses,
@@ -79,21 +71,34 @@ void add_turning(const TrustedRun& run, const std::vector<const Response*>& resp
   const Analysis& analysis = run.analysis;
   const State& state = analysis.vibrating->initial.state;
   if (!analysis.modes_left_out.empty() || state.v.isZero(0.0)) return;
-  const Mechanism& mechanism = model_of_modes(analysis).mechanism;
-  const Eigen::VectorXd turning =
-      frequencies_of(linearize(mechanism, state, turning_of(mechanism, state), false));
+  const Model& model = model_of_modes(analysis);
   std::vector<std::string> told, names;
-  for (const auto& [response, shown, other] : shifts(run, responses, turning)) {
-    told.push_back(fmt::format("\"{}\" is {} and {}", response->name, shown, other));
-    names.push_back(response->name);
+  const Response* frequency = nullptr;
+  for (const bool is_damped : {false, true}) {
+    std::optional<LinearizedModes> turning;
+    for (const Response* response : responses) {
+      const ModeChoice& choice = response->mode()->choice;
+      if (choice.counts_damping() != is_damped) continue;
+      const MotionAxes axes(model.mechanism, state, axes_of(choice));
+      if (axes.kind() == MotionAxes::Kind::rotor) continue;  // is right
+      if (!turning) turning.emplace(model, state, is_damped, MotionAxes::Kind::turning);
+      const double shown = analysis.reductions[response - analysis.responses.data()].value;
+      const double other = number_in_turning_axes(*turning, choice).value_or(shown);
+      if (std::abs(other - shown) <= small_shift * std::abs(shown)) continue;
+      told.push_back(fmt::format("\"{}\" is {} and {}", response->name,
+                                 number_text(run, *response, shown),
+                                 number_text(run, *response, other)));
+      names.push_back(response->name);
+      if (!is_damped) frequency = response;
+    }
   }
   if (names.empty()) return;
-  const double speed = fastest_turn(mechanism, state).omega.norm();
+  const double speed = fastest_turn(model.mechanism, state).omega.norm();
   const std::string beside =
-      speed > 0.0
+      speed > 0.0 && frequency != nullptr
           ? fmt::format(
                 " (seen from beside the machine a whirl is faster or slower by the speed, {})",
-                frequency_text(run, *responses.front(), speed))
+                number_text(run, *frequency, speed))
           : "";
   findings.push_back(
       {fmt::format("frequencies are not high against the speed at which the mechanism moves at "
@@ -115,7 +120,7 @@ std::vector<Finding> check_frequencies(const TrustedRun& run) {
                      "started in space: {}",
                      run.analysis.modes_left_out)});
   }
-  const std::vector<const Response*> responses = frequencies_of_mechanism(run);
+  const std::vector<const Response*> responses = modes_of_mechanism(run);
   if (responses.empty()) return findings;
   add_turning(run, responses, findings);
   add_missing_stress(run, responses, findings);

@@ -323,6 +323,38 @@ TEST(Frequencies, AreDoubtedWhereTheAxesMatter) {
   EXPECT_NE(found[0].text.find("faster or slower by the speed, "), std::string::npos);
 }
 
+/// A shaft with damping of its own in a bearing of two springs: growth is known where these are alike, and
+/// coefficients are constant in axes that turn with the shaft; a ratio is another one in each axes.
+TEST(GrowthRates, AreDoubtedWhereNoAxesHaveConstantCoefficients) {
+  const auto findings = [](double across, double speed, const char* type) {
+    const auto [problem, x, analysis] =
+        AtStart(problem_from(fmt::format(R"({{"scene": {{"gravity": [0, 0, 0],
+      "bodies": {{"s": {{"type": "beam", "from": [0, 0, 0], "to": [0.8, 0, 0], "material": "steel",
+          "section": {{"type": "circle", "diameter": 0.02}}, "elements": 2, "damping": {{"stiffness": 2e-5}}}},
+        "disc": {{"type": "rigid", "at": [0.4, 0, 0], "mass": 8, "inertia": [2e-4, 1e-4, 1e-4, 0, 0, 0]}}}},
+      "joints": {{
+        "left": {{"type": "revolute", "bodies": ["ground", "s"], "at": [0, 0, 0], "axis": [1, 0, 0],
+          "drive": {{"type": "constant-speed", "speed": {}}}}},
+        "hub": {{"type": "fixed", "bodies": ["s", "disc"], "at": [0.4, 0, 0]}}}},
+      "loads": {{
+        "y": {{"type": "spring", "bodies": ["ground", "s"], "at": [[0.8, -1, 0], [0.8, 0, 0]], "stiffness": 1e6}},
+        "-y": {{"type": "spring", "bodies": ["ground", "s"], "at": [[0.8, 1, 0], [0.8, 0, 0]], "stiffness": 1e6}},
+        "z": {{"type": "spring", "bodies": ["ground", "s"], "at": [[0.8, 0, -1], [0.8, 0, 0]], "stiffness": {}}},
+        "-z": {{"type": "spring", "bodies": ["ground", "s"], "at": [[0.8, 0, 1], [0.8, 0, 0]], "stiffness": {}}}}}}},
+    "simulation": {{"end_time": 1e-4, "step": 1e-4}},
+    "responses": {{"asked": {{"type": "{}"}}}}}})",
+                                         speed, across, across, type)));
+    return check_frequencies({problem, x, *analysis, Monitors{}});
+  };
+  EXPECT_THAT(findings(1e6, 250.0, "growth-rate"), IsEmpty());
+  EXPECT_THAT(findings(3e5, 0.0, "growth-rate"), IsEmpty());
+  for (const Finding& found :
+       {only(findings(3e5, 250.0, "growth-rate")), only(findings(1e6, 250.0, "damping-ratio"))}) {
+    EXPECT_TRUE(found.is_serious);
+    EXPECT_THAT(found.responses, ElementsAre("asked"));
+  }
+}
+
 /// A column under a force that follows its free end flutters from 20.05 EI/L² on (Beck 1952).
 TEST(Frequencies, AreDoubtedWhereAFollowerForceMakesThemGrow) {
   const auto findings = [](double load) {
