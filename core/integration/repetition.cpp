@@ -43,12 +43,12 @@ class RepetitionCheck {
   }
 
   void see(State state, const Eigen::VectorXd& turns) {
-    std::vector<Eigen::MatrixXd> before, most;
+    std::vector<Eigen::MatrixXd> before, loaded_before;
     for (const auto& term : system_.terms()) before.push_back(evaluate(*term, state));
     // What joints bear in no direction is round-off of what they bear in others.
     State loaded = state;
     if (loaded.lambda.size() > 0) loaded.lambda.setConstant(state.lambda.lpNorm<Eigen::Infinity>());
-    for (const auto& term : system_.terms()) most.push_back(evaluate(*term, loaded));
+    for (const auto& term : system_.terms()) loaded_before.push_back(evaluate(*term, loaded));
     state.q += turns;
     state.time += period_;
     for (std::size_t i = 0; i < before.size(); ++i) {
@@ -56,7 +56,7 @@ class RepetitionCheck {
       for (std::size_t k = 0; k < changes_[i].size(); ++k) {
         changes_[i][k].include(size_of(after.col(k) - before[i].col(k)));
         largest_[i][k].include(size_of(before[i].col(k)));
-        largest_[i][k].include(size_of(most[i].col(k)));
+        largest_[i][k].include(size_of(loaded_before[i].col(k)));
         largest_[i][k].include(size_of(after.col(k)));
       }
     }

@@ -31,8 +31,6 @@ constexpr double vanishing = 1e-3;
 constexpr double tiny_strain = 1e-13;
 /// Of shares of a buckling load.
 constexpr double tiny_share = 1e-12;
-/// Of the kinetic energy, over the time of the motion: powers.
-constexpr double tiny_power = 1e-12;
 /// Of lengths, which are exact to the last digits.
 constexpr double tiny_length = 1e-12;
 /// Of lengths that rates over one step are made from.
@@ -177,11 +175,17 @@ class RoundOff {
       case ResponseType::damper_power: {
         whole.type = ResponseType::kinetic_energy;
         const Eigen::VectorXd& time = run_.analysis.trajectory.time;
-        return {{whole, tiny_power / time(time.size() - 1)}};
+        return {{whole, tiny_energy() / time(time.size() - 1)}};
       }
       default:
         return {};
     }
+  }
+
+  /// Of the energy in the motion: what holds it.
+  double tiny_energy() const {
+    const double steps = run_.analysis.trajectory.steps();
+    return std::clamp(tiny_inertia * steps * steps, tiny_force, most_inertia);
   }
 
   /// Bending moments and axial force anywhere in the body: at a pin or a free end that of the section
@@ -216,15 +220,13 @@ class RoundOff {
   std::vector<Measure> reactions(ResponseSettings whole, ResponseType type) const {
     const bool is_moment =
         type == ResponseType::reaction_moment || type == ResponseType::drive_torque;
-    const double steps = run_.analysis.trajectory.steps();
-    const double inertia = std::clamp(tiny_inertia * steps * steps, tiny_force, most_inertia);
     whole.direction = magnitude_direction;
     whole.type = ResponseType::reaction_force;
     const Measure force{whole, tiny_force * (is_moment ? size_ : 1.0)};
     whole.type = ResponseType::reaction_moment;
     const Measure moment{whole, tiny_force / (is_moment ? 1.0 : size_)};
     whole.type = ResponseType::kinetic_energy;
-    return {force, moment, {whole, inertia / (is_moment ? 1.0 : size_)}};
+    return {force, moment, {whole, tiny_energy() / (is_moment ? 1.0 : size_)}};
   }
 
   /// The largest magnitudes over the simulation, in order.

@@ -115,6 +115,7 @@ TEST_F(Mechanism, HasDrivesOfTheCoordinateThatTheJointHas) {
 
 TEST_F(Mechanism, HasForcesAndTorques) {
   const auto& push = load<PointLoad>("push");
+  EXPECT_TRUE(push.is_force());
   EXPECT_EQ(push.body, "arm");
   EXPECT_EQ(push.at[0].constant, 0.37);
   EXPECT_THAT(push.direction,
@@ -128,6 +129,7 @@ TEST_F(Mechanism, HasForcesAndTorques) {
   EXPECT_FALSE(gust.follows_body);
   EXPECT_EQ(std::get<PolynomialFunction>(gust.value).coefficients[1].constant, 2.0);
   const auto& twist = load<PointLoad>("twist");
+  EXPECT_FALSE(twist.is_force());
   EXPECT_THAT(twist.direction, ElementsAre(-1.0, 0.0, 0.0));
   EXPECT_EQ(std::get<HarmonicFunction>(twist.value).amplitude.constant, 3.0);
   EXPECT_EQ(std::get<HarmonicFunction>(twist.value).phase.constant, 0.0);
