@@ -230,9 +230,9 @@ bool is_same_response(const ProblemFile& problem, std::size_t response, const Js
   return std::ranges::all_of(parts_of(problem, response), [&](std::size_t part) {
     const std::vector<std::string>& bodies = problem.responses[part].bodies;
     const Json masses = masses_in(of_cases.front(), bodies);
-    return !mentions_any(masses, constants) &&
-           std::ranges::all_of(
-               of_cases, [&](const Json& one) { return masses_in(one, bodies) == masses; });
+    return !mentions_any(masses, constants) && std::ranges::all_of(of_cases, [&](const Json& one) {
+      return masses_in(one, bodies) == masses;
+    });
   });
 }
 
