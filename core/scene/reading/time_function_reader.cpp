@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <memory>
-#include <ranges>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -242,9 +243,10 @@ TimeFunction read_law(const LawSource& source, NumberReader& numbers, LawKind::U
       {"expression", motion | load | resistance, read_expression_object},
       {"friction", resistance, read_friction},
       {"clearance", resistance, read_clearance}};
-  const auto is_for_use = [use](const LawKind& kind) { return (kind.uses & use) != 0; };
-  return read_row(source.node.at("type"), kinds | std::views::filter(is_for_use))
-      .read(source, numbers);
+  std::vector<LawKind> for_use;
+  std::ranges::copy_if(kinds, std::back_inserter(for_use),
+                       [use](const LawKind& kind) { return (kind.uses & use) != 0; });
+  return read_row(source.node.at("type"), for_use).read(source, numbers);
 }
 
 }  // namespace
