@@ -54,12 +54,11 @@ class Judge {
       : problem_(problem),
         x_(start_design(problem)),
         asked_(asked_responses(problem)),
-        reference_(
-            make_refined_run(problem, x_, {0.25 * step(grid_steps - 1), 2.0 * most_elements, 2})) {
+        reference_(make_refined_run(problem, x_, {reference_step, 2.0 * most_elements, 2})) {
     if (reference_.has_failed()) return;
     for (double elements = least_elements; elements <= most_elements; elements *= 2.0) {
       for (int i = 0; i < grid_steps; ++i) {
-        grid_.push_back(simulate(refined(problem_, {step(i), elements})));
+        grid_.push_back(simulate(refined(problem_, {step(i), elements}), reference_));
       }
     }
   }
@@ -71,7 +70,10 @@ class Judge {
     const SettingChoice choice =
         choose_setting(problem_, x_, target, coarse_setting(problem_), JudgedBy::this_choice);
     const double choosing = processor_time() - start;
-    const Simulated chosen = simulate(choice.problem);
+    const bool is_within_grid = choice.chosen.setting.step >= finer * reference_step;
+    const RefinedRun own =
+        is_within_grid ? RefinedRun() : make_refined_run(choice.problem, x_, {1.0 / finer, 2.0, 2});
+    const Simulated chosen = simulate(choice.problem, is_within_grid ? reference_ : own);
     Outcome outcome{scene,
                     target,
                     choice.is_met,
@@ -87,10 +89,13 @@ class Judge {
   }
 
  private:
+  /// A reference has steps so much finer than what it judges: the finest of the grid are a quarter of
+  /// those of the file.
+  static constexpr double finer = 4.0, reference_step = 0.25 / finer;
   /// By factors of √2, from coarse to fine.
   static double step(int i) { return coarsest_step * std::pow(2.0, -0.5 * i); }
 
-  Simulated simulate(const ProblemFile& divided) const {
+  Simulated simulate(const ProblemFile& divided, const RefinedRun& reference) const {
     Simulated found;
     try {
       const double start = processor_time();
@@ -101,9 +106,9 @@ class Judge {
       found.error = 0.0;
       for (const std::size_t i : asked_) {
         found.error =
-            std::max(found.error, value_error(analysis->reductions[i].value, reference_.values(i),
-                                              reference_.histories[i].size() > 0
-                                                  ? reference_.histories[i].cwiseAbs().maxCoeff()
+            std::max(found.error, value_error(analysis->reductions[i].value, reference.values(i),
+                                              reference.histories[i].size() > 0
+                                                  ? reference.histories[i].cwiseAbs().maxCoeff()
                                                   : 0.0));
       }
     } catch (const std::exception&) {  // too coarse
