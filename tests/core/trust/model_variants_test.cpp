@@ -211,7 +211,8 @@ TEST(EnergyBalance, IsAskedOfSmallMotionsFarFromTheOrigin) {
 }
 
 /// A shaft along x in two bearings, 100 mm apart, with a pull along y beyond the second one.
-std::vector<Finding> findings(const std::string& first, const std::string& second) {
+std::vector<Finding> findings(const std::string& first, const std::string& second,
+                              const std::string& more = "") {
   const ProblemFile shaft = read_scene(fmt::format(
       R"({{"scene": {{"gravity": [0, 0, 0], "bodies": {{
             "shaft": {{"type": "rigid", "at": [0.05, 0, 0], "mass": 1, "inertia": [1e-3, 2e-3, 2e-3, 0, 0, 0]}}}},
@@ -223,8 +224,8 @@ std::vector<Finding> findings(const std::string& first, const std::string& secon
             "one": {{"type": "reaction-force", "joint": "one", "direction": "y", "over_time": "final"}},
             "other": {{"type": "reaction-force", "joint": "other", "direction": "y", "over_time": "final"}},
             "speed": {{"type": "angular-velocity", "body": "shaft", "direction": "x",
-                       "over_time": "max-abs"}}}}}})",
-      first, second));
+                       "over_time": "max-abs"}}}}{}}})",
+      first, second, more));
   return findings_of(shaft, check_undetermined_reactions);
 }
 
@@ -240,6 +241,10 @@ TEST(UndeterminedReactions, OfTwoHingesAreTold) {
   const Finding found = only(findings(bearing("revolute", 0.1), bearing("revolute", 0.0)));
   EXPECT_THAT(found.responses, UnorderedElementsAre("one", "other"));
   EXPECT_FALSE(found.is_serious);
+  // Also where a limit asks for another number.
+  EXPECT_THAT(findings(bearing("revolute", 0.1), bearing("revolute", 0.0),
+                       R"(, "constraints": {"slow": {"response": "speed", "upper": 1}})"),
+              SizeIs(1));
   // Nor where only one of them holds the tilt, and the other one the way of its end.
   EXPECT_THAT(findings(bearing("revolute", 0.1), bearing("spherical", 0.0)), SizeIs(1));
 }
