@@ -261,7 +261,9 @@ TEST(Jerk, AtACornerOfADriveIsToldWhereItRings) {
   const ProblemFile beside =
       cubic_motion({corner, R"(/responses/m={"type": "mass"})", R"(/objective={"minimize": "m"})"});
   const auto not_asked = analyze(beside, x);
-  EXPECT_EQ(check_jerks_at_corners({beside, x, *not_asked, monitors}).size(), 1u);
+  const std::vector<Finding> told = check_jerks_at_corners({beside, x, *not_asked, monitors});
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_FALSE(told[0].is_serious);
 
   const ProblemFile calm = cubic_motion({corner, "/simulation/formulation=index-1"});
   const auto right = analyze(calm, x);
