@@ -83,7 +83,6 @@ MotionAxes::MotionAxes(const Mechanism& mechanism, const State& state, Kind kind
 
 Turning MotionAxes::at(const State& state) const {
   if (kind_ == Kind::standing) return standing_axes(mechanism_, state);
-  if (kind_ == Kind::turning) return turning_of(mechanism_, state);
   return rotor_turning(mechanism_, state, turning_bodies(mechanism_, state)[rotor_].turn);
 }
 

@@ -15,7 +15,6 @@ class MotionAxes {
  public:
   enum class Kind {
     standing,  ///< that stand still
-    turning,   ///< that turn with each body
     /// That turn with a rotor of elastic bodies at a constant speed, as its damping does, if coefficients
     /// are constant there: what stands still is alike in all directions across the axis. Else standing.
     rotor

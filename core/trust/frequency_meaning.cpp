@@ -20,7 +20,7 @@ namespace pleuel {
 
 namespace {
 
-/// Relative change of a frequency that is worth a word.
+/// Relative change that is worth a word.
 constexpr double small_shift = 1e-2;
 
 std::vector<const Response*> modes_of_mechanism(const TrustedRun& run) {
@@ -43,15 +43,22 @@ std::string number_text(const TrustedRun& run, const Response& response, double 
   return fmt::format("{:.5g}{}", unit.shown(number), unit.suffix());
 }
 
-/// What a response would be in axes that turn with the bodies; none where that cannot be told.
-std::optional<double> number_in_turning_axes(const LinearizedModes& turning,
-                                             const ModeChoice& choice) {
-  try {
-    return number_of(choice.of, turning.modes(find_mode(turning, choice)));
-  } catch (const InputError&) {
-  } catch (const SimulationError&) {
+bool is_near(double other, double shown) {
+  return std::abs(other - shown) <= small_shift * std::abs(shown);
+}
+
+/// What the mode of a response becomes in other axes: of vibrations without damping the one in its place,
+/// of others the nearest one; none if there is none.
+std::optional<std::complex<double>> same_mode(const Analysis& analysis, std::size_t response,
+                                              const Eigen::VectorXcd& others) {
+  if (others.size() == 0) return std::nullopt;
+  const int mode = analysis.mechanism_modes[response];
+  if (analysis.responses[response].mode()->choice.counts_damping()) {
+    Eigen::Index nearest = 0;
+    (others.array() - analysis.damped_modes(mode)).abs().minCoeff(&nearest);
+    return others(nearest);
   }
-  return std::nullopt;
+  return mode < others.size() ? std::optional(others(mode)) : std::nullopt;
 }
 
 void add_missing_stress(const TrustedRun& run, const std::vector<const Response*>& responses,
@@ -71,20 +78,26 @@ void add_turning(const TrustedRun& run, const std::vector<const Response*>& resp
   const Analysis& analysis = run.analysis;
   const State& state = analysis.vibrating->initial.state;
   if (!analysis.modes_left_out.empty() || state.v.isZero(0.0)) return;
-  const Model& model = model_of_modes(analysis);
+  const Mechanism& mechanism = model_of_modes(analysis).mechanism;
   std::vector<std::string> told, names;
   const Response* frequency = nullptr;
   for (const bool is_damped : {false, true}) {
-    std::optional<LinearizedModes> turning;
+    std::optional<Eigen::VectorXcd> turning;
     for (const Response* response : responses) {
       const ModeChoice& choice = response->mode()->choice;
       if (choice.counts_damping() != is_damped) continue;
-      const MotionAxes axes(model.mechanism, state, axes_of(choice));
+      const MotionAxes axes(mechanism, state, axes_of(choice));
       if (axes.kind() == MotionAxes::Kind::rotor) continue;  // is right
-      if (!turning) turning.emplace(model, state, is_damped, MotionAxes::Kind::turning);
-      const double shown = analysis.reductions[response - analysis.responses.data()].value;
-      const double other = number_in_turning_axes(*turning, choice).value_or(shown);
-      if (std::abs(other - shown) <= small_shift * std::abs(shown)) continue;
+      if (!turning) {
+        turning = modes_of(linearize(mechanism, state, turning_of(mechanism, state), is_damped));
+      }
+      const std::size_t i = response - analysis.responses.data();
+      const auto mode = same_mode(analysis, i, *turning);
+      if (!mode) continue;
+      const double shown = analysis.reductions[i].value, other = number_of(choice.of, *mode);
+      const double decay = is_damped ? analysis.damped_modes(analysis.mechanism_modes[i]).real()
+                                     : mode->real();  // a ratio hides how that changes
+      if (is_near(other, shown) && is_near(mode->real(), decay)) continue;
       told.push_back(fmt::format("\"{}\" is {} and {}", response->name,
                                  number_text(run, *response, shown),
                                  number_text(run, *response, other)));
@@ -93,7 +106,7 @@ void add_turning(const TrustedRun& run, const std::vector<const Response*>& resp
     }
   }
   if (names.empty()) return;
-  const double speed = fastest_turn(model.mechanism, state).omega.norm();
+  const double speed = fastest_turn(mechanism, state).omega.norm();
   const std::string beside =
       speed > 0.0 && frequency != nullptr
           ? fmt::format(
