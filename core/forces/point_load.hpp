@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/load_kind.hpp"
 #include "core/base/time_law.hpp"
 #include "core/forces/relative_kinematics.hpp"
 #include "core/frame/marker.hpp"
@@ -17,8 +18,6 @@ enum class LoadDirection {
   space,  ///< keeps its global direction
   body    ///< follows the marker: frame and elastic rotation
 };
-
-enum class LoadKind { force, torque };
 
 /// The numbers of a force or torque, which may depend on the design.
 template <class Scalar>

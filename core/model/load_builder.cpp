@@ -36,7 +36,7 @@ class LoadBuilder {
     if (load.over) return over_joint(load);
     PointLoadTopology topology;
     topology.name = load_.name;
-    topology.kind = load_kind(load);
+    topology.kind = load.kind;
     topology.direction = load.follows_body ? LoadDirection::body : LoadDirection::space;
     const auto parts = parts_of<PointLoadData>([&](const auto& design) {
       PointLoadData<ScalarOf<decltype(design)>> numbers;
@@ -118,7 +118,7 @@ class LoadBuilder {
     const JointForceTopology along = joint_topology(joint, load.over->coordinate);
     LoadOverJointTopology topology;
     topology.name = load_.name;
-    topology.kind = load_kind(load);
+    topology.kind = load.kind;
     topology.direction = load.follows_body ? LoadDirection::body : LoadDirection::space;
     topology.coordinate = along.coordinate;
     topology.sense = along.sense;
@@ -163,10 +163,6 @@ class LoadBuilder {
 
   /// The sides of a joint among the places.
   Sides sides_from(std::size_t first) const { return Sides(places_).subspan(first, 2); }
-
-  static LoadKind load_kind(const PointLoad& load) {
-    return load.is_force() ? LoadKind::force : LoadKind::torque;
-  }
 
   /// @pre its own body is attached
   template <class Scalar, class Data>

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/base/load_kind.hpp"
 #include "core/scene/body_constants.hpp"
 #include "core/scene/kind_table.hpp"
 #include "core/scene/number.hpp"
@@ -257,12 +258,10 @@ struct JointCoordinate {
   DrivenCoordinate coordinate = DrivenCoordinate::angle;
 };
 
-enum class PointLoadKind { force, torque };
-
 /// A force on a point of a body, or spread evenly along a stretch of it, or a torque on a body:
 /// value(t) · direction.
 struct PointLoad {
-  PointLoadKind kind = PointLoadKind::force;
+  LoadKind kind = LoadKind::force;
   std::string body = {};
   /// At t = 0, global axes [m]; of a torque on a beam the place whose rotation does the work.
   Point at = {};
@@ -274,7 +273,7 @@ struct PointLoad {
   /// Of the part of a stretch that lies on one frame of a beam: the whole of it, which has the value.
   std::optional<std::array<Point, 2>> whole = {};
 
-  bool is_force() const { return kind == PointLoadKind::force; }
+  bool is_force() const { return kind == LoadKind::force; }
   const char* unit() const { return is_force() ? "N" : "N m"; }
 };
 

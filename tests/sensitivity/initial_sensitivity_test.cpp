@@ -160,7 +160,7 @@ ProblemFile cantilever(const NamedBeam& coordinates) {
   beam.to = tip;
   beam.frame = coordinates.frame;
   if (coordinates.is_reduced) beam.reduction = CraigBampton{2, {}};
-  PointLoad force{PointLoadKind::force, "beam", tip, {0.0, 1.0, 0.0}, {}, false};
+  PointLoad force{LoadKind::force, "beam", tip, {0.0, 1.0, 0.0}, {}, false};
   force.value = ConstantFunction{load};
   problem.scene.loads = {{"weight", force}};
   problem.effects.spatial_motion = coordinates.spatial;

@@ -203,14 +203,14 @@ SampleScene spatial_joints_sample() {
   // About the axis of a joint that is driven along it, and about that of a universal one.
   JointForce twist{"sleeve", DrivenCoordinate::angle, 0.5, 0.02, 0.0, {}};
   JointForce cardan_friction{"cardan", DrivenCoordinate::angle, 0.4, 0.05, 0.1, {}};
-  PointLoad wind{PointLoadKind::force, "boom", tip, {0.6, -0.8, 0.0}, {}, false};
+  PointLoad wind{LoadKind::force, "boom", tip, {0.6, -0.8, 0.0}, {}, false};
   wind.value =
       HarmonicFunction{write.variable("wind", 2.0), 20.0, write.variable("phase", 0.4), 0.5};
-  PointLoad jet{PointLoadKind::force, "boom", between, {0.0, 0.6, 0.8}, {}, true};
+  PointLoad jet{LoadKind::force, "boom", between, {0.0, 0.6, 0.8}, {}, true};
   jet.value = RampToSpeedDrive{write.variable("jet", 30.0), 0.04};
-  PointLoad couple{PointLoadKind::torque, "boom", between, {0.6, 0.0, 0.8}, {}, false};
+  PointLoad couple{LoadKind::torque, "boom", between, {0.6, 0.0, 0.8}, {}, false};
   couple.value = PolynomialFunction{{0.05, write.variable("couple", 1.0)}};
-  PointLoad rotor{PointLoadKind::torque, "block", block_at, {0.0, 1.0, 0.0}, {}, true};
+  PointLoad rotor{LoadKind::torque, "block", block_at, {0.0, 1.0, 0.0}, {}, true};
   rotor.value = ConstantFunction{0.07};
   SpringDamper string{{"boom", "plate"},
                       {between, plate_at},
@@ -296,11 +296,11 @@ SampleScene planar_joints_sample() {
   flap_spring.motor = HarmonicFunction{write.variable("flap_motor", 0.05), 20.0, 0.3, 0.0};
   JointForce hub_friction{"hub", DrivenCoordinate::angle, 0.2, 0.03, 0.0, {}};
   JointForce buffer{"guide", moves, 300.0, 2.0, write.variable("buffer_rest", 0.01), {}};
-  PointLoad push{PointLoadKind::force, "link", between, {0.6, 0.8, 0.0}, {}, true};
+  PointLoad push{LoadKind::force, "link", between, {0.6, 0.8, 0.0}, {}, true};
   push.value = ConstantFunction{write.variable("push", 1.2)};
-  PointLoad lift{PointLoadKind::force, "drone", drone_at, {0.0, 1.0, 0.0}, {}, false};
+  PointLoad lift{LoadKind::force, "drone", drone_at, {0.0, 1.0, 0.0}, {}, false};
   lift.value = HarmonicFunction{1.0, 10.0, 0.2, 3.0};
-  PointLoad couple{PointLoadKind::torque, "link", between, {0.0, 0.0, -1.0}, {}, false};
+  PointLoad couple{LoadKind::torque, "link", between, {0.0, 0.0, -1.0}, {}, false};
   couple.value = PolynomialFunction{{0.01, write.variable("couple", 0.5)}};
   SpringDamper string{
       {"link", "drone"}, {between, drone_at}, write.variable("string", 30.0), 0.3, {}};

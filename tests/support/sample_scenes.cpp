@@ -76,7 +76,7 @@ SampleScene reduced_sample() {
       joint("guide", JointType::prismatic, ground_name, "slider", slider_from, {1, 0, 0}),
       joint("weld", JointType::fixed, "slider", "flag", slider_to, {0, 0, 1}),
       joint("hinge", JointType::revolute, ground_name, "arm", arm_hinge, {0, 0, 1})};
-  PointLoad wind{PointLoadKind::force, "flag", flag_to, {1.0, 0.0, 0.0}, {}, false};
+  PointLoad wind{LoadKind::force, "flag", flag_to, {1.0, 0.0, 0.0}, {}, false};
   wind.value = HarmonicFunction{write.variable("wind", 1.0), 30.0, 0.2, 0.0};
   SpringDamper string{{"rod", "arm"}, {between, arm_to}, write.variable("string", 50.0), 0.4, {}};
   JointForce hinge_spring{"hinge", DrivenCoordinate::angle, 1.0, 0.01, 0.05, {}};

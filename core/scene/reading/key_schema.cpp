@@ -254,8 +254,8 @@ void take_responses(Json& definition) {
 
 void take_loads(Json& definition, const AlongCoordinate& either) {
   TypedSchema schema(definition);
-  schema.add("force", PointLoad{PointLoadKind::force});
-  schema.add("torque", PointLoad{PointLoadKind::torque});
+  schema.add("force", PointLoad{LoadKind::force});
+  schema.add("torque", PointLoad{LoadKind::torque});
   schema.add("spring", SpringDamper());
   schema.add("joint", JointForce(), either);
 }

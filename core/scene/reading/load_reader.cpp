@@ -50,7 +50,7 @@ TimeFunction read_value(const JsonNode& node, const Quantity& quantity, const Sc
   return function;
 }
 
-template <PointLoadKind kind>
+template <LoadKind kind>
 PointLoad read_point_load(const JsonNode& node, const Scene& scene, NumberReader& numbers) {
   PointLoad load{kind};
   read_keys(node, numbers, [&](Keys& keys) { describe(keys, load); }, {"type"});
@@ -136,8 +136,8 @@ Load read_load(const std::string& name, const JsonNode& node, const Scene& scene
                NumberReader& numbers) {
   using Element = decltype(Load::element);
   using Read = std::function<Element(const JsonNode&, const Scene&, NumberReader&)>;
-  static const Choice<Read> elements[] = {{"force", read_point_load<PointLoadKind::force>},
-                                          {"torque", read_point_load<PointLoadKind::torque>},
+  static const Choice<Read> elements[] = {{"force", read_point_load<LoadKind::force>},
+                                          {"torque", read_point_load<LoadKind::torque>},
                                           {"spring", read_spring},
                                           {"joint", read_joint_force}};
   return {name, read_choice(node.at("type"), elements)(node, scene, numbers)};

@@ -163,7 +163,7 @@ constexpr double jerk = 24.0, mass = 1.7;
 Model pushed_mass() {
   Scene scene;
   scene.bodies = {{"mass", PointMass{{0.3, 0.0, 0.0}, mass}}};
-  scene.loads = {{"push", PointLoad{PointLoadKind::force,
+  scene.loads = {{"push", PointLoad{LoadKind::force,
                                     "mass",
                                     {0.3, 0.0, 0.0},
                                     {1.0, 0.0, 0.0},

@@ -221,7 +221,7 @@ Scene slider_crank(ReferenceCondition frame, double young) {
                   joint("guide", JointType::point_on_line, ground_name, "slider", end)};
   scene.joints[0].drive = RampToSpeedDrive{6.0, 0.2};
   scene.joints[3].axis = {1, 0, 0};
-  PointLoad push{PointLoadKind::force, "rod", {0.21, 0.04, 0.0}, {0.0, -1.0, 0.0}, {}, false};
+  PointLoad push{LoadKind::force, "rod", {0.21, 0.04, 0.0}, {0.0, -1.0, 0.0}, {}, false};
   push.value = RampToSpeedDrive{4.0, 0.1};
   scene.loads = {{"push", push}};
   return scene;

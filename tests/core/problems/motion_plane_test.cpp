@@ -67,14 +67,13 @@ TEST(PlaneOfACantilever, IsThatOfItsLoad) {
   const Point tip{0.7, 0.0, 0.0};
   const double slope = std::sqrt(0.5);
   const auto of_force =
-      plane_with(PointLoad{PointLoadKind::force, "beam", tip, {0.0, 1.0, 0.0}, {}, false});
+      plane_with(PointLoad{LoadKind::force, "beam", tip, {0.0, 1.0, 0.0}, {}, false});
   const auto of_torque =
-      plane_with(PointLoad{PointLoadKind::torque, "beam", tip, {0.0, -1.0, 0.0}, {}, false});
+      plane_with(PointLoad{LoadKind::torque, "beam", tip, {0.0, -1.0, 0.0}, {}, false});
   ASSERT_TRUE(of_force && of_torque);
   EXPECT_EQ(of_force->normal.cwiseAbs(), Eigen::Vector3d::UnitZ());
   EXPECT_EQ(of_torque->normal.cwiseAbs(), Eigen::Vector3d::UnitY());
-  EXPECT_FALSE(
-      plane_with(PointLoad{PointLoadKind::force, "beam", tip, {0.0, slope, slope}, {}, false}));
+  EXPECT_FALSE(plane_with(PointLoad{LoadKind::force, "beam", tip, {0.0, slope, slope}, {}, false}));
 }
 
 /// What leads out of the plane is said, each of it; without it the pendulum moves in the plane.
@@ -250,28 +249,27 @@ INSTANTIATE_TEST_SUITE_P(
                          {"spring",
                           JointForce{"more", DrivenCoordinate::displacement, 2.0, 0.0, 0.0, {}}}};
                    }},
-        OutOfPlane{
-            "load push",
-            [](Scene& scene) {
-              scene.loads = {
-                  {"push",
-                   PointLoad{PointLoadKind::force, "mass", {0.7, 0.0, 0.0}, {0, 0, 1}, {}, false}}};
-            }},
-        OutOfPlane{
-            "load push",
-            [](Scene& scene) {
-              scene.loads = {
-                  {"push",
-                   PointLoad{PointLoadKind::force, "mass", {0.7, 0.0, 0.1}, {0, 1, 0}, {}, false}}};
-            }},
-        OutOfPlane{
-            "load twist",
-            [](Scene& scene) {
-              scene.loads = {
-                  {"twist",
-                   PointLoad{
-                       PointLoadKind::torque, "mass", {0.7, 0.0, 0.0}, {1, 0, 0}, {}, false}}};
-            }}),
+        OutOfPlane{"load push",
+                   [](Scene& scene) {
+                     scene.loads = {
+                         {"push",
+                          PointLoad{
+                              LoadKind::force, "mass", {0.7, 0.0, 0.0}, {0, 0, 1}, {}, false}}};
+                   }},
+        OutOfPlane{"load push",
+                   [](Scene& scene) {
+                     scene.loads = {
+                         {"push",
+                          PointLoad{
+                              LoadKind::force, "mass", {0.7, 0.0, 0.1}, {0, 1, 0}, {}, false}}};
+                   }},
+        OutOfPlane{"load twist",
+                   [](Scene& scene) {
+                     scene.loads = {
+                         {"twist",
+                          PointLoad{
+                              LoadKind::torque, "mass", {0.7, 0.0, 0.0}, {1, 0, 0}, {}, false}}};
+                   }}),
     named_by(&OutOfPlane::reason));
 
 /// A scene whose points are fixed, turned about z and shifted.

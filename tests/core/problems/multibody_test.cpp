@@ -178,7 +178,7 @@ struct Squeezer {
                         4530.0,
                         0.0,
                         0.07785};
-    PointLoad motor{PointLoadKind::torque, "K1", {0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, {}, false};
+    PointLoad motor{LoadKind::torque, "K1", {0.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, {}, false};
     motor.value = ConstantFunction{0.033};
     scene.loads = {{"spring", spring}, {"motor", motor}};
     return scene;
@@ -228,8 +228,7 @@ struct SpringSliderCrank {
                         Number::bound(0),
                         Number::bound(1),
                         1.0};
-    PointLoad force{PointLoadKind::force, "rod", {far.x(), far.y(), 0.0},
-                    {1.0, 0.0, 0.0},      {},    false};
+    PointLoad force{LoadKind::force, "rod", {far.x(), far.y(), 0.0}, {1.0, 0.0, 0.0}, {}, false};
     force.value = ConstantFunction{1.0};
     scene.loads = {{"spring", spring}, {"force", force}};
     return scene;

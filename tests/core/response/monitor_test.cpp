@@ -279,7 +279,7 @@ TEST(ElasticRotation, OfACantileverIsThatOfStatics) {
     if (is_reduced) {
       std::get<BeamBody>(scene.bodies.front().shape).reduction = CraigBampton{2, {}};
     }
-    PointLoad push{PointLoadKind::force, "beam", {length, 0.0, 0.0}, {0.0, 1.0, 0.0}, {}, false};
+    PointLoad push{LoadKind::force, "beam", {length, 0.0, 0.0}, {0.0, 1.0, 0.0}, {}, false};
     push.value = ConstantFunction{force};
     scene.loads = {{"push", push}};
     Model model = build_model(scene, {}, {}, {});
@@ -357,7 +357,7 @@ TEST(ElasticEnergyResponse, OfACantileverIsThatOfStatics) {
   Scene scene = swinging_beam(length, RectangleSection{side, side}, 3);
   scene.gravity = {0.0, 0.0, 0.0};
   scene.joints.front().type = JointType::fixed;
-  PointLoad push{PointLoadKind::force, "beam", {length, 0.0, 0.0}, {0.0, 1.0, 0.0}, {}, false};
+  PointLoad push{LoadKind::force, "beam", {length, 0.0, 0.0}, {0.0, 1.0, 0.0}, {}, false};
   push.value = ConstantFunction{force};
   scene.loads = {{"push", push}};
   ProblemFile problem;
