@@ -162,13 +162,14 @@ class PeriodicSearch {
       if (!complaint_.empty()) throw SimulationError(complaint_ + advice_);
       throw;
     }
+    if (is_known()) return attempt;
     complaint_ = complaint_about_repetition(mechanism_, attempt.trajectory, one_.period);
     if (!complaint_.empty()) throw SimulationError(complaint_ + advice_);
     return attempt;
   }
 
   PeriodicStart found(const Attempt& attempt) {
-    double growth = map_->growth();
+    double growth = is_known() ? one_.similar->periodic->growth : map_->growth();
     if (growth > unstable) {
       // The map may be that of a motion on the way, whose disturbances grow otherwise.
       make_map(attempt.trajectory);
@@ -187,6 +188,9 @@ class PeriodicSearch {
   }
 
  private:
+  /// Whether a similar motion repeats itself, and is stable.
+  bool is_known() const { return one_.similar && one_.similar->periodic; }
+
   Attempt search() {
     Attempt attempt = beside_similar();
     double rate = map_ ? 0.0 : 1.0;
@@ -208,7 +212,7 @@ class PeriodicSearch {
   /// From where a similar motion begins, whose map will do; without a map if there is none.
   Attempt beside_similar() {
     const Trajectory* similar = one_.similar;
-    if (similar == nullptr || !similar->periodic || similar->recomputed()) return {};
+    if (!is_known() || similar->recomputed()) return {};
     const auto& map = similar->periodic->map;
     if (map->states().units().size() != states_.units().size()) return {};
     try {
@@ -224,7 +228,7 @@ class PeriodicSearch {
   Attempt first_attempt() {
     ++simulations_;
     const Trajectory transient = simulate_plainly(mechanism_, one_, {});
-    complaint_ = complaint_about_repetition(mechanism_, transient, one_.period);
+    if (!is_known()) complaint_ = complaint_about_repetition(mechanism_, transient, one_.period);
     advice_ = advice_to_be_exact(mechanism_, transient);
     return simulated(end_of(transient));
   }

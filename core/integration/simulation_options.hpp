@@ -20,8 +20,8 @@ struct SimulationOptions : TimeIntegration {
   /// What the states of the trajectory may take [byte]. Where they do not fit, some are kept as
   /// checkpoints, and the stretches between are simulated again when they are asked for.
   double memory = std::numeric_limits<double>::infinity();
-  /// A motion of this mechanism, or of one close by, with other steps: what repeats itself is looked
-  /// for beside it. Null: from the start.
+  /// A motion of this mechanism, or of one close by, with other steps, which is known to be stable:
+  /// equilibria, and what repeats itself, are looked for beside it. Null: from the start.
   const Trajectory* similar = nullptr;
 };
 

@@ -75,7 +75,14 @@ TimeLoop::TimeLoop(Mechanism& mechanism, const SimulationOptions& options, Insta
 }
 
 StepState TimeLoop::make_start(const SchemeState* start) const {
-  if (!start) return equations_.make_state(initial_state(mechanism_).state);
+  if (!start) {
+    const Trajectory* similar = options_.similar;
+    if (!similar || similar->recomputed()) {
+      return equations_.make_state(initial_state(mechanism_).state);
+    }
+    const State beside = similar->state_at(0);
+    return equations_.make_state(initial_state(mechanism_, &beside).state);
+  }
   StepState state = equations_.make_state(*start);
   state.w = start->w;
   return state;

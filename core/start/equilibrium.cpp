@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -287,13 +288,14 @@ bool Equilibrium::solve_from(const Eigen::VectorXd& target, InitialState& at) {
   Eigen::VectorXd strains = strains_.at(at.state.q);
   double previous = std::numeric_limits<double>::infinity(), least = previous;
   int stuck_steps = 0;
+  std::optional<LinearSolver> solver;
   for (int iteration = 0; iteration < max_newton_steps; ++iteration) {
     const Eigen::SparseMatrix<double> matrix = mixed_jacobian(at, strains);
-    LinearSolver solver(matrix);
-    if (!solver.factorize(matrix)) return false;
+    if (!solver) solver.emplace(matrix);
+    if (!solver->factorize(matrix)) return false;
     const Eigen::VectorXd left = target - residual(at);
     Eigen::VectorXd step = left;
-    solver.solve(step);
+    solver->solve(step);
     if (!step.allFinite()) return false;
     const double size = step.head(n_).cwiseQuotient(mechanism_.scale).lpNorm<Eigen::Infinity>();
     const bool is_stuck = size > 0.3 * previous;
@@ -314,15 +316,29 @@ bool Equilibrium::solve_from(const Eigen::VectorXd& target, InitialState& at) {
 
 Equilibrium::Found Equilibrium::look_for(const InitialState& start) {
   InitialState reached = follow(start, 1.0);
-  const bool is_plausible = deformation(reached.state) < far_deformed &&
-                            !is_dead_point(start, reached) &&
-                            elastic_stability(mechanism_, reached.state).is_stable;
-  if (is_plausible) return {std::move(reached), true};
+  if (is_plausible(start, reached)) return {std::move(reached), true};
   try {
     return {follow(start, slow_part), false};
   } catch (const SimulationError&) {  // what was found at once is judged
     return {std::move(reached), false};
   }
+}
+
+bool Equilibrium::is_plausible(const InitialState& start, const InitialState& found) const {
+  return deformation(found.state) < far_deformed && !is_dead_point(start, found) &&
+         elastic_stability(mechanism_, found.state).is_stable;
+}
+
+std::optional<InitialState> Equilibrium::look_beside(const InitialState& start,
+                                                     const State& similar) {
+  if (similar.q.size() != n_ || similar.lambda.size() != m_) return std::nullopt;
+  InitialState near = start;
+  near.state = similar;
+  near.state.time = start.state.time;
+  if (!solve_from(Eigen::VectorXd::Zero(3 * n_ + 3 * m_), near) || !is_plausible(start, near)) {
+    return std::nullopt;
+  }
+  return near;
 }
 
 InitialState Equilibrium::find(InitialState start) {
@@ -331,9 +347,12 @@ InitialState Equilibrium::find(InitialState start) {
   return look_for(start).state;
 }
 
-InitialState Equilibrium::solve(InitialState start) {
+InitialState Equilibrium::solve(InitialState start, const State* similar) {
   start.position_multipliers = of_frames(start.position_multipliers);
   start.is_equilibrium = true;
+  if (similar) {
+    if (std::optional<InitialState> beside = look_beside(start, *similar)) return *beside;
+  }
   auto [reached, is_plausible] = look_for(start);
   if (is_plausible) return reached;
   if (is_dead_point(start, reached)) {

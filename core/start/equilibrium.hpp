@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <Eigen/SparseCore>
@@ -37,9 +38,10 @@ class Equilibrium {
   explicit Equilibrium(Mechanism& mechanism);
 
   /// Starts from consistent initial values.
+  /// @param similar  see initial_state()
   /// @throws SimulationError if Newton's method fails
   /// @throws UnstableEquilibrium
-  InitialState solve(InitialState start);
+  InitialState solve(InitialState start, const State* similar = nullptr);
   /// The same, stable or not.
   InitialState find(InitialState start);
 
@@ -78,6 +80,9 @@ class Equilibrium {
     bool is_plausible;  ///< stable, and neither far deformed nor at a dead point
   };
   Found look_for(const InitialState& start);
+  bool is_plausible(const InitialState& start, const InitialState& found) const;
+  /// Near a state of as many unknowns, by Newton's method alone; nothing where that leads nowhere.
+  std::optional<InitialState> look_beside(const InitialState& start, const State& similar);
   /// The largest elastic coordinate over its scale.
   double deformation(const State& state) const;
   /// At what share of the loads members buckle; not a number if that cannot be said.

@@ -56,12 +56,12 @@ bool jumps_at_start(Mechanism& mechanism, State state) {
   return before != after;
 }
 
-InitialState initial_state(Mechanism& mechanism) {
+InitialState initial_state(Mechanism& mechanism, const State* similar) {
   Start start(mechanism);
   InitialState initial = start.undeformed();
   if (!mechanism.starts_in_equilibrium) return initial;
   initial.state.time = just_before_start;
-  initial = Equilibrium(mechanism).solve(std::move(initial));
+  initial = Equilibrium(mechanism).solve(std::move(initial), similar);
   initial.state.time = 0.0;
   if (jumps_at_start(mechanism, initial.state)) start.set_accelerations(initial.state);
   return initial;

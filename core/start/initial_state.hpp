@@ -17,8 +17,9 @@ bool jumps_at_start(Mechanism& mechanism, State state);
 /// velocities (the closest with Φ̇ = 0), accelerations and multipliers from R = 0 with Φ̈ = 0; where
 /// the mechanism asks for it, elastic coordinates in equilibrium with what acts just before t = 0
 /// (equilibrium.hpp).
+/// @param similar  a start beside which an equilibrium is looked for first; null: none is known
 /// @throws SimulationError if the mechanism cannot be assembled or is singular
-InitialState initial_state(Mechanism& mechanism);
+InitialState initial_state(Mechanism& mechanism, const State* similar = nullptr);
 
 /// Elastic coordinates in equilibrium with what acts just before t = 0, and with nothing that jumps
 /// then, whether the mechanism asks for it or not; stable or not. Vibrations are small about such a

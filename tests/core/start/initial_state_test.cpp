@@ -236,6 +236,25 @@ TEST_P(EquilibriumOfASample, HasNoElasticAccelerationAndMeetsAllEquations) {
   }
 }
 
+/// Beside that of another design, and beside states that lead nowhere or are of another mechanism.
+TEST_P(EquilibriumOfASample, IsFoundBesideAnother) {
+  Model model = build_at(sample_.design);
+  const State expected = initial_state(model.mechanism).state;
+  Design<double> design = sample_.design;
+  for (double& x : design) x *= 1.05;
+  Model moved = build_at(design);
+  const State close = initial_state(moved.mechanism).state;
+  State nowhere = close, other = close;
+  nowhere.q.setConstant(std::numeric_limits<double>::quiet_NaN());
+  other.q.conservativeResize(close.q.size() - 1);
+  for (const State& similar : {close, nowhere, other}) {
+    const State found = initial_state(model.mechanism, &similar).state;
+    EXPECT_LE((found.q - expected.q).lpNorm<Eigen::Infinity>(), 1e-11);
+    EXPECT_LE((found.lambda - expected.lambda).norm(), 1e-8 * expected.lambda.norm());
+    EXPECT_EQ(found.time, expected.time);
+  }
+}
+
 TEST_P(EquilibriumOfASample, IsDifferentiated) {
   Model model = build_at(sample_.design);
   const InitialState initial = initial_state(model.mechanism);
