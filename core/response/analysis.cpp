@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -158,8 +159,11 @@ SimulationOptions options_of(const ProblemFile& problem) {
 
 void require_memory(const std::vector<Response>& responses, const TimeIntegration& options) {
   double channels = 1.0;  // the time
+  std::set<const Signal*> signals;
   for (const Response& response : responses) {
-    if (response.history()) channels += response.history()->signal->channels();
+    if (!response.history()) continue;
+    const Signal* signal = response.history()->signal.get();
+    if (signals.insert(signal).second) channels += signal->channels();
   }
   const double steps = options.end_time / options.step;
   const double needed = sizeof(double) * channels * steps, there = machine_memory();
@@ -172,7 +176,7 @@ void require_memory(const std::vector<Response>& responses, const TimeIntegratio
 }
 
 /// The history of a response, measured against the rigid mechanism if need be.
-Eigen::MatrixXd against_rigid(const Response& response, Eigen::MatrixXd history,
+Eigen::MatrixXd against_rigid(const Response& response, const Eigen::MatrixXd& history,
                               const Analysis& analysis) {
   const std::optional<std::size_t>& reference = response.history()->rigid_response;
   if (!reference) return history;
@@ -192,11 +196,13 @@ Reduction reduce_response(std::size_t i, ShortWindow short_window, Analysis& ana
   if (short_window == ShortWindow::unknown && !response.holds_steps(analysis.trajectory.time)) {
     return {std::numeric_limits<double>::quiet_NaN(), {}, {}};
   }
-  if (response.history()) {
-    Eigen::MatrixXd& history = analysis.histories[i];
-    history = against_rigid(response, std::move(history), analysis);
-    history = mapped_history(response, analysis.trajectory.time, std::move(history));
-    return reduce_history(response, analysis.trajectory, history, analysis.breaks);
+  if (const ResponseHistory* history = response.history()) {
+    if (history->rigid_response || history->map) {
+      analysis.histories.set(
+          i, mapped_history(response, analysis.trajectory.time,
+                            against_rigid(response, analysis.histories[i], analysis)));
+    }
+    return reduce_history(response, analysis.trajectory, analysis.histories[i], analysis.breaks);
   }
   Reduction constant;
   if (response.expression()) {
@@ -299,7 +305,10 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
   analysis->breaks = instants_at(time_breaks(problem.scene, options), analysis->trajectory.time);
   analysis->histories = recorder.take(analysis->trajectory.steps() + 1);
   for (std::size_t i = 0; i < problem.responses.size(); ++i) {
-    if (is_counted_angle(problem.responses[i])) count_turns(analysis->histories[i]);
+    if (!is_counted_angle(problem.responses[i])) continue;
+    Eigen::MatrixXd angles = analysis->histories[i];
+    count_turns(angles);
+    analysis->histories.set(i, std::move(angles));
   }
   set_modes(*analysis);
   set_rigid_mechanism(problem, x, *analysis);

@@ -8,6 +8,7 @@
 #include "core/mobility/rigid_path.hpp"
 #include "core/model/model.hpp"
 #include "core/response/full_mechanism.hpp"
+#include "core/response/histories.hpp"
 #include "core/response/response.hpp"
 
 namespace pleuel {
@@ -20,8 +21,8 @@ struct Analysis {
   Trajectory trajectory;
   BrokenInstants breaks;  ///< of the trajectory, where something that acts jumps or has a kink
   std::vector<Response> responses;
-  std::vector<Reduction> reductions;       ///< one a response
-  std::vector<Eigen::MatrixXd> histories;  ///< one a response; empty for constants
+  std::vector<Reduction> reductions;  ///< one a response
+  Histories histories;
   /// With all modes, where natural frequencies are asked for and the model leaves some out; else
   /// null.
   std::unique_ptr<FullMechanism> full;
@@ -61,7 +62,7 @@ enum class ShortWindow {
 /// Builds and simulates the mechanism of a problem at a design, and reduces its responses.
 /// @param problem  with what its tolerance of effects leaves out (effect_measurement.hpp)
 /// @param x        design variables [SI]
-/// @param similar  a motion of another division, beside which one that repeats itself is looked for
+/// @param similar  a motion of another division, beside which one is looked for (SimulationOptions)
 /// @throws SimulationError
 /// @throws InputError for a window with less than two steps, where it is refused
 /// @throws std::logic_error for a problem with load cases, which are simulated one by one

@@ -1,6 +1,8 @@
 #include "core/response/make_responses.hpp"
 
 #include <algorithm>
+#include <map>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -33,15 +35,29 @@ DesignConstant mass_of(const ResponseSettings& settings, const Model& model) {
   return mass;
 }
 
+/// By what they observe.
+using Signals = std::map<ResponseSettings, std::shared_ptr<Signal>>;
+
+/// Without what does not change what is observed. Averages of some are of other places than peaks.
+ResponseSettings observed_by(ResponseSettings settings) {
+  settings.name.clear();
+  settings.from = settings.to = std::nullopt;
+  settings.unit.clear();
+  settings.unit_scale = 1.0;
+  return settings;
+}
+
 class ResponseMaker {
  public:
-  /// @param norm  of the model; null without redundant constraints
+  /// @param norm     of the model; null without redundant constraints
+  /// @param signals  what is observed already
   ResponseMaker(const ResponseSettings& settings, const Model& model, const Model& with_all_modes,
-                std::shared_ptr<LeastNorm> norm)
+                std::shared_ptr<LeastNorm> norm, Signals& signals)
       : settings_(settings),
         model_(model),
         with_all_modes_(with_all_modes),
-        norm_(std::move(norm)) {}
+        norm_(std::move(norm)),
+        signals_(signals) {}
 
   Response make() {
     Response response{settings_.name, std::string(quantity_of(settings_).unit), {}};
@@ -65,7 +81,9 @@ class ResponseMaker {
   int variables() const { return model_.mechanism.system->variables(); }
 
   ResponseHistory history() {
-    ResponseHistory history{make_signal(), settings_.over_time, settings_.from, settings_.to};
+    std::shared_ptr<Signal>& signal = signals_[observed_by(settings_)];
+    if (!signal) signal = make_signal();
+    ResponseHistory history{signal, settings_.over_time, settings_.from, settings_.to};
     if (settings_.type == ResponseType::energy_balance) {
       history.map = std::make_unique<BalanceMap>();
     }
@@ -161,6 +179,7 @@ class ResponseMaker {
   const Model& model_;
   const Model& with_all_modes_;
   std::shared_ptr<LeastNorm> norm_;
+  Signals& signals_;
 };
 
 }  // namespace
@@ -176,10 +195,11 @@ std::vector<Response> make_responses(const std::vector<ResponseSettings>& settin
   if (!model.mechanism.system->left_out().empty()) {
     norm = std::make_shared<LeastNorm>(model.mechanism);
   }
+  Signals signals;
   std::vector<Response> responses;
   std::size_t against_rigid = 0;  // the rigid mechanism has these only, in this order
   for (const ResponseSettings& setting : settings) {
-    responses.push_back(ResponseMaker(setting, model, with_all_modes, norm).make());
+    responses.push_back(ResponseMaker(setting, model, with_all_modes, norm, signals).make());
     if (setting.against == DeflectionReference::rigid_mechanism) {
       std::get<ResponseHistory>(responses.back().source).rigid_response = against_rigid++;
     }

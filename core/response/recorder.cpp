@@ -1,34 +1,42 @@
 #include "core/response/recorder.hpp"
 
+#include <map>
+
 #include "core/base/machine_memory.hpp"
 
 namespace pleuel {
 
-Recorder::Recorder(const std::vector<Response>& responses, int instants) : responses_(responses) {
+Recorder::Recorder(const std::vector<Response>& responses, int instants) {
+  std::map<const Signal*, std::size_t> known;
   for (const Response& response : responses) {
-    const ResponseHistory* observed = response.history();
-    Eigen::MatrixXd& history = histories_.emplace_back(observed ? observed->signal->channels() : 0,
-                                                       observed ? instants : 0);
-    prefer_huge_pages(history.data(), history.size());
+    Signal* signal = response.history() ? response.history()->signal.get() : nullptr;
+    const auto [place, is_new] = known.try_emplace(signal, observed_.size());
+    places_.push_back(place->second);
+    if (!is_new) continue;
+    auto history = signal ? std::make_shared<Eigen::MatrixXd>(signal->channels(), instants)
+                          : std::make_shared<Eigen::MatrixXd>();
+    prefer_huge_pages(history->data(), history->size());
+    observed_.push_back({signal, std::move(history)});
   }
 }
 
 void Recorder::see(int step, const State& state) {
-  for (std::size_t i = 0; i < responses_.size(); ++i) {
-    const ResponseHistory* observed = responses_[i].history();
-    if (!observed) continue;
-    if (step == histories_[i].cols()) {
-      histories_[i].conservativeResize(Eigen::NoChange, step + step / 8 + 64);
+  for (const auto& [signal, history] : observed_) {
+    if (!signal) continue;
+    if (step == history->cols()) {
+      history->conservativeResize(Eigen::NoChange, step + step / 8 + 64);
     }
-    observed->signal->observe(state, histories_[i].col(step));
+    signal->observe(state, history->col(step));
   }
 }
 
-std::vector<Eigen::MatrixXd> Recorder::take(int instants) {
-  for (Eigen::MatrixXd& history : histories_) {
-    if (history.cols() > instants) history.conservativeResize(Eigen::NoChange, instants);
+Histories Recorder::take(int instants) {
+  for (const auto& [signal, history] : observed_) {
+    if (history->cols() > instants) history->conservativeResize(Eigen::NoChange, instants);
   }
-  return std::move(histories_);
+  Histories histories;
+  for (const std::size_t place : places_) histories.add(observed_[place].history);
+  return histories;
 }
 
 }  // namespace pleuel

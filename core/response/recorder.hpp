@@ -1,15 +1,17 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "core/response/histories.hpp"
 #include "core/response/response.hpp"
 
 namespace pleuel {
 
 /// Observes the signals of all responses while the mechanism is simulated, so that no state is
-/// needed twice.
+/// needed twice. A signal that several responses share is observed once.
 class Recorder {
  public:
   /// @param responses  must outlive this
@@ -18,13 +20,16 @@ class Recorder {
 
   void see(int step, const State& state);
 
-  /// The histories, one a response: channels × instants; empty for constants.
   /// @param instants  as many as were seen
-  std::vector<Eigen::MatrixXd> take(int instants);
+  Histories take(int instants);
 
  private:
-  const std::vector<Response>& responses_;
-  std::vector<Eigen::MatrixXd> histories_;
+  struct Observed {
+    Signal* signal;  ///< null: nothing, for constants
+    std::shared_ptr<Eigen::MatrixXd> history;
+  };
+  std::vector<Observed> observed_;
+  std::vector<std::size_t> places_;  ///< of responses, in `observed_`
 };
 
 }  // namespace pleuel

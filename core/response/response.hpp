@@ -38,7 +38,7 @@ struct FatigueRule {
 
 /// A signal over time, reduced to a number.
 struct ResponseHistory {
-  std::unique_ptr<Signal> signal;
+  std::shared_ptr<Signal> signal;  ///< the same for all that observe the same
   OverTime over_time = OverTime::max;
   std::optional<double> from = {}, to = {};  ///< window of time that is reduced [s]
   /// From what is observed to what is shown and reduced; null: the same.

@@ -77,8 +77,8 @@ void ConstraintGuard::see(int step, const State& state) {
                   drift(worst), shortest_length(model_), advice));
 }
 
-void require_finite(const std::vector<Response>& responses,
-                    const std::vector<Eigen::MatrixXd>& histories, const Trajectory& trajectory) {
+void require_finite(const std::vector<Response>& responses, const Histories& histories,
+                    const Trajectory& trajectory) {
   std::optional<Eigen::Index> first;
   std::size_t which = 0;
   for (std::size_t i = 0; i < histories.size(); ++i) {

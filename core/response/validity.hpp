@@ -36,8 +36,8 @@ class ConstraintGuard {
 
 /// @throws SimulationError naming the response and the time, where a history is not finite: of
 ///         several, the first in time
-void require_finite(const std::vector<Response>& responses,
-                    const std::vector<Eigen::MatrixXd>& histories, const Trajectory& trajectory);
+void require_finite(const std::vector<Response>& responses, const Histories& histories,
+                    const Trajectory& trajectory);
 /// @throws SimulationError naming the response whose value is not finite
 void require_finite(const std::vector<Response>& responses,
                     const std::vector<Reduction>& reductions);

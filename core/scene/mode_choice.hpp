@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -30,6 +31,8 @@ struct ModeChoice {
   ModeNumber of = ModeNumber::frequency;
 
   bool counts_damping() const { return of != ModeNumber::frequency; }
+
+  auto operator<=>(const ModeChoice&) const = default;
 };
 
 /// `along y`, or `along (0.6, 0.8, 0)`.

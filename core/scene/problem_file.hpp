@@ -252,6 +252,8 @@ struct ResponseSettings {
   std::shared_ptr<const Expression> expression = {};  ///< expression
   std::string unit;         ///< as the user wants to see it: said, or that of a limit; may be empty
   double unit_scale = 1.0;  ///< SI value of that unit
+
+  auto operator<=>(const ResponseSettings&) const = default;
 };
 
 /// Whether the objective is to be small or large.

@@ -38,8 +38,8 @@ struct RefinedRun {
   std::string failure;  ///< empty: it succeeded; else nothing below is known
   Eigen::VectorXd values;
   Eigen::VectorXd time;
-  std::vector<Eigen::MatrixXd> histories;  ///< one a response; empty for constants
-  double work = 0.0;                       ///< steps × unknowns
+  Histories histories;
+  double work = 0.0;  ///< steps × unknowns
 
   bool has_failed() const { return !failure.empty(); }
 };

@@ -1,7 +1,6 @@
 #include "core/trust/round_off.hpp"
 
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <utility>
 
@@ -9,7 +8,6 @@
 #include "core/response/history_reduction.hpp"
 #include "core/response/make_responses.hpp"
 #include "core/response/recorder.hpp"
-#include "core/scene/packed_problem.hpp"
 #include "core/scene/response_kind.hpp"
 #include "core/scene/response_parts.hpp"
 #include "core/scene/shown_unit.hpp"
@@ -232,16 +230,8 @@ class RoundOff {
   /// The largest magnitudes over the simulation, in order.
   std::vector<double> measure(const std::vector<std::vector<Measure>>& measures) const {
     std::vector<ResponseSettings> settings;
-    std::map<std::string, std::size_t> places;  // many responses have one measure
-    std::vector<std::size_t> place_of;
     for (const auto& of_one : measures) {
-      for (Measure one : of_one) {
-        one.settings.name.clear();
-        one.settings.unit.clear();
-        const auto [place, is_new] = places.try_emplace(packed(one.settings), settings.size());
-        if (is_new) settings.push_back(one.settings);
-        place_of.push_back(place->second);
-      }
+      for (const Measure& one : of_one) settings.push_back(one.settings);
     }
     if (settings.empty()) return {};
     const std::vector<Response> responses = make_responses(settings, model_);
@@ -255,13 +245,13 @@ class RoundOff {
       const State state = trajectory.state_at(i * stride);
       recorder.see(i, state);
     }
-    std::vector<Eigen::MatrixXd> observed = recorder.take(instants);
-    std::vector<double> largest_of, all;
+    const Histories observed = recorder.take(instants);
+    std::vector<double> all;
     for (std::size_t i = 0; i < responses.size(); ++i) {
-      largest_of.push_back(
-          largest(mapped_history(responses[i], trajectory.time, std::move(observed[i]))));
+      all.push_back(largest(responses[i].history()->map
+                                ? mapped_history(responses[i], trajectory.time, observed[i])
+                                : observed[i]));
     }
-    for (const std::size_t place : place_of) all.push_back(largest_of[place]);
     return all;
   }
 

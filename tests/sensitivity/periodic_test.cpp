@@ -89,7 +89,8 @@ TEST_P(SteadyMachine, IsFoundWithinLessPeriodsThanARunUpTakes) {
 
 TEST_P(SteadyMachine, EndsWhereItBegins) {
   const auto [file, x, analysis] = AtStart(problem());
-  for (const Eigen::MatrixXd& history : analysis->histories) {
+  for (std::size_t i = 0; i < analysis->histories.size(); ++i) {
+    const Eigen::MatrixXd& history = analysis->histories[i];
     if (history.size() == 0) continue;
     const double size = history.cwiseAbs().maxCoeff();
     EXPECT_LT((history.leftCols(1) - history.rightCols(1)).cwiseAbs().maxCoeff(), 1e-8 * size);

@@ -192,6 +192,26 @@ TEST_P(DescriptionOfASignal, OfDriftNamesTheJointOfEachEquation) {
   EXPECT_EQ(channel, drift.channels());
 }
 
+/// Windows of one measure, and its repetitions by another name.
+TEST_P(DescriptionOfASignal, SharesItWithAllThatObserveTheSame) {
+  std::vector<ResponseSettings> settings = all_histories(model_);
+  const std::size_t count = settings.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    ResponseSettings twin = settings[i];
+    twin.name += "_later";
+    twin.from = 1e-3;
+    settings.push_back(twin);
+  }
+  const std::vector<Response> responses = make_responses(settings, model_);
+  std::set<const Signal*> signals;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto& signal = responses[i].history()->signal;
+    EXPECT_EQ(signal, responses[count + i].history()->signal) << settings[i].name;
+    signals.insert(signal.get());
+  }
+  EXPECT_EQ(signals.size(), count);
+}
+
 INSTANTIATE_TEST_SUITE_P(Samples, DescriptionOfASignal, testing::Range(0, sample_count),
                          sample_name);
 

@@ -101,12 +101,13 @@ class ErrorBarOfAValue : public testing::Test {
   ErrorBarOfAValue() {
     analysis_.responses.emplace_back().name = "value";
     analysis_.reductions.emplace_back().value = 10.0;
-    analysis_.histories.push_back(Eigen::MatrixXd::Constant(1, 1, 10.0));
+    analysis_.histories.add(
+        std::make_shared<const Eigen::MatrixXd>(Eigen::MatrixXd::Constant(1, 1, 10.0)));
   }
   static RefinedRun run(double value) {
     RefinedRun run;
     run.values = Eigen::VectorXd::Constant(1, value);
-    run.histories.emplace_back();
+    run.histories.add(std::make_shared<const Eigen::MatrixXd>());
     return run;
   }
   static RefinedRun failed() {
@@ -237,7 +238,7 @@ TEST_F(ErrorBarOfAValue, OfASumWithAConstantIsThatOfTheRest) {
   runs.twice_step = &twice;
   runs.four_steps = &four;
   const Evidence varying = evidence_of(analysis_, 0, runs, 2);
-  analysis_.histories[0].resize(0, 0);
+  analysis_.histories.set(0, {});
   Evidence sum = evidence_of(analysis_, 0, runs, 2);
   sum.add(varying, 2.0);
   const ErrorBar bar = error_bar(sum), of_rest = error_bar(varying);
@@ -246,7 +247,7 @@ TEST_F(ErrorBarOfAValue, OfASumWithAConstantIsThatOfTheRest) {
 }
 
 TEST_F(ErrorBarOfAValue, IsExactOfAConstantWhereStepsFailed) {
-  analysis_.histories[0].resize(0, 0);
+  analysis_.histories.set(0, {});
   const RefinedRun broken = failed();
   JudgingRuns runs;
   runs.half_step = runs.twice_step = runs.four_steps = &broken;
