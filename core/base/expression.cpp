@@ -35,24 +35,6 @@ struct Partials {
   double by_first = 0.0, by_second = 0.0;
 };
 
-/// Numbers that are equal but for their round-off, as the frequencies of a square section along two
-/// axes.
-bool is_tie(double a, double b) {
-  constexpr double round_off = 1e-12;
-  return std::abs(a - b) <= round_off * std::max(std::abs(a), std::abs(b));
-}
-
-/// The operand that counts; at a tie the mean of both.
-Partials chosen(double a, double b, bool is_first) {
-  if (is_tie(a, b)) return {is_first ? a : b, 0.5, 0.5};
-  return is_first ? Partials{a, 1.0, 0.0} : Partials{b, 0.0, 1.0};
-}
-
-double sign(double a) {
-  if (a == 0.0) return 0.0;
-  return a > 0.0 ? 1.0 : -1.0;
-}
-
 /// aᵇ: ∂/∂b = aᵇ ln a, which is 0 in the limit of a → 0 for b > 0.
 Partials power(double a, double b) {
   const double value = std::pow(a, b);
@@ -60,56 +42,19 @@ Partials power(double a, double b) {
   return {value, by_base, a == 0.0 && b > 0.0 ? 0.0 : value * std::log(a)};
 }
 
-Partials apply(Operation operation, double a, double b) {
-  switch (operation) {
-    case Operation::plus:
-      return {a + b, 1.0, 1.0};
-    case Operation::minus:
-      return {a - b, 1.0, -1.0};
-    case Operation::times:
-      return {a * b, b, a};
-    case Operation::over:
-      return {a / b, 1.0 / b, -a / (b * b)};
-    case Operation::power:
-      return power(a, b);
-    case Operation::negated:
-      return {-a, -1.0};
-    case Operation::square_root:
-      return {std::sqrt(a), 0.5 / std::sqrt(a)};
-    case Operation::exponential:
-      return {std::exp(a), std::exp(a)};
-    case Operation::logarithm:
-      return {std::log(a), 1.0 / a};
-    case Operation::hyperbolic_tangent:
-      return {std::tanh(a), 1.0 - std::tanh(a) * std::tanh(a)};
-    case Operation::sine:
-      return {std::sin(a), std::cos(a)};
-    case Operation::cosine:
-      return {std::cos(a), -std::sin(a)};
-    case Operation::tangent:
-      return {std::tan(a), 1.0 + std::tan(a) * std::tan(a)};
-    case Operation::arc_sine:
-      return {std::asin(a), 1.0 / std::sqrt(1.0 - a * a)};
-    case Operation::arc_cosine:
-      return {std::acos(a), -1.0 / std::sqrt(1.0 - a * a)};
-    case Operation::arc_tangent:
-      return {std::atan(a), 1.0 / (1.0 + a * a)};
-    case Operation::arc_tangent_2: {
-      const double square = a * a + b * b;
-      return {std::atan2(a, b), b / square, -a / square};
-    }
-    case Operation::smaller:
-      return chosen(a, b, a < b);
-    case Operation::larger:
-      return chosen(a, b, a > b);
-    case Operation::magnitude:
-      return {std::abs(a), sign(a)};
-    case Operation::constant:
-    case Operation::argument:
-    case Operation::path:
-      break;
+/// Each from what a change of this operand alone makes of the result.
+Partials apply(const ExpressionStep& step, double a, double b) {
+  if (step.operation == Operation::power) return power(a, b);
+  using Functions = FormulaFunctions<double>;
+  if (step.second < 0) {
+    const TimeValue<double> result = Functions::of_one(step.operation, {a, 1.0, 0.0});
+    return {result.value, result.rate};
   }
-  return {};
+  const auto result = [&](double change_of_a, double change_of_b) {
+    return Functions::of_two(step.operation, {a, change_of_a, 0.0}, {b, change_of_b, 0.0});
+  };
+  const TimeValue<double> first = result(1.0, 0.0);
+  return {first.value, first.rate, result(0.0, 1.0).rate};
 }
 
 Partials compute(const Expression& expression, const ExpressionStep& step,
@@ -123,7 +68,7 @@ Partials compute(const Expression& expression, const ExpressionStep& step,
     const PathPoint at = path_point(expression.path, result(step.first));
     return {at.value, at.slope};
   }
-  return apply(step.operation, result(step.first), result(step.second));
+  return apply(step, result(step.first), result(step.second));
 }
 
 }  // namespace

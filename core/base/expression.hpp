@@ -2,6 +2,7 @@
 
 /// Values in a row as a smooth function of their number: what lies between the sizes of a list.
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <string>
@@ -163,13 +164,10 @@ TimeValue<Scalar> operator*(const TimeValue<Scalar>& f, const TimeValue<Scalar>&
           Scalar(f.acceleration * g.value + 2.0 * f.rate * g.rate + f.value * g.acceleration)};
 }
 template <class Scalar>
-TimeValue<Scalar> reciprocal(const TimeValue<Scalar>& f) {
-  const Scalar g = 1.0 / f.value, slope = -g * g;
-  return jet_detail::composed<Scalar>(f, g, slope, Scalar(-2.0 * slope * g));
-}
-template <class Scalar>
 TimeValue<Scalar> operator/(const TimeValue<Scalar>& f, const TimeValue<Scalar>& g) {
-  return f * reciprocal(g);
+  const Scalar ratio = f.value / g.value, rate = (f.rate - ratio * g.rate) / g.value;
+  return {ratio, rate,
+          Scalar((f.acceleration - ratio * g.acceleration - 2.0 * rate * g.rate) / g.value)};
 }
 
 template <class Scalar>
@@ -236,32 +234,14 @@ TimeValue<Scalar> raised(const TimeValue<Scalar>& f, const Scalar& n) {
 
 // Expressions as functions of time: values with two derivatives, in any scalar type.
 
-/// An expression at an instant. The arguments are functions of time; `argument(i)` gives the one of
-/// Expression::arguments[i]. Nothing is stored: the steps of an expression form a tree. min, max
-/// and abs have kinks; where both sides are equal, the mean of both counts, as in evaluate().
-template <class Scalar, class Argument>
-class Formula {
+/// What the functions of formulas make of functions of time. min, max and abs have kinks: where both
+/// sides are equal but for their round-off, the mean of both counts.
+template <class Scalar>
+class FormulaFunctions {
  public:
-  Formula(const Expression& expression, const Argument& argument)
-      : expression_(expression), argument_(argument) {}
-
-  TimeValue<Scalar> value() const { return at(int_size(expression_.steps) - 1); }
-
- private:
   using Value = TimeValue<Scalar>;
 
   static Value constant(double value) { return {Scalar(value), Scalar(0), Scalar(0)}; }
-
-  Value at(int index) const {
-    const ExpressionStep& step = expression_.steps[index];
-    if (step.operation == Operation::constant) return constant(step.constant);
-    if (step.operation == Operation::argument) return argument_(step.first);
-    if (step.operation == Operation::power) return power_of(step);
-    assert(step.operation != Operation::path);  // of sections only
-    const Value first = at(step.first);
-    return step.second < 0 ? of_one(step.operation, first)
-                           : of_two(step.operation, first, at(step.second));
-  }
 
   static Value of_one(Operation operation, const Value& f) {
     switch (operation) {
@@ -311,14 +291,47 @@ class Formula {
     }
   }
 
+ private:
+  /// As the frequencies of a square section along two axes.
+  static bool is_tie(double a, double b) {
+    constexpr double round_off = 1e-12;
+    return std::abs(a - b) <= round_off * std::max(std::abs(a), std::abs(b));
+  }
+
   static Value chosen(const Value& f, const Value& g, bool is_first) {
-    if (value_of(f.value) == value_of(g.value)) return constant(0.5) * (f + g);
+    if (is_tie(value_of(f.value), value_of(g.value))) return constant(0.5) * (f + g);
     return is_first ? f : g;
   }
 
   static Value magnitude(const Value& f) {
     if (value_of(f.value) == 0.0) return constant(0.0);
     return value_of(f.value) > 0.0 ? f : -f;
+  }
+};
+
+/// An expression at an instant. The arguments are functions of time; `argument(i)` gives the one of
+/// Expression::arguments[i]. Nothing is stored: the steps of an expression form a tree.
+template <class Scalar, class Argument>
+class Formula {
+ public:
+  Formula(const Expression& expression, const Argument& argument)
+      : expression_(expression), argument_(argument) {}
+
+  TimeValue<Scalar> value() const { return at(int_size(expression_.steps) - 1); }
+
+ private:
+  using Functions = FormulaFunctions<Scalar>;
+  using Value = TimeValue<Scalar>;
+
+  Value at(int index) const {
+    const ExpressionStep& step = expression_.steps[index];
+    if (step.operation == Operation::constant) return Functions::constant(step.constant);
+    if (step.operation == Operation::argument) return argument_(step.first);
+    if (step.operation == Operation::power) return power_of(step);
+    assert(step.operation != Operation::path);  // of sections only
+    const Value first = at(step.first);
+    return step.second < 0 ? Functions::of_one(step.operation, first)
+                           : Functions::of_two(step.operation, first, at(step.second));
   }
 
   Value power_of(const ExpressionStep& step) const {
