@@ -20,6 +20,9 @@ constexpr double refined_round_off = 1e-14;
 constexpr double poor = 1e-10;
 /// Where pivots on the diagonal make entries grow all the same, the largest one is the pivot.
 constexpr double full_threshold = 1.0;
+/// Columns that are smaller, as of sensitivities that have died out, lose digits to underflow.
+constexpr double nothing =
+    std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
 
 using Block = PivotedFactors::Block;
 
@@ -158,7 +161,7 @@ struct LinearSolver::Implementation {
     summed_residual.setZero(x.rows());
     for (Eigen::Index j = 0; j < x.cols(); ++j) {
       const double size = largest * x.col(j).lpNorm<1>() + rhs.col(j).lpNorm<Eigen::Infinity>();
-      if (size == 0.0) continue;
+      if (size < nothing) continue;
       summed_x += x.col(j) / size;
       summed_residual += rhs.col(j) / size;
     }

@@ -221,6 +221,19 @@ TEST(LinearSolver, SolvesForManyColumnsAsForEach) {
   }
 }
 
+/// Sensitivities that die out end as numbers with a few digits only.
+TEST(LinearSolver, DoesNotDoubtWhatUnderflows) {
+  std::mt19937 random(5);
+  const Eigen::MatrixXd matrix = random_matrix(random);
+  LinearSolver solver(matrix.sparseView());
+  ASSERT_TRUE(solver.factorize(matrix.sparseView()));
+  for (const double size : {1e-290, 1e-300, 1e-315, 1e-322, 0.0}) {
+    Eigen::MatrixXd x = size * Eigen::MatrixXd::Random(matrix.rows(), 6);
+    solver.solve(x);
+    EXPECT_TRUE(solver.is_accurate()) << size;
+  }
+}
+
 /// Wilkinson's matrix, −1 below the diagonal and 1 in the last column, with the diagonal d:
 /// elimination with pivots on the diagonal multiplies entries by 1 + 1/d in each column.
 Eigen::MatrixXd growing_matrix(double diagonal) {
