@@ -64,9 +64,11 @@ void choose_modes(bool is_damped, MotionAxes::Kind axes, Analysis& analysis) {
     }
     try {
       analysis.mechanism_modes[i] = (is_damped ? first : 0) + find_mode(*mechanism, choice);
+    } catch (const SimulationError& error) {
+      throw SimulationError(refused_response(response.name, error.what()));
     } catch (const InputError& error) {
-      // Whether something vibrates changes with the design.
-      if (is_damped) throw SimulationError(error.what());
+      // How many modes there are with damping changes with the design.
+      if (is_damped) throw SimulationError(refused_response(response.name, error.what()));
       refuse_response(response.name, error.what());
     }
   }

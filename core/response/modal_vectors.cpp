@@ -1,5 +1,6 @@
 #include "core/response/modal_vectors.hpp"
 
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -215,14 +216,14 @@ namespace {
 /// How many of the modes that coincide with one count, which is the first of them.
 class ModeCount {
  public:
-  ModeCount(const LinearizedModes& mechanism, const ModeChoice& choice)
-      : mechanism_(mechanism), choice_(choice) {
+  ModeCount(const LinearizedModes& mechanism, const ModeChoice& choice, bool only_vibrations)
+      : mechanism_(mechanism), choice_(choice), only_vibrations_(only_vibrations) {
     if (choice.axis) along_ = mechanism.mass_along(*choice.axis);
   }
 
   Eigen::Index operator()(int mode) const {
     const auto& [model, state, axes, linearized, modes] = mechanism_;
-    if (choice_.of == ModeNumber::damping_ratio && !vibrates(modes(mode))) return 0;
+    if (only_vibrations_ && !vibrates(modes(mode))) return 0;
     if (!choice_.axis) return 1;
     if (coinciding(modes, mode).front() != mode) return 0;
     const Eigen::MatrixXcd vectors = modal_vectors(linearized, modes, mode).right;
@@ -232,30 +233,47 @@ class ModeCount {
  private:
   const LinearizedModes& mechanism_;
   const ModeChoice& choice_;
+  bool only_vibrations_;
   Eigen::MatrixXd along_;
 };
 
-}  // namespace
+/// The number of modes that count, and the place of the one that is asked for.
+struct SoughtMode {
+  Eigen::Index counted = 0;
+  std::optional<int> place = {};
+};
 
-int find_mode(const LinearizedModes& mechanism, const ModeChoice& choice) {
-  const ModeCount count(mechanism, choice);
+SoughtMode look_for_mode(const LinearizedModes& mechanism, const ModeChoice& choice,
+                         bool only_vibrations) {
+  const ModeCount count(mechanism, choice, only_vibrations);
   const Eigen::VectorXcd& modes = mechanism.modes;
   const auto badness = [&](int mode) {
     const double number = number_of(choice.of, modes(mode));
     return choice.of == ModeNumber::damping_ratio ? -number : number;
   };
-  Eigen::Index counted = 0;
-  int worst = -1;
+  SoughtMode found;
   for (int mode = 0; mode < int_size(modes); ++mode) {
-    const bool may_be_worst = worst < 0 || badness(mode) > badness(worst);
-    if (choice.number == ModeChoice::worst && !may_be_worst) continue;
-    const Eigen::Index more = count(mode);
-    counted += more;
-    if (more > 0) worst = mode;
-    if (choice.number != ModeChoice::worst && choice.number < counted) return mode;
+    if (choice.number == ModeChoice::worst) {
+      if (found.place && badness(mode) <= badness(*found.place)) continue;
+      if (count(mode) > 0) found.place = mode;
+      continue;
+    }
+    found.counted += count(mode);
+    if (choice.number < found.counted) return {found.counted, mode};
   }
-  if (choice.number == ModeChoice::worst && worst >= 0) return worst;
-  refuse_mode("the mechanism", counted, choice);
+  return found;
+}
+
+}  // namespace
+
+int find_mode(const LinearizedModes& mechanism, const ModeChoice& choice) {
+  const bool is_ratio = choice.of == ModeNumber::damping_ratio;
+  SoughtMode found = look_for_mode(mechanism, choice, is_ratio);
+  if (!found.place && is_ratio && choice.number == ModeChoice::worst) {
+    found = look_for_mode(mechanism, choice, false);  // damped so much that nothing vibrates
+  }
+  if (found.place) return *found.place;
+  refuse_mode("the mechanism", found.counted, choice);
 }
 
 }  // namespace pleuel

@@ -20,8 +20,12 @@ StepRange Response::steps(const Eigen::VectorXd& time) const {
                   name));
 }
 
+std::string refused_response(const std::string& name, const std::string& why) {
+  return fmt::format("the response \"{}\" cannot be computed: {}", name, why);
+}
+
 void refuse_response(const std::string& name, const std::string& why) {
-  throw InputError(fmt::format("the response \"{}\" cannot be computed: {}", name, why));
+  throw InputError(refused_response(name, why));
 }
 
 }  // namespace pleuel

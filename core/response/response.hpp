@@ -74,7 +74,9 @@ struct Response {
   StepRange steps(const Eigen::VectorXd& time) const;
 };
 
-/// @throws InputError `the response "…" cannot be computed: …`
+/// `the response "…" cannot be computed: …`
+std::string refused_response(const std::string& name, const std::string& why);
+/// @throws InputError that says so
 [[noreturn]] void refuse_response(const std::string& name, const std::string& why);
 
 }  // namespace pleuel
