@@ -7,6 +7,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/response/history_reduction.hpp"
 #include "core/response/linearized_expression.hpp"
+#include "core/scene/response_parts.hpp"
 
 namespace pleuel {
 
@@ -148,6 +149,18 @@ int scheme_order(const SimulationSettings& settings) {
   return is_second ? 2 : 1;
 }
 
+double element_order(const ProblemFile& problem, std::size_t response) {
+  const std::vector<std::size_t> parts = parts_of(problem, response);
+  const bool is_of_shear = std::ranges::any_of(parts, [&](std::size_t part) {
+    const ResponseSettings& one = problem.responses[part];
+    if (one.type == ResponseType::shear_stress) return true;
+    return one.type == ResponseType::section_force &&
+           (one.section_part == SectionForcePart::shear_y ||
+            one.section_part == SectionForcePart::shear_z);
+  });
+  return is_of_shear ? 1.0 : 2.0;
+}
+
 bool is_near_order(const std::optional<double>& seen, double promised) {
   return seen && std::abs(*seen - promised) <= safety::order_room;
 }
@@ -175,6 +188,7 @@ Extrapolation extrapolate(double fine, double middle, double coarse, double orde
 
 void Evidence::add(const Evidence& other, double factor) {
   value += factor * other.value;
+  element_order = std::min(element_order, other.element_order);
   local += std::abs(factor) * other.local;
   add_to(quarter_step, other.quarter_step, factor);
   add_to(half_step, other.half_step, factor);
@@ -214,10 +228,12 @@ Evidence evidence_of(const Analysis& analysis, std::size_t response, const Judgi
 }
 
 ErrorPart element_part(const Evidence& runs) {
+  const double growth = std::pow(2.0, runs.element_order), left = 1.0 / (growth - 1.0);
   if (!runs.more_elements) {
-    return part_of(runs, runs.fewer_elements, -1.0 / 3.0, safety::of_fewer);
+    return part_of(runs, runs.fewer_elements, -left, 3.0 * left * safety::of_fewer);
   }
-  ErrorPart part = part_of(runs, runs.more_elements, 4.0 / 3.0, safety::of_more);
+  const double missing = growth * left;
+  ErrorPart part = part_of(runs, runs.more_elements, missing, 0.75 * missing * safety::of_more);
   if (!is_there(runs.more_elements) || !is_there(runs.fewer_elements)) return part;
   const double more = *runs.more_elements, fewer = *runs.fewer_elements;
   if (std::abs(fewer) <= value_round_off * runs.magnitude) return part;
@@ -241,6 +257,7 @@ ErrorBar error_bar(const Evidence& evidence) {
   bar.newton = part_of(evidence, evidence.newton, 1.0, safety::of_newton);
   const double size = std::max(std::abs(evidence.value), evidence.magnitude);
   for (ErrorPart* part : {&bar.step, &bar.elements, &bar.newton}) {
+    if (part->is_resolved && part->bound <= value_round_off * size) *part = {};
     part->is_resolved = part->is_resolved && !(part->bound > size);  // all of it may be wrong
   }
   return bar;

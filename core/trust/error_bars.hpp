@@ -20,7 +20,8 @@ inline constexpr double order_room = 0.5;
 inline constexpr double of_order = 2.0, of_seen = 1.5;
 /// On differences without an order, and on those that fall by two at least: no more is left then.
 inline constexpr double of_difference = 2.0, of_falling = 1.0;
-/// On differences by twice and by half the elements, of which 4/3 and 1/3 are missing in order two.
+/// On differences by twice and by half the elements, of which 4/3 and 1/3 are missing in order two (2 and
+/// 1 in order one, for which both grow alike).
 /// Bending has a higher one; stress, and what is asked of a place that is a node of one division only,
 /// has an uneven one: all of a difference by fewer elements may be missing.
 inline constexpr double of_more = 2.0, of_fewer = 1.0;
@@ -30,6 +31,10 @@ inline constexpr double of_modes = 1.5, of_newton = 1.5;
 
 /// The order in the step that a scheme has: 2, or 1 of those that damp by their truncation error.
 int scheme_order(const SimulationSettings& settings);
+
+/// The order in the length of elements: 1 of shear forces and of what is made from them, as tension
+/// between nodes changes them at first order; else 2.
+double element_order(const ProblemFile& problem, std::size_t response);
 
 /// Whether an order that is seen is the promised one, to what steps of these sizes leave open.
 bool is_near_order(const std::optional<double>& seen, double promised);
@@ -74,10 +79,11 @@ struct JudgingRuns {
 
 /// What runs say of one value. Numbers are absent where no run was made, and NaN where it failed.
 struct Evidence {
-  double order = 2.0;      ///< of the scheme
-  double value = 0.0;      ///< of the simulation that is judged
-  double magnitude = 0.0;  ///< what errors are small beside
-  double local = 0.0;      ///< of extrapolate()
+  double order = 2.0;          ///< of the scheme
+  double element_order = 2.0;  ///< element_order()
+  double value = 0.0;          ///< of the simulation that is judged
+  double magnitude = 0.0;      ///< what errors are small beside
+  double local = 0.0;          ///< of extrapolate()
   std::optional<double> quarter_step, half_step, twice_step, four_steps;  ///< values of these runs
   /// Differences of both runs of a comparison.
   std::optional<double> more_elements, fewer_elements, modes, newton;

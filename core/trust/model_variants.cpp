@@ -259,16 +259,20 @@ class VariantRun {
     return changes;
   }
 
-  /// Of the responses whose change is alarming, or of the others that are worth a word.
+  /// Of the responses whose change is alarming, which is serious where one of them is asked for, or of
+  /// the others that are worth a word.
   /// @returns whether there are any
-  bool add_finding(bool is_serious, std::vector<Finding>& findings) const {
+  bool add_finding(bool alarming, std::vector<Finding>& findings) const {
+    const std::vector<std::size_t> asked = asked_parts(run_.problem);
     Names names, changed;
     std::vector<bool> has_part(beams_.size(), false);
     double largest = 0.0;
+    bool is_serious = false;
     for (std::size_t i = 0; i < changes_.size(); ++i) {
       const double change = changes_[i].of_value;
       const bool is_alarming = changes_[i].beside_limits > alarming_change;
-      if (change <= tolerable_change || is_alarming != is_serious) continue;
+      if (change <= tolerable_change || is_alarming != alarming) continue;
+      is_serious = is_serious || (alarming && std::ranges::find(asked, i) != asked.end());
       const ResponseSettings& response = run_.problem.responses[i];
       names.push_back(response.name);
       changed.push_back(fmt::format("\"{}\" by {}", response.name, rough_percent(change)));

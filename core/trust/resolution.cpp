@@ -115,6 +115,7 @@ class Judgement {
     found_.evidence.assign(run_.analysis.responses.size(), std::nullopt);
     for (const std::size_t i : judged_) {
       found_.evidence[i] = evidence_of(run_.analysis, i, set_.runs(), order());
+      found_.evidence[i]->element_order = element_order(problem_, i);
       found_.bars[i] = with_known(i, error_bar(*found_.evidence[i]));
     }
   }

@@ -1,6 +1,7 @@
 #include "core/trust/round_off.hpp"
 
 #include <algorithm>
+#include <complex>
 #include <optional>
 #include <utility>
 
@@ -29,6 +30,8 @@ constexpr double vanishing = 1e-3;
 constexpr double tiny_strain = 1e-13;
 /// Of shares of a buckling load.
 constexpr double tiny_share = 1e-12;
+/// Of an eigenvalue, for its real part.
+constexpr double tiny_rate = 1e-9;
 /// Of lengths, which are exact to the last digits.
 constexpr double tiny_length = 1e-12;
 /// Of lengths that rates over one step are made from.
@@ -67,8 +70,10 @@ class RoundOff {
       for (const Measure& one : measures[i]) {
         scale = std::max(scale, one.share * measured[next++]);
       }
-      is_round_off[i] =
-          run_.analysis.responses[i].history() && largest(run_.analysis.histories[i]) <= scale;
+      is_round_off[i] = run_.analysis.responses[i].mode()
+                            ? is_tiny_rate(i)
+                            : run_.analysis.responses[i].history() &&
+                                  largest(run_.analysis.histories[i]) <= scale;
     }
     for (std::size_t i = 0; i < responses.size(); ++i) {
       if (responses[i].type == ResponseType::expression) is_round_off[i] = are_all(is_round_off, i);
@@ -77,6 +82,14 @@ class RoundOff {
   }
 
  private:
+  /// Of a damped mode: whether its number is next to nothing beside its eigenvalue.
+  bool is_tiny_rate(std::size_t response) const {
+    if (!run_.analysis.responses[response].mode()->choice.counts_damping()) return false;
+    const std::complex<double> s =
+        run_.analysis.damped_modes(run_.analysis.mechanism_modes[response]);
+    return std::abs(s.real()) <= tiny_rate * std::abs(s);
+  }
+
   /// Whether all parts of an expression are round-off.
   bool are_all(const std::vector<bool>& is_round_off, std::size_t expression) const {
     const std::vector<std::size_t> parts = parts_of(run_.problem, expression);

@@ -361,7 +361,8 @@ class Search {
     trial.is_order_seen = true;
     const int order = scheme_order(problem_.simulation);
     for (const std::size_t i : asked_) {
-      const Evidence evidence = evidence_of(analysis, i, judging, order);
+      Evidence evidence = evidence_of(analysis, i, judging, order);
+      evidence.element_order = element_order(problem_, i);
       trial.magnitudes(i) = evidence.magnitude;
       trial.bars[i] = error_bar(evidence);
       const ErrorPart elements = element_part(evidence);

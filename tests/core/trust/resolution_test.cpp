@@ -266,6 +266,32 @@ TEST(Resolution, HasBarsForModesThatNeedMoreElements) {
   EXPECT_GE(found.bars[0]->elements.bound, exact - start.analysis->reductions[0].value);
 }
 
+/// 100 N across the end of a cantilever that 5 kN pull: at the clamp, where it does not turn, so much is
+/// the shear force there, too, of which elements know the mean of their length only.
+TEST(Resolution, OfShearForcesUnderTensionIsOfOrderOne) {
+  for (const int elements : {3, 4, 6, 12}) {
+    const ProblemFile problem = problem_from(fmt::format(R"({{"scene": {{
+        "bodies": {{"b": {{"type": "beam", "from": [0, 0, 0], "to": [0.3, 0, 0], "material": "steel",
+          "section": {{"type": "rectangle", "width": 0.01, "height": 0.01}}, "elements": {}}}}},
+        "joints": {{"f": {{"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]}}}},
+        "loads": {{"p": {{"type": "force", "body": "b", "at": [0.3, 0, 0], "direction": [0, 1, 0],
+                        "value": 100}},
+                  "n": {{"type": "force", "body": "b", "at": [0.3, 0, 0], "direction": [1, 0, 0],
+                        "value": 5000}}}}}},
+      "simulation": {{"end_time": 0.002, "step": 0.001, "initial_state": "quasi-static"}},
+      "responses": {{"V": {{"type": "section-force", "body": "b", "at": 0, "part": "shear-y",
+                          "over_time": "max-abs"}}}}}})",
+                                                         elements));
+    const StartRun start(problem);
+    const Resolution found = judge_resolution(start.run());
+    ASSERT_TRUE(found.bars.at(0));
+    const double error = 100.0 - start.analysis->reductions[0].value;
+    EXPECT_GT(error, 0.0);
+    EXPECT_LE(error, found.bars[0]->elements.bound) << elements;
+    EXPECT_GE(error, 0.2 * found.bars[0]->elements.bound) << elements;
+  }
+}
+
 /// In equilibrium under a force across nothing pulls: what is computed of that is round-off.
 TEST(Resolution, IsNotAskedOfRoundOff) {
   const ProblemFile problem = problem_from(

@@ -288,6 +288,18 @@ TEST(ShearRange, IsSeriousBesideLimitsOnly) {
   }
 }
 
+/// Beside what is minimized nobody asks for it.
+TEST(ShearRange, IsNotSeriousForWhatIsNotAsked) {
+  ProblemFile problem = LoadedBeam{rectangle(0.5)}.problem();
+  ResponseSettings mass;
+  mass.name = "mass";
+  problem.responses.push_back(mass);
+  problem.objective = Objective{"mass"};
+  EXPECT_FALSE(only(findings_of(problem, check_variants)).is_serious);
+  problem.objective = Objective{"asked"};
+  EXPECT_TRUE(only(findings_of(problem, check_variants)).is_serious);
+}
+
 /// A file without responses asks nothing.
 TEST(ShearRange, IsNotAskedWithoutResponses) {
   ProblemFile problem = LoadedBeam{rectangle(0.5)}.problem();
