@@ -116,7 +116,7 @@ namespace {
 void throw_failed(const StepPlace& place, const StepFailure& failure, double step,
                   double largest_residual, const std::string& equation, double regular_step) {
   stop(place, fmt::format(
-                  ", Newton iteration {}): {}, nor with a step of {:.3g} s; largest residual "
+                  ", Newton iteration {}): {}, also with a step of {:.3g} s; largest residual "
                   "{:.3g}{}. Try a smaller /simulation/step (now {:.3g} s), or look for a position "
                   "in which the mechanism locks",
                   failure.iteration, failure.what, step, largest_residual, equation, regular_step));

@@ -85,7 +85,7 @@ namespace pleuel::test::bad_problem_file_test {
 namespace {
 
 INSTANTIATE_TEST_SUITE_P(Keys, BadProblemFile, testing::ValuesIn(bad_edits(R"rows(
-/colour | 1 | the problem has the unknown key "colour"; known are "$schema", "name", "description", "scene", "effects", "simulation", "sensitivity", "constants", "variables", "responses", "objective", "constraints", "optimizer", "pareto", "accuracy" and "uncertainty"
+/colour | 1 | the problem has the unknown key "colour"; known are "$schema", "name", "description", "scene", "effects", "simulation", "sensitivity", "constants", "variables", "responses", "objective", "constraints", "optimizer", "pareto", "accuracy", "uncertainty" and "cases"
 /scene/bodies/crank/section/heigth | 1 | ^ has the unknown key "heigth"; did you mean "height"?
 /scene/bodies/slider/elements | 1 | ^ has the unknown key "elements"; known are "type", "velocity", "at" and "mass"
 /objective/scale | 2 | ^ has the unknown key "scale"; known are "minimize", "maximize" and "over_cases"
@@ -98,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(Keys, BadProblemFile, testing::ValuesIn(bad_edits(R"row
 /scene/bodies/crank | {"tpye": "beam"} | ~ is missing the key "type"; is "tpye" a misspelling?
 /scene/bodies/crank/section | {"type": "circle", "diamter": 0.01} | ~ has the unknown key "diamter"; did you mean "diameter"?
 /effects/torsion | "on" | ^ has the unknown key "torsion"; known are "spatial_motion", "geometric_stiffening", "rotary_inertia", "elasticity", "axial_elasticity", "torsional_elasticity" and "tolerance"
-/robustness | {} | the problem has the unknown key "robustness"; known are "$schema", "name", "description", "scene", "effects", "simulation", "sensitivity", "constants", "variables", "responses", "objective", "constraints", "optimizer", "pareto", "accuracy" and "uncertainty"
+/robustness | {} | the problem has the unknown key "robustness"; known are "$schema", "name", "description", "scene", "effects", "simulation", "sensitivity", "constants", "variables", "responses", "objective", "constraints", "optimizer", "pareto", "accuracy", "uncertainty" and "cases"
 /variables/width/lower | remove | ^ is missing the key "lower"
 /scene/joints/bearing/drive/ramp | remove | ^ is missing the key "ramp"
 /variables/ | {"start": 1, "lower": 0, "upper": 2} | ^ has a member without a name

@@ -234,9 +234,10 @@ TEST_F(BadCatalogue, NothingInItIsDesignable) {
 }
 
 TEST(MissingCatalogue, IsSaidToBeMissing) {
-  EXPECT_EQ(complaint(edited("/scene/catalogue", R"("no_such_file.json")")),
-            "bad.json: /scene/catalogue must name a file, from the folder of the problem file on, "
-            "got \"no_such_file.json\"");
+  EXPECT_EQ(
+      complaint(edited("/scene/catalogue", R"("no_such_file.json")")),
+      "bad.json: /scene/catalogue names the file no_such_file.json, which is not there (names "
+      "count from the folder of bad.json on)");
   EXPECT_EQ(complaint(edited("/scene/catalogue", "7")),
             "bad.json: /scene/catalogue must be a text in quotes, not empty, got 7");
   EXPECT_EQ(complaint(with_section(R"({"catalogue": "IPE 80"})")),

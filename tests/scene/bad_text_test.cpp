@@ -257,6 +257,12 @@ TEST(BadFile, DirectoryIsCalledDirectory) {
   EXPECT_EQ(complaint_about_file(directory), directory + ": is a directory, not a problem file");
 }
 
+TEST(BadFile, InAnotherEncodingIsToldSo) {
+  const std::string path = testing::TempDir() + "utf16.json";
+  std::ofstream(path) << std::string("\xFF\xFE{\0}\0", 6);
+  EXPECT_THAT(complaint_about_file(path), HasSubstr("save it as UTF-8"));
+}
+
 TEST(BadFile, WithoutEndIsRefused) {
   const std::filesystem::path endless = "/dev/zero";
   EXPECT_EQ(complaint_about_file(endless), "/dev/zero: is no ordinary file");

@@ -33,15 +33,10 @@ Json read_catalogue(const fs::path& path, const UnitSystem& units) {
 }
 
 /// The sections that a scene can name; none if it has no catalogue.
-Json find_catalogue(const JsonNode& scene, const std::string& file, const UnitSystem& units) {
+Json find_catalogue(const JsonNode& scene, const UnitSystem& units) {
   const std::optional<JsonNode> name = scene.find(catalogue_key);
   if (!name) return Json::object();
-  const fs::path path = fs::path(file).parent_path() / name->text();
-  std::error_code error;
-  if (!fs::exists(path, error) || fs::is_directory(path, error)) {
-    name->fail_with_value("must name a file, from the folder of the problem file on");
-  }
-  return read_catalogue(path, units);
+  return read_catalogue(name->named_file(), units);
 }
 
 /// Looks as far as the document is built as it should be: what is not is for the readers to
@@ -85,7 +80,7 @@ void expand_catalogue(Json& document, const std::string& file, const UnitSystem&
   if (!document.is_object() || !document.contains("scene")) return;
   Json& scene = document["scene"];
   if (!scene.is_object()) return;
-  const Json catalogue = find_catalogue(JsonNode(scene, file, "/scene"), file, units);
+  const Json catalogue = find_catalogue(JsonNode(scene, file, "/scene"), units);
   std::vector<std::string> names;
   for (const auto& [name, section] : catalogue.items()) names.push_back(name);
   for (const auto& [section, pointer] : ReferenceSearch().find(scene, catalogue_key)) {

@@ -23,10 +23,10 @@ namespace pleuel {
 namespace {
 
 void read_heading(const JsonNode& root, ProblemFile& problem) {
-  std::vector<std::string_view> keys = {"$schema",   "name",       "description", "scene",
-                                        "effects",   "simulation", "sensitivity", "constants",
-                                        "variables", "responses",  "objective",   "constraints",
-                                        "optimizer", "pareto",     "accuracy",    "uncertainty"};
+  std::vector<std::string_view> keys = {
+      "$schema",     "name",      "description", "scene",       "effects",   "simulation",
+      "sensitivity", "constants", "variables",   "responses",   "objective", "constraints",
+      "optimizer",   "pareto",    "accuracy",    "uncertainty", "cases"};  // expanded before
   if (const auto of_case = root.find(case_key)) {
     keys.push_back(case_key);
     const std::vector<JsonNode> names = of_case->items(2);

@@ -289,7 +289,7 @@ void ExpressionBuilder::fail_unknown(std::size_t position, const std::string& na
   for (const Symbol& symbol : symbols_) known.push_back(symbol.name);
   std::string more = hint(name, known);
   if (is_unit(name)) {
-    more += fmt::format(" If the unit is meant: it stands right behind its number, as in \"1 {}\"",
+    more += fmt::format(". If the unit is meant: it stands right behind its number, as in \"1 {}\"",
                         name);
   }
   fail(position, fmt::format("unknown name \"{}\"{}", name, more));

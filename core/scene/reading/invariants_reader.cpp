@@ -24,16 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// In the folder of the problem file.
-fs::path find_file(const JsonNode& name) {
-  const fs::path path = fs::path(name.file()).parent_path() / name.text();
-  std::error_code error;
-  if (!fs::exists(path, error) || fs::is_directory(path, error)) {
-    name.fail_with_value("must name a file, from the folder of the problem file on");
-  }
-  return path;
-}
-
 /// Those variables of the problem that the file has derivatives for.
 std::vector<ImportedVariable> find_variables(const JsonNode& name, const InvariantsFile& file,
                                              NumberReader& numbers) {
@@ -238,7 +228,7 @@ ImportedBody read_imported_body(const std::string& name, const JsonNode& node,
   }
   const JsonNode file = node.at("file");
   body.source = file.text();
-  body.file = std::make_shared<const InvariantsFile>(read_invariants(find_file(file)));
+  body.file = std::make_shared<const InvariantsFile>(read_invariants(file.named_file()));
   body.variables = find_variables(file, *body.file, numbers);
   return body;
 }

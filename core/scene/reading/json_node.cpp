@@ -110,6 +110,19 @@ std::string JsonNode::text() const {
   return value_->get<std::string>();
 }
 
+std::filesystem::path JsonNode::named_file() const {
+  namespace fs = std::filesystem;
+  const fs::path path = fs::path(file()).parent_path() / text();
+  std::error_code error;
+  const fs::file_type type = fs::status(path, error).type();
+  if (type == fs::file_type::directory) fail_with_value("must name a file, no folder");
+  if (type == fs::file_type::not_found || type == fs::file_type::none) {
+    fail(fmt::format("names the file {}, which is not there (names count from the folder of {} on)",
+                     path.string(), fs::path(file()).filename().string()));
+  }
+  return path;
+}
+
 bool JsonNode::truth() const {
   if (!value_->is_boolean()) fail_with_value("must be true or false");
   return value_->get<bool>();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -50,6 +51,8 @@ class JsonNode {
   int whole_number(int least, int most) const;
   std::string text() const;  ///< not empty
   bool truth() const;        ///< true or false
+  /// Of the file that the text names, from the folder of this one on: it must be there.
+  std::filesystem::path named_file() const;
 
  private:
   void expect_object() const;

@@ -294,6 +294,10 @@ std::string read_text_file(const std::filesystem::path& path) {
     }
   } while (stream);
   if (stream.bad()) throw InputError(fmt::format("{}: cannot be read", path.string()));
+  if (text.find('\0') != std::string::npos) {
+    throw InputError(fmt::format(
+        "{}: is no text in UTF-8, as it has bytes of zero: save it as UTF-8", path.string()));
+  }
   return text;
 }
 

@@ -116,12 +116,7 @@ class TableFile {
   TableFile(const JsonNode& node, const UnitSystem& units)
       : name_(node.at("file")), columns_(node.at("columns")), units_(units) {
     if (const auto given = node.find("units")) units_node_.emplace(*given);
-    const fs::path path = fs::path(name_.file()).parent_path() / name_.text();
-    std::error_code error;
-    if (!fs::exists(path, error) || fs::is_directory(path, error)) {
-      name_.fail_with_value("must name a file, from the folder of the problem file on");
-    }
-    std::string text = read_text_file(path);
+    std::string text = read_text_file(name_.named_file());
     if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
     rows_ = rows_of(text);
     if (rows_.empty()) name_.fail(fmt::format("names the file {}, which is empty", name_.text()));

@@ -558,7 +558,7 @@ TEST_F(Exchange, SaysWhatIsWrongWithAFile) {
 TEST_F(Exchange, SaysWhatAFileCannotDo) {
   const Json document = exchanged(slider_crank());
   const std::vector<std::array<const char*, 3>> cases = {
-      {"/scene/bodies/rod/file", "\"none.json\"", "/scene/bodies/rod/file must name a file"},
+      {"/scene/bodies/rod/file", "\"none.json\"", "none.json, which is not there"},
       {"/scene/bodies/rod/elements", "6", "/scene/bodies/rod has the unknown key \"elements\""},
       {"/scene/loads/tug/at", "[0.207, 0, 0]",
        "/scene/loads/tug/at must be at a place of the body \"rod\""},
