@@ -93,9 +93,12 @@ class SizeSearch {
     if (news.empty()) return;
     std::vector<Eigen::VectorXd> designs;
     for (const Sizes& choice : news) designs.push_back(lists_.design(choice, from));
+    const Stopwatch stopwatch;
     std::vector<SizeTrial> answers =
         try_sizes(file_, designs, scales_, setup_.options, setup_.execution);
+    const double seconds = stopwatch.seconds();
     for (std::size_t i = 0; i < news.size(); ++i) keep(news[i], std::move(answers[i]));
+    solution_.result.seconds += seconds;  // they run at the same time
   }
 
   void keep(const Sizes& choice, SizeTrial trial) {
@@ -103,7 +106,7 @@ class SizeSearch {
       record.purpose = Purpose::trial;
       record.iteration = 1;
     }
-    add_effort(std::exchange(trial.history, {}), trial.seconds);
+    add_effort(std::exchange(trial.history, {}), 0.0);
     ++report_.tried;
     if (trial.keeps_limits()) ++report_.feasible;
     const SizeTrial& kept = tried_.emplace(choice, std::move(trial)).first->second;
