@@ -8,13 +8,14 @@ import json
 import os
 import pathlib
 import tempfile
+from numbers import Real
 from typing import Any, Callable, Mapping, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _border as border
-from .errors import Interrupted
+from .errors import CallError, Interrupted
 from .results import Array, Document, Evaluation, History, Optimum, Progress, shown, table
 
 Design = Union[npt.ArrayLike, Mapping[str, float]]
@@ -23,6 +24,12 @@ BodyFunction = Callable[[Array], Union[str, Mapping[str, Any]]]
 
 def _override(name: str, value: Any) -> str:
     return f"{name}={value if isinstance(value, str) else json.dumps(value)}"
+
+
+def _place(name: str, names: list[str], kind: str) -> int:
+    if name not in names:
+        raise KeyError(f"{name!r} is no {kind}; there are {', '.join(names)}")
+    return names.index(name)
 
 
 def _pointer(array: Optional[Array]) -> Optional[int]:
@@ -90,7 +97,7 @@ class Problem:
         place of the peak.
         """
         x = self.design(x)
-        found = {name: self._history(self._response(name), x, derivatives) for name in names or self.responses}
+        found = {name: self._history(_place(name, self.responses, "response"), x, derivatives) for name in names or self.responses}
         if len(names) == 1:
             return found[names[0]]
         return {name: history for name, history in found.items() if names or history.time.size > 0}
@@ -116,7 +123,7 @@ class Problem:
         for kind, names in ((border.VARIABLES, self.variables), (border.RESPONSES, self.responses), (border.LIMITS, self.limits)):
             if name in names:
                 return self._text("pleuel_unit", kind, names.index(name))
-        raise KeyError(name)
+        raise KeyError(f"{name!r} is no variable, response or limit; there are {', '.join(self.variables + self.responses + self.limits)}")
 
     # ---- searches and studies ----
 
@@ -169,7 +176,9 @@ class Problem:
         if isinstance(x, Mapping):
             values = self.start.copy()
             for name, value in x.items():
-                values[self.variables.index(name)] = value
+                if not isinstance(value, Real):
+                    raise CallError(f"{name!r}: a design has numbers in SI units, got {value!r}")
+                values[_place(name, self.variables, "variable")] = value
             return values
         return np.ascontiguousarray(x, dtype=np.float64).reshape(-1)
 
@@ -216,11 +225,6 @@ class Problem:
         text = c.c_char_p()
         border.call(function, self._number, kind, index, c.byref(text))
         return text.value.decode()
-
-    def _response(self, name: str) -> int:
-        if name not in self.responses:
-            raise KeyError(f"{name!r} is no response; there are {', '.join(self.responses)}")
-        return self.responses.index(name)
 
     def _respond(self, x: Optional[Design], derivatives: bool) -> tuple[Array, Optional[Array]]:
         x = self.design(x)
