@@ -5,7 +5,9 @@ import { h, section } from "../dom";
 import { seconds, withUnit, words } from "../format";
 import { unitOf } from "./parts";
 
-const roundOff = 1e-12; // of a limit or of the objective
+const roundOff = 1e-12; // of a limit
+/** Distances [%] below it are no distance: a logarithmic axis shows them here. */
+const nothing = 1e-6;
 /** Violations that count, as in the table of iterations. */
 const allowed = 1e-6;
 
@@ -34,8 +36,8 @@ export function convergenceSection(data: ReportData): HTMLElement | null {
       lineChart({
         ...common,
         title: `distance of ${words(objective.name)} to the answer`,
-        yTitle: "% of it",
-        series: [{ name: "distance", x, y: distance.map((one) => (one > roundOff ? one : null)), color: "accent", dots: true, hollow: violation.map((one) => one > allowed), labels }],
+        yTitle: `% of it, ${nothing} or less`,
+        series: [{ name: "distance", x, y: distance.map((one) => Math.max(one, nothing)), color: "accent", dots: true, hollow: violation.map((one) => one > allowed), labels }],
       }).element,
       violation.some((one) => one > roundOff)
         ? lineChart({
