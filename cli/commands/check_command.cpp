@@ -1,5 +1,6 @@
 #include "cli/commands/commands.hpp"
 #include "cli/input/problem_input.hpp"
+#include "cli/input/run_setting.hpp"
 #include "cli/reports/derivative_report.hpp"
 #include "cli/reports/effects_report.hpp"
 #include "cli/reports/limits_report.hpp"
@@ -150,6 +151,7 @@ std::string make_text(const ProblemFile& problem, const Examination& findings, b
 Outcome run_check(const Arguments& arguments) {
   const ProblemInput input = read_input(arguments);
   const ProblemFile& problem = input.problem;
+  if (problem.objective) solve_options(problem, arguments);  // what `optimize` would refuse
   show_warnings_before(problem);
   std::optional<RunRecord> record;  // before the work: the folder may not be free
   if (arguments.output) record.emplace(arguments, input, Json::object());

@@ -290,6 +290,9 @@ void draw_both(const Arguments& arguments, const OlderRun& first, const OlderRun
   Json picture, result = outcome.document;
   Notes notes;
   try {
+    for (const OlderRun* run : {&first, &second}) {
+      if (const std::string damage = damage_of(*run); !damage.empty()) throw InputError(damage);
+    }
     picture = both_pictures(first, second, notes);
   } catch (const std::exception& error) {
     outcome.text +=
@@ -311,6 +314,7 @@ Outcome run_compare(const Arguments& arguments) {
   if (arguments.files.size() != 2) {
     throw InputError(fmt::format("two run folders are compared, got {}", arguments.files.size()));
   }
+  if (arguments.output) require_free(*arguments.output, arguments);
   const OlderRun first = read_older_run(arguments.files[0]);
   const OlderRun second = read_older_run(arguments.files[1]);
   const Json inputs = input_differences(first, second), values = outcome_values(first, second);

@@ -155,7 +155,7 @@ std::vector<Table::Column> method_columns(const std::vector<MethodResult>& resul
   std::vector<Table::Column> columns = {left_aligned("response"), left_aligned("variable")};
   for (const MethodResult& result : results) columns.push_back({to_string(result.method)});
   columns.push_back(left_aligned("unit"));
-  if (results.size() > 1) columns.push_back("largest difference");
+  if (results.size() > 1) columns.push_back("relative difference");
   return columns;
 }
 

@@ -1,7 +1,9 @@
 #include "cli/commands/commands.hpp"
 #include "cli/input/problem_input.hpp"
+#include "cli/reports/warnings.hpp"
 #include "cli/text/table.hpp"
 #include "core/model/divided_beams.hpp"
+#include "core/model/motion_plane.hpp"
 #include "core/response/analysis.hpp"
 #include "core/response/body_export.hpp"
 #include "core/scene/body_constants.hpp"
@@ -27,6 +29,16 @@ std::vector<std::string> chosen_bodies(const Arguments& arguments, const Model& 
   }
   if (names.empty()) throw InputError("no body is elastic: there are no invariants to write");
   return names;
+}
+
+/// What the files will not know.
+std::vector<std::string> export_warnings(const ProblemFile& problem) {
+  const Eigen::VectorXd x = start_design(problem);
+  const Design<double> start(x.begin(), x.end());
+  if (!decide_motion_plane(problem.scene, problem.effects.spatial_motion, start).plane) return {};
+  return {
+      "the mechanism moves in a plane: the files know nothing of what bends or buckles across it. "
+      "--set '/effects/spatial_motion=on' exports that, too."};
 }
 
 std::vector<InvariantsFile> export_bodies(const Arguments& arguments, const ProblemFile& problem) {
@@ -59,8 +71,10 @@ Json file_document(const InvariantsFile& file, const fs::path& path) {
           {"variables", list_of(file.design, &ConstantsDerivative::variable)}};
 }
 
-Outcome report(const std::vector<InvariantsFile>& files, const std::vector<fs::path>& paths) {
-  Outcome outcome{ExitCode::done, {{"bodies", Json::array()}, {"warnings", Json::array()}}, ""};
+Outcome report(const ProblemFile& problem, const std::vector<InvariantsFile>& files,
+               const std::vector<fs::path>& paths) {
+  const std::vector<std::string> warnings = export_warnings(problem);
+  Outcome outcome{ExitCode::done, {{"bodies", Json::array()}, {"warnings", warnings}}, ""};
   Table table(
       {left_aligned("body"), "coordinates", "places", "variables", left_aligned("written to")});
   for (std::size_t i = 0; i < files.size(); ++i) {
@@ -69,11 +83,12 @@ Outcome report(const std::vector<InvariantsFile>& files, const std::vector<fs::p
                    std::to_string(files[i].constants.places.size()),
                    std::to_string(files[i].design.size()), paths[i].string()});
   }
-  outcome.text = table.text();
+  outcome.text = table.text() + warnings_text(warnings);
   return outcome;
 }
 
-Outcome write_one(const fs::path& path, const std::vector<InvariantsFile>& files) {
+Outcome write_one(const fs::path& path, const ProblemFile& problem,
+                  const std::vector<InvariantsFile>& files) {
   if (files.size() != 1) {
     throw InputError(
         fmt::format("-o {}: is one file, but {} bodies are elastic; choose one with "
@@ -82,7 +97,7 @@ Outcome write_one(const fs::path& path, const std::vector<InvariantsFile>& files
   }
   WriteFailures failures;
   write_file({path, &failures}, write_invariants(files.front()));
-  Outcome outcome = report(files, {path});
+  Outcome outcome = report(problem, files, {path});
   outcome.unwritten = failures.files();
   return outcome;
 }
@@ -93,7 +108,7 @@ Outcome run_invariants(const Arguments& arguments) {
   const ProblemInput input = read_input(arguments);
   if (arguments.output && arguments.output->extension() == ".json") {
     require_free(*arguments.output, arguments);
-    return write_one(*arguments.output, export_bodies(arguments, input.problem));
+    return write_one(*arguments.output, input.problem, export_bodies(arguments, input.problem));
   }
   RunRecord record(arguments, input, Json::object());
   record.begin_phase("export");
@@ -109,7 +124,7 @@ Outcome run_invariants(const Arguments& arguments) {
     paths.push_back(path);
     write_file(written, write_invariants(file));
   }
-  Outcome outcome = report(files, paths);
+  Outcome outcome = report(input.problem, files, paths);
   record.finish(outcome);
   return outcome;
 }

@@ -204,6 +204,7 @@ Outcome run_plot(const Arguments& arguments) {
     outcome.text += "Units and limits are not known: the problem of the run card cannot be read.\n";
   }
   const fs::path drawing = drawing_path(arguments);
+  if (arguments.output) require_free(drawing, arguments);
   WriteFailures failures;
   outcome.document = {{"histories", arguments.names}};
   if (write_file({drawing, &failures}, to_svg(charts))) {

@@ -5,6 +5,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/input/run_setting.hpp"
 #include "cli/reports/iteration_lines.hpp"
+#include "cli/reports/limits_report.hpp"
 #include "cli/text/table.hpp"
 #include "core/trust/checks.hpp"
 #include "optimization/design/design_solve.hpp"
@@ -55,7 +56,17 @@ AnalyzedDesign find_optimum(const ProblemInput& input, const Arguments& argument
 
 AnalyzedDesign given_design(const ProblemInput& input) {
   const auto analysis = analyze(input.problem, input.design);
-  return {input.design, "", true, texts_of(check_run(input.problem, input.design, *analysis))};
+  AnalyzedDesign design{input.design, "", true,
+                        texts_of(check_run(input.problem, input.design, *analysis))};
+  const std::vector<std::string> broken =
+      broken_limits(limits_document(input.problem, input.design, *analysis, {}));
+  if (broken.empty()) return design;
+  design.is_optimum = false;
+  design.warnings.insert(
+      design.warnings.begin(),
+      fmt::format("the design breaks {}: these are no prices of an optimum within its limits",
+                  quoted_list(broken, "and")));
+  return design;
 }
 
 const char* kind_name(NumberPrice::Kind kind) {

@@ -1,5 +1,3 @@
-#include <map>
-
 #include "cli/commands/commands.hpp"
 #include "cli/commands/older_picture.hpp"
 #include "cli/files/report_page.hpp"
@@ -20,59 +18,11 @@ Json read_document(const fs::path& path) {
   return document;
 }
 
-/// What a result has that is whole.
-struct Needed {
-  const char* key;
-  Json::value_t type;
-};
-
-std::vector<Needed> needed_in(const std::string& command) {
-  using Type = Json::value_t;
-  static const std::map<std::string, std::vector<Needed>> needed = {
-      {"accuracy", {{"runs", Type::array}}},
-      {"check", {{"responses", Type::object}}},
-      {"gradient", {{"responses", Type::object}}},
-      {"optimize",
-       {{"status", Type::string},
-        {"objective", Type::object},
-        {"variables", Type::object},
-        {"constraints", Type::object}}},
-      {"pareto", {{"points", Type::array}}},
-      {"prices", {{"prices", Type::object}}},
-      {"simulate", {{"responses", Type::object}}},
-      {"stability", {{"runs", Type::array}}},
-      {"uncertainty", {{"responses", Type::object}}},
-  };
-  const auto found = needed.find(command);
-  return found == needed.end() ? std::vector<Needed>() : found->second;
-}
-
-/// @throws InputError if something is missing that the run has written
-void check_whole(const OlderRun& run) {
-  const auto damaged = [&](const char* file, const std::string& what) {
-    return InputError(fmt::format("{}: is damaged: {}", (run.folder / file).string(), what));
-  };
-  const std::string command = text_at(run.card, "/command");
-  if (command.empty()) throw damaged(card_name, "it names no command");
-  for (const Needed& one : needed_in(command)) {
-    if (run.result.value(one.key, Json()).type() != one.type) {
-      throw damaged("result.json",
-                    fmt::format("a run of `pleuel {}` has \"{}\" there", command, one.key));
-    }
-  }
-  if (command != "optimize" || !run.objective()) return;
-  for (const auto& [name, variable] : run.result["variables"].items()) {
-    if (!number_at(variable, "/value")) {
-      throw damaged("result.json", fmt::format("the variable \"{}\" has no value", name));
-    }
-  }
-}
-
 /// @returns what the user is told
 std::string make_report(const fs::path& folder, WriteFailures& failures) {
   const OlderRun run{folder, read_document(folder / card_name),
                      read_document(folder / "result.json")};
-  check_whole(run);
+  if (const std::string damage = damage_of(run); !damage.empty()) throw InputError(damage);
   Json picture;
   Notes notes;
   try {

@@ -197,6 +197,7 @@ Outcome run_show(const Arguments& arguments) {
   }
   const bool can_draw = find_report_template().has_value();
   if (!can_draw && arguments.output) throw InputError(no_template);
+  if (arguments.output) require_free(*arguments.output, arguments);
   const Shown shown = describe(input.problem, input.design);
   Outcome outcome{ExitCode::done, shown.document, shown.text};
   if (!can_draw) {

@@ -169,7 +169,7 @@ Outcome run_simulate(const Arguments& arguments) {
   record.begin_phase("write");
   const std::string design = arguments.design ? " at " + arguments.design->string() : "";
   const Json limits = limits_document(input.problem, input.design, *analysis, run.errors);
-  const bool is_refuted = tries_a_design(arguments) && !keeps_limits(limits);
+  const bool is_refuted = tries_a_design(arguments) && !broken_limits(limits).empty();
   Outcome outcome{run.is_checked && !is_refuted ? ExitCode::done : ExitCode::not_verified,
                   simulation_document(input.problem, run),
                   simulation_text(input.problem, design, limits, run)};

@@ -2,6 +2,7 @@
 
 #include <ctime>
 #include <fstream>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,8 @@
 namespace pleuel {
 
 namespace {
+
+constexpr const char* result_name = "result.json";
 
 /// Whether a run is at work in the folder: it holds its lock.
 bool is_at_work(const fs::path& folder) {
@@ -48,7 +51,7 @@ std::string OlderRun::problem() const {
 
 std::string OlderRun::status() const {
   if (!card.value("finished", false)) return is_at_work(folder) ? "running" : "killed";
-  if (!result.is_object()) return "–";
+  if (!damage_of(*this).empty()) return "damaged";
   return result.value("status", "done");
 }
 
@@ -81,9 +84,64 @@ fs::file_time_type OlderRun::written() const {
 }
 
 std::optional<OlderRun> find_older_run(const fs::path& folder) {
-  OlderRun run{folder, document_in(folder / card_name), document_in(folder / "result.json")};
+  OlderRun run{folder, document_in(folder / card_name), document_in(folder / result_name)};
   if (run.card.is_null() || !run.card.value("command", Json()).is_string()) return std::nullopt;
   return run;
+}
+
+namespace {
+
+/// What a result has that is whole.
+struct Needed {
+  const char* key;
+  Json::value_t type;
+};
+
+std::vector<Needed> needed_in(const std::string& command) {
+  using Type = Json::value_t;
+  static const std::map<std::string, std::vector<Needed>> needed = {
+      {"accuracy", {{"runs", Type::array}}},
+      {"check", {{"responses", Type::object}}},
+      {"gradient", {{"responses", Type::object}}},
+      {"optimize",
+       {{"status", Type::string},
+        {"objective", Type::object},
+        {"variables", Type::object},
+        {"constraints", Type::object}}},
+      {"pareto", {{"points", Type::array}}},
+      {"prices", {{"prices", Type::object}}},
+      {"simulate", {{"responses", Type::object}}},
+      {"stability", {{"runs", Type::array}}},
+      {"uncertainty", {{"responses", Type::object}}},
+  };
+  const auto found = needed.find(command);
+  return found == needed.end() ? std::vector<Needed>() : found->second;
+}
+
+}  // namespace
+
+std::string damage_of(const OlderRun& run) {
+  const auto damaged = [&](const char* file, const std::string& what) {
+    return fmt::format("{}: is damaged: {}", (run.folder / file).string(), what);
+  };
+  const std::string command = text_at(run.card, "/command");
+  if (command.empty()) return damaged(card_name, "it names no command");
+  if (!run.result.is_object()) {
+    return fmt::format("{}: there is none that can be read", (run.folder / result_name).string());
+  }
+  for (const Needed& one : needed_in(command)) {
+    if (run.result.value(one.key, Json()).type() != one.type) {
+      return damaged(result_name,
+                     fmt::format("a run of `pleuel {}` has \"{}\" there", command, one.key));
+    }
+  }
+  if (command != "optimize" || !run.objective()) return "";
+  for (const auto& [name, variable] : run.result["variables"].items()) {
+    if (!number_at(variable, "/value")) {
+      return damaged(result_name, fmt::format("the variable \"{}\" has no value", name));
+    }
+  }
+  return "";
 }
 
 OlderRun read_older_run(const fs::path& folder) {

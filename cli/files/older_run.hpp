@@ -20,7 +20,7 @@ struct OlderRun {
   std::string command() const { return card.value("command", ""); }
   /// Name of the problem; of several files, how many.
   std::string problem() const;
-  /// "verified", "done" …: that of the result; or "running", "killed".
+  /// "verified", "done" …: that of the result; or "running", "killed", "damaged".
   std::string status() const;
   /// The load case whose mechanism a page shows first; empty without cases.
   std::string shown_case() const;
@@ -34,6 +34,9 @@ struct OlderRun {
   /// The same instant, to put runs in order by.
   fs::file_time_type written() const;
 };
+
+/// What is missing in its documents that a run has written; empty: nothing.
+std::string damage_of(const OlderRun& run);
 
 /// @returns nothing if the folder is not that of a run
 std::optional<OlderRun> find_older_run(const fs::path& folder);

@@ -37,6 +37,8 @@ const OptionKind load_case{"--case", &Arguments::load_case,
                            "of a file with load cases this one alone (/cases of the file)", "NAME"};
 const OptionKind overwrite{"--overwrite", &Arguments::overwrites,
                            "replace an older run of this command in the same place"};
+const OptionKind overwrite_file{"--overwrite", &Arguments::overwrites,
+                                "replace a file that is there"};
 const OptionKind no_report{"--no-report", &Arguments::leaves_out_report,
                            "write no report.html; the command report makes it later"};
 const OptionKind resume{"--resume", &Arguments::resumes,
@@ -127,7 +129,13 @@ OptionKind task_limit(const std::string& task) {
           "seconds after which the process of " + task +
               " counts as hung; it is tried once more (default: none)",
           "SECONDS", [](CLI::Option& option) {
-            option.check(CLI::Validator(CLI::PositiveNumber).description(""));
+            option.check(CLI::Validator(
+                [](const std::string& text) -> std::string {
+                  double seconds = 0.0;
+                  const bool is_number = CLI::detail::lexical_cast(text, seconds);
+                  return is_number && seconds > 0.0 ? "" : "must be a number above 0, got " + text;
+                },
+                ""));
           }};
 }
 
@@ -249,6 +257,7 @@ std::vector<CommandKind> command_kinds() {
          [](CLI::Option& option) { option.required()->expected(2); }},
         output("the page to write (default: the first of runs/compare.html, …-2 that is not there)",
                "FILE.html"),
+        overwrite_file,
         programs}},
       {"runs",
        "list runs: command, problem, status, objective, time",
@@ -275,7 +284,8 @@ std::vector<CommandKind> command_kinds() {
         {"NAME", &Arguments::names,
          "responses with histories (default: the names of all are listed)"},
         output("the drawing to write (default: DIR/plot-NAME.svg, or plot.svg of several)",
-               "FILE.svg")}},
+               "FILE.svg"),
+        overwrite_file}},
       {"export",
        "write the evaluations of optimize or pareto as tables (CSV)",
        "Writes every evaluation of an optimization as tables; with --vtk also the motion of start "
@@ -327,9 +337,7 @@ std::vector<CommandKind> command_kinds() {
        "print or write the JSON schema of problem files, by which editors complete",
        "Editors that know JSON schemas complete and check problem files by it.",
        "schema problem.schema.json",
-       {json,
-        {"FILE", &Arguments::file, "where to (default: standard output)"},
-        {"--overwrite", &Arguments::overwrites, "replace a file that is there"}}},
+       {json, {"FILE", &Arguments::file, "where to (default: standard output)"}, overwrite_file}},
       {"completion",
        "print the completion of commands and options for a shell",
        "Prints what the shell has to read so that the Tab key completes commands and options.",

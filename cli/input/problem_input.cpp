@@ -173,8 +173,9 @@ Eigen::VectorXd read_design(const std::filesystem::path& path, const ProblemFile
   Eigen::VectorXd x(problem.variables.size());
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
     const DesignVariable& variable = problem.variables[i];
-    x(i) = read_value(variables.at(variable.name), variable, units,
-                      variable_quantity(problem, static_cast<int>(i)));
+    const std::optional<JsonNode> value = variables.find(variable.name);
+    if (!value) variables.fail(fmt::format("is missing the key \"{}\"", variable.name));
+    x(i) = read_value(*value, variable, units, variable_quantity(problem, static_cast<int>(i)));
   }
   return x;
 }

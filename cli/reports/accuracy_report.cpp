@@ -11,6 +11,7 @@
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/find_named.hpp"
 #include "core/base/number_text.hpp"
+#include "core/base/quoted.hpp"
 
 namespace pleuel {
 
@@ -163,7 +164,7 @@ std::string effects_text(const ProblemFile& problem, const AccuracyStudy& study)
     const bool is_without = one.variation.value == "off";
     text += fmt::format("{} {}: ", is_without ? "Without" : "With", words_of(one.variation.knob));
     if (one.run.has_failed()) {
-      text += "the simulation fails. ";
+      text += fmt::format("fails, as {}. ", excerpt(one.run.failure, 160));
     } else {
       text += fmt::format("{}, {}. ", time_text(one.time), influence_text(problem, study, one));
     }

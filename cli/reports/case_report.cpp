@@ -301,7 +301,8 @@ std::string over_cases_text(const ProblemFile& joined, const Json& document) {
                               limit_column(of_limits), unit_column(of_limits), kept_column()})
                 .text();
   }
-  if (!keeps_limits(limits)) text += "\nA limit that is made from several cases is broken.\n";
+  if (!broken_limits(limits).empty())
+    text += "\nA limit that is made from several cases is broken.\n";
   return text;
 }
 

@@ -91,11 +91,20 @@ double shown_margin(const Json& limit) {
   return std::abs(margin) < 1e-5 * std::abs(bound) ? 0.0 : margin;
 }
 
-std::string sum_text(const Json& limits) {
+}  // namespace
+
+std::vector<std::string> broken_limits(const Json& limits) {
   std::vector<std::string> broken;
   for (const auto& [name, limit] : limits.items()) {
     if (!limit["kept"].get<bool>()) broken.push_back(name);
   }
+  return broken;
+}
+
+namespace {
+
+std::string sum_text(const Json& limits) {
+  const std::vector<std::string> broken = broken_limits(limits);
   const std::size_t all = limits.size();
   if (broken.empty() && all == 1) return "The limit is kept.\n";
   if (broken.empty()) return fmt::format("All {} limits are kept.\n", all);
@@ -239,11 +248,6 @@ std::string limits_text(const ProblemFile& problem, const Json& limits) {
                                         {"margin", margin},
                                         kept_column()});
   return "\n" + table.text() + "\n" + sum_text(limits);
-}
-
-bool keeps_limits(const Json& limits) {
-  return std::ranges::all_of(limits,
-                             [](const Json& limit) { return limit.at("kept").get<bool>(); });
 }
 
 namespace {

@@ -59,9 +59,9 @@ DocumentColumn kept_column();
 /// A table of limits_document(), and which limits are broken; empty without limits.
 std::string limits_text(const ProblemFile& problem, const Json& limits);
 
-/// As exactly as a verified optimum does.
+/// Names of those that are broken, judged as exactly as of a verified optimum.
 /// @param limits  of limits_document()
-bool keeps_limits(const Json& limits);
+std::vector<std::string> broken_limits(const Json& limits);
 
 /// Sentences on the gaps of a front that was asked for one: how large they are, where it jumps, and
 /// what kept it from closing others.

@@ -183,9 +183,11 @@ std::string effort_text(const Optimum& optimum) {
       result.polished_with.empty()
           ? result.backend
           : fmt::format("{}, polished with {}", result.backend, result.polished_with);
-  return fmt::format("{}: {} evaluations, {} with {}, {} restart{}, {}\n", backend,
-                     result.evaluations, result.gradient_evaluations, gradients, result.restarts,
-                     result.restarts == 1 ? "" : "s", duration(result.seconds));
+  return wrapped(
+      fmt::format("{}: {} evaluations, {} with {}, {} restart{}, {}\n", backend, result.evaluations,
+                  result.gradient_evaluations, gradients, result.restarts,
+                  result.restarts == 1 ? "" : "s", duration(result.seconds)),
+      "  ");
 }
 
 }  // namespace
@@ -196,7 +198,10 @@ std::string name_of_end(const std::string& status) {
 
 std::string optimum_report(const Optimum& optimum, const Json& document, bool is_verbose) {
   const std::string status = "\n" + wrapped(status_text(optimum)) + "\n";
-  if (!optimum.has_design()) return status;
+  if (!optimum.has_design()) {
+    const bool has_best = optimum.result.status == Status::interrupted;
+    return has_best ? status + "\n" + variables_text(optimum) : status;
+  }
   const bool shows_prices = is_verbose && has_prices(optimum.result);
   const bool shows_audit = is_verbose || optimum.result.status != Status::verified;
   return status + objective_text(optimum) +

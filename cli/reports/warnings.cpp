@@ -96,6 +96,7 @@ std::string error_text(const Json& error, const ShownUnit& unit) {
 std::string error_sentence(const ErrorBar& bar, double value, const ShownUnit& unit) {
   if (!bar.is_modelled) return "not modelled";
   if (!bar.is_resolved()) return "not resolved by steps and elements";
+  if (bar.bound() == 0.0) return "exact" + left_out_text(error_document(bar), unit);
   const auto shown = [&](double bound) {
     return bound == 0.0 ? "0" : significant(unit.shown(bound), 2);
   };

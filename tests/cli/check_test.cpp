@@ -48,6 +48,12 @@ TEST_F(Check, NamesTheToleranceWhereDerivativesOnlySeemWrong) {
   EXPECT_THAT(run.out, HasSubstr("/simulation/newton_tolerance is 0.001"));
 }
 
+TEST_F(Check, RefusesAnUnknownOptimizer) {
+  const ProgramRun run = folder_.run(
+      {"check", problem("slider_crank_round"), "--set", R"(/optimizer/backend="slsqp")"});
+  EXPECT_THAT(exits(2, run).err, HasSubstr("/optimizer/backend"));
+}
+
 TEST_F(Check, CountsTheFreedomsThatAreLeft) {
   const auto rigid_motion = [&](const std::string& name) {
     return folder_.run({"check", problem(name), "--json", "--set", "/simulation/end_time=4 ms"})
@@ -264,8 +270,9 @@ TEST_F(Show, SaysWhatJointsLeaveFreeAndHowLongItTakes) {
 /// which are taken in turns.
 TEST_F(Show, ExpectsTheSearchForAMotionThatRepeatsItself) {
   const auto expected = [&](const std::string& start) {
-    const ProgramRun run = folder_.run({"show", problem("running_press"), "-o", start + ".html",
-                                        "--json", "--set", "/simulation/initial_state=" + start});
+    const ProgramRun run =
+        folder_.run({"show", problem("running_press"), "-o", start + ".html", "--overwrite",
+                     "--json", "--set", "/simulation/initial_state=" + start});
     return run.document().at("seconds").at("simulate").get<double>();
   };
   std::array<double, 5> periodic{}, consistent{};
@@ -323,6 +330,9 @@ TEST_F(Show, SaysWhichJointsABodySlidesOn) {
 TEST_F(Show, DrawsTheMechanismBeforeAnythingIsSimulated) {
   const ProgramRun run = exits(0, folder_.run({"show", problem("four_bar"), "-o", "page.html"}));
   EXPECT_THAT(run.out, HasSubstr("Drawn in page.html"));
+  const std::vector<std::string> again = {"show", problem("four_bar"), "-o", "page.html"};
+  EXPECT_THAT(exits(2, folder_.run(again)).err, HasSubstr("page.html: is there already"));
+  exits(0, folder_.run(joined(again, {"--overwrite"})));
   const json picture = data_of(folder_.path() / "page.html").at("picture");
   const json& geometry = picture.at("designs")[0].at("geometry");
   EXPECT_EQ(geometry.at("bodies").size(), picture.at("scene").at("bodies").size());

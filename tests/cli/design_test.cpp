@@ -306,6 +306,14 @@ TEST_F(RoundedDesign, IsDrawnInAReportThatIsMadeLater) {
   EXPECT_THAT(report.out, Not(HasSubstr("Without the mechanism")));
 }
 
+/// What it has is no misspelling of what it lacks.
+TEST_F(RoundedDesign, SaysWhichVariableIsMissing) {
+  const std::string file = design(R"({"crank_length": "55 mm"})");
+  EXPECT_THAT(
+      exits(2, folder_.run({"simulate", problem("hard/impossible_designs"), "--design", file})).err,
+      HasSubstr("is missing the key \"rod_height\"\n"));
+}
+
 TEST_F(WrongDesign, ThatIsNotThereIsNamed) {
   EXPECT_THAT(exits(2, folder_.run({"simulate", problem("hard/impossible_designs"), "--design",
                                     "nothing.json"}))

@@ -51,6 +51,11 @@ TEST_F(Plot, DrawsThePeakOfTheTrajectoryInTheUnitsOfEngineers) {
   EXPECT_NEAR(number_behind(svg, "data-peak=\""), highest / 1e6, 1e-9 * highest / 1e6);
   EXPECT_THAT(svg, HasSubstr("rod_stress [MPa]"));
   EXPECT_THAT(svg, HasSubstr("class=\"band\"")) << "the error band of the trajectory";
+  const std::string card = read_file(folder() / "one/run_card.json");
+  const ProgramRun refused =
+      run_program(folder(), {"plot", "one", "rod_stress", "-o", "one/run_card.json"});
+  EXPECT_THAT(exits(2, refused).err, HasSubstr("is there already"));
+  EXPECT_EQ(read_file(folder() / "one/run_card.json"), card);
 }
 
 /// What the last bits of a number say is no change: ticks that far apart would be without end.

@@ -100,7 +100,7 @@ TEST_F(ReadBack, OfGradient) {
       expect_shown(table.text(row, method), table.text(row, "unit"), values.back());
     }
     const double spread = std::abs(values[0] - values[1]) / largest(values);
-    expect_shown(table.text(row, "largest difference"), "1", spread);
+    expect_shown(table.text(row, "relative difference"), "1", spread);
   }
   EXPECT_EQ(table.text(table.row_of("rod_stress"), "unit"), "MPa/mm");
   // A final value has the derivative of its history's end.

@@ -321,7 +321,8 @@ TEST_F(LostResult, OfADiskThatFillsUpEndsTheRunAndTheRecordGoesOn) {
   const ProgramRun whole = exits(0, folder_.run_line(optimization("whole") + "--no-report"));
   const std::string line = optimization("run") + "--no-report";
   const ProgramRun run = exits(1, run_limited("500", line));
-  EXPECT_THAT(run.out, AllOf(HasSubstr("INTERRUPTED: "), HasSubstr("the best design among them")));
+  EXPECT_THAT(run.out, AllOf(HasSubstr("INTERRUPTED: "), HasSubstr("the best design among them"),
+                             ContainsRegex("rod_diameter +[0-9.]+ +[0-9.]+")));
   EXPECT_THAT(run.err, AllOf(HasSubstr("run/run.sqlite cannot be written: "),
                              HasSubstr("the run stops"), HasSubstr("--resume")));
   const ProgramRun resumed = exits(0, folder_.run_line(line + " --resume"));

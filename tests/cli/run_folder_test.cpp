@@ -329,6 +329,14 @@ TEST_F(OlderRuns, AreComparedInInputAndOutcome) {
   EXPECT_EQ(found->at("second"), result.at("variables").at("rod_diameter").at("value"));
   EXPECT_EQ(folder_.run({"compare", "runs/one", "runs"}).exit_code, 2);
   EXPECT_EQ(folder_.run({"compare", "runs/one"}).exit_code, 2);
+  std::ofstream(folder_.path() / "mine.json") << "mine";
+  const ProgramRun refused = folder_.run({"compare", "runs/one", "runs/two", "-o", "mine.json"});
+  EXPECT_THAT(exits(2, refused).err, HasSubstr("mine.json: is there already"));
+  EXPECT_EQ(read_file(folder_.path() / "mine.json"), "mine");
+  std::ofstream(folder_.path() / "runs/two/result.json") << R"({"version": 1})";
+  EXPECT_THAT(folder_.run({"compare", "runs/one", "runs/two"}).out,
+              HasSubstr("runs/two/result.json: is damaged"));
+  EXPECT_THAT(folder_.run({"runs"}).out, HasSubstr("damaged"));
 }
 
 /// Numbers in the tables read back as those of the record, which are those of the history.

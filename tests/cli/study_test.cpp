@@ -148,6 +148,10 @@ TEST_F(PricesCommand, WritesWhatItSays) {
   const ProgramRun run =
       exits(0, folder_.run_quick({"prices", problem("slider_crank_round"), "-o", "p"}));
   const nlohmann::json result = folder_.result("p");
+  const ProgramRun broken =
+      folder_.run_quick({"prices", problem("slider_crank_round"), "--design", "p/result.json", "-o",
+                         "broken", "--set", "/constraints/rod_strength/upper=20 MPa"});
+  EXPECT_THAT(exits(4, broken).out, HasSubstr("the design breaks \"rod_strength\""));
   const nlohmann::json& prices = result.at("prices");
   const double mass = result.at("objective").at("value");
   const auto rows = read_csv(folder_.path() / "p/prices.csv");
