@@ -194,8 +194,9 @@ std::unique_ptr<Analysis> analyze_variant(const TrustedRun& run,
   ProblemFile variant = basis != nullptr ? basis->problem : run.problem;
   change(variant);
   try {
-    return analyze(with_steps_of(basis_of_variants(run).trajectory, variant), run.x,
-                   &run.analysis.trajectory, ShortWindow::unknown);
+    variant = with_steps_of(basis_of_variants(run).trajectory, std::move(variant));
+    return analyze(without_derivatives(std::move(variant), run.x), run.x, &run.analysis.trajectory,
+                   ShortWindow::unknown);
   } catch (const SimulationError&) {
     if (!run.shared->coarse->is_four_enough) throw;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 #include <variant>
 
 #include "core/base/eager_matrices.hpp"
@@ -12,6 +13,7 @@
 #include "core/jobs/parallel.hpp"
 #include "core/model/divided_beams.hpp"
 #include "core/scene/beam_mesh.hpp"
+#include "core/scene/problem_numbers.hpp"
 
 namespace pleuel {
 
@@ -99,13 +101,20 @@ int beam_elements(const ProblemFile& problem) {
   return count;
 }
 
+ProblemFile without_derivatives(ProblemFile problem, const Eigen::VectorXd& x) {
+  if (x == start_design(problem)) {
+    problem.scene = with_fixed_numbers(std::move(problem.scene), {x.begin(), x.end()});
+  }
+  return problem;
+}
+
 NestedRun simulate_refined(const ProblemFile& problem, const Eigen::VectorXd& x,
                            const Refinement& refinement, const Trajectory* similar) {
   NestedRun run;
   try {
     run.problem = refined(problem, refinement);
     run.problem.simulation.moves_by_bending = true;  // whether it moves at all was asked before
-    run.analysis = analyze(run.problem, x, similar, ShortWindow::unknown);
+    run.analysis = analyze(without_derivatives(run.problem, x), x, similar, ShortWindow::unknown);
   } catch (const SimulationError& error) {
     run.failure = error.what();
   } catch (const InputError& error) {  // more modes than coordinates …

@@ -56,6 +56,10 @@ struct NestedRun {
   std::string failure;
 };
 
+/// The problem without derivatives at a design, which take most of building a model with many variables and
+/// which values do not need. Elsewhere than at its start, where topology is decided, it stays as it is.
+ProblemFile without_derivatives(ProblemFile problem, const Eigen::VectorXd& x);
+
 /// @param similar  see analyze()
 NestedRun simulate_refined(const ProblemFile& problem, const Eigen::VectorXd& x,
                            const Refinement& refinement, const Trajectory* similar = nullptr);

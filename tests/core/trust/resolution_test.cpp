@@ -207,6 +207,21 @@ TEST(Refinement, FindsPeriodicMotionsBesideTheOneThatIsKnown) {
   }
 }
 
+/// The same digits, as a model with derivatives has the same numbers.
+TEST(Refinement, IsMadeWithoutDerivatives) {
+  const ProblemFile problem = sample_problem("slider_crank_tapered");
+  const Eigen::VectorXd x = start_design(problem);
+  const NestedRun run = simulate_refined(problem, x, {.step = 16.0});
+  const auto with_derivatives = analyze(run.problem, x);
+  EXPECT_EQ(values_of(*run.analysis), values_of(*with_derivatives));
+  EXPECT_FALSE(with_derivatives->model.body("crank").beam_x.empty());
+  EXPECT_TRUE(run.analysis->model.body("crank").beam_x.empty());
+  const Eigen::VectorXd elsewhere = 1.01 * x;
+  EXPECT_FALSE(simulate_refined(problem, elsewhere, {.step = 16.0})
+                   .analysis->model.body("crank")
+                   .beam_x.empty());
+}
+
 TEST(Refinement, KeepsTheEndAndTheLengths) {
   ProblemFile problem =
       problem_from(cantilever, {"/simulation/end_time=0.1", "/simulation/step=0.02"});
