@@ -295,7 +295,8 @@ class FormulaFunctions {
   /// As the frequencies of a square section along two axes.
   static bool is_tie(double a, double b) {
     constexpr double round_off = 1e-12;
-    return std::abs(a - b) <= round_off * std::max(std::abs(a), std::abs(b));
+    const double apart = std::abs(a - b);
+    return apart <= round_off * std::max(std::abs(a), std::abs(b)) && std::isfinite(apart);
   }
 
   static Value chosen(const Value& f, const Value& g, bool is_first) {

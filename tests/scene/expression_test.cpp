@@ -1,6 +1,7 @@
 #include "core/base/expression.hpp"
 
 #include <complex>
+#include <limits>
 
 #include "core/scene/reading/expression_parser.hpp"
 #include "core/scene/shown_unit.hpp"
@@ -96,6 +97,10 @@ TEST(Expression, HasTheMeanDerivativeWhereTwoAreEqualButForRoundOff) {
   }
   EXPECT_EQ(evaluate(*read.expression, {1.3, 1.3 * (1.0 + 1e-9)}).derivatives,
             (std::vector<double>{1.0, 0.0}));
+  const ExpressionValue bounded =
+      evaluate(*read.expression, {std::numeric_limits<double>::infinity(), 1.3});
+  EXPECT_EQ(bounded.value, 1.3);
+  EXPECT_EQ(bounded.derivatives, (std::vector<double>{0.0, 1.0}));
 }
 
 TEST(Expression, FollowsTheUsualPrecedence) {
