@@ -169,7 +169,8 @@ class PeriodicSearch {
   }
 
   PeriodicStart found(const Attempt& attempt) {
-    double growth = is_known() ? one_.similar->periodic->growth : map_->growth();
+    const bool is_of_similar = is_known() && map_ == one_.similar->periodic->map;
+    double growth = is_of_similar ? one_.similar->periodic->growth : map_->growth();
     if (growth > unstable) {
       // The map may be that of a motion on the way, whose disturbances grow otherwise.
       make_map(attempt.trajectory);
