@@ -7,7 +7,6 @@
 #include "core/integration/period_map.hpp"
 #include "core/trust/check_list.hpp"
 #include "core/trust/checks.hpp"
-#include "core/trust/refined_runs.hpp"
 
 namespace pleuel {
 
@@ -133,7 +132,7 @@ std::string simulation_text(const ProblemFile& problem, const std::string& desig
 /// Of a simulation that fails, what speaks against its numbers and against the motion before is shown.
 std::unique_ptr<Analysis> analyze_or_doubt(const ProblemInput& input) {
   try {
-    return analyze(without_derivatives(input.problem, input.design), input.design);
+    return analyze(input.problem, input.design);
   } catch (const SimulationError& error) {
     std::vector<Finding> findings = check_proportions_before(input.problem, input.design);
     try {

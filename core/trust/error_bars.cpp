@@ -227,13 +227,27 @@ Evidence evidence_of(const Analysis& analysis, std::size_t response, const Judgi
   return evidence;
 }
 
+namespace {
+
+/// What of a difference by fewer and by more elements is missing, and factors of bounds.
+struct ElementShares {
+  double left, missing, of_fewer, of_more;
+
+  explicit ElementShares(double order)
+      : left(1.0 / (std::pow(2.0, order) - 1.0)),
+        missing(1.0 + left),
+        of_fewer(3.0 * left * safety::of_fewer),
+        of_more(0.75 * missing * safety::of_more) {}
+};
+
+}  // namespace
+
 ErrorPart element_part(const Evidence& runs) {
-  const double growth = std::pow(2.0, runs.element_order), left = 1.0 / (growth - 1.0);
+  const ElementShares shares(runs.element_order);
   if (!runs.more_elements) {
-    return part_of(runs, runs.fewer_elements, -left, 3.0 * left * safety::of_fewer);
+    return part_of(runs, runs.fewer_elements, -shares.left, shares.of_fewer);
   }
-  const double missing = growth * left;
-  ErrorPart part = part_of(runs, runs.more_elements, missing, 0.75 * missing * safety::of_more);
+  ErrorPart part = part_of(runs, runs.more_elements, shares.missing, shares.of_more);
   if (!is_there(runs.more_elements) || !is_there(runs.fewer_elements)) return part;
   const double more = *runs.more_elements, fewer = *runs.fewer_elements;
   if (std::abs(fewer) <= value_round_off * runs.magnitude) return part;
@@ -335,8 +349,8 @@ Eigen::VectorXd left_by_steps(const Curve& of_twice, const std::optional<Curve>&
 
 }  // namespace
 
-std::vector<Eigen::VectorXd> error_bands(const Analysis& analysis, const JudgingRuns& runs,
-                                         double order) {
+std::vector<Eigen::VectorXd> error_bands(const ProblemFile& problem, const Analysis& analysis,
+                                         const JudgingRuns& runs, double order) {
   std::vector<Eigen::VectorXd> bands(analysis.responses.size());
   if (!is_there(runs.twice_step)) return bands;
   for (std::size_t i = 0; i < bands.size(); ++i) {
@@ -357,8 +371,9 @@ std::vector<Eigen::VectorXd> error_bands(const Analysis& analysis, const Judging
                                      curve_of(response, *comparison.beside, i));
       band += factor * envelope(apart, now.time);
     };
-    add(runs.more_elements, safety::of_more);
-    if (!is_there(runs.more_elements.run)) add(runs.fewer_elements, safety::of_fewer);
+    const ElementShares shares(element_order(problem, i));
+    add(runs.more_elements, shares.of_more);
+    if (!is_there(runs.more_elements.run)) add(runs.fewer_elements, shares.of_fewer);
     add(runs.modes, safety::of_modes);
     add(runs.newton, safety::of_newton);
   }

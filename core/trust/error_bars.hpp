@@ -112,7 +112,7 @@ ErrorBar error_bar(const Evidence& evidence);
 /// top.
 /// @returns one a response, half-widths at the instants of the simulation [SI]; empty for those
 /// without a history, and where the run of twice the step failed
-std::vector<Eigen::VectorXd> error_bands(const Analysis& analysis, const JudgingRuns& runs,
-                                         double order);
+std::vector<Eigen::VectorXd> error_bands(const ProblemFile& problem, const Analysis& analysis,
+                                         const JudgingRuns& runs, double order);
 
 }  // namespace pleuel

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <memory>
 #include <utility>
 
@@ -263,7 +264,8 @@ class VariantRun {
   /// the others that are worth a word.
   /// @returns whether there are any
   bool add_finding(bool alarming, std::vector<Finding>& findings) const {
-    const std::vector<std::size_t> asked = asked_parts(run_.problem);
+    std::vector<std::size_t> asked = asked_responses(run_.problem);
+    std::ranges::copy(asked_parts(run_.problem), std::back_inserter(asked));
     Names names, changed;
     std::vector<bool> has_part(beams_.size(), false);
     double largest = 0.0;

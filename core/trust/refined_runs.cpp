@@ -12,6 +12,7 @@
 #include "core/integration/simulation_options.hpp"
 #include "core/jobs/parallel.hpp"
 #include "core/model/divided_beams.hpp"
+#include "core/model/motion_plane.hpp"
 #include "core/scene/beam_mesh.hpp"
 #include "core/scene/problem_numbers.hpp"
 
@@ -102,9 +103,14 @@ int beam_elements(const ProblemFile& problem) {
 }
 
 ProblemFile without_derivatives(ProblemFile problem, const Eigen::VectorXd& x) {
-  if (x == start_design(problem)) {
-    problem.scene = with_fixed_numbers(std::move(problem.scene), {x.begin(), x.end()});
+  if (x != start_design(problem)) return problem;
+  const Design<double> start(x.begin(), x.end());
+  // What a variable may move out of the plane is in space, even where it does not.
+  const EffectChoice spatial = problem.effects.spatial_motion;
+  if (!decide_motion_plane(problem.scene, spatial, start).plane) {
+    problem.effects.spatial_motion = EffectChoice::on;
   }
+  problem.scene = with_fixed_numbers(std::move(problem.scene), start);
   return problem;
 }
 

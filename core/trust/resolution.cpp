@@ -96,7 +96,7 @@ class Judgement {
       refine();
     }
     if (set_.runs().half_step != nullptr && !do_suffice()) refine();
-    found_.bands = error_bands(run_.analysis, set_.runs_of_histories(), order());
+    found_.bands = error_bands(problem_, run_.analysis, set_.runs_of_histories(), order());
     found_.failure = set_.failure();
     return std::move(found_);
   }

@@ -261,9 +261,11 @@ class RoundOff {
     const Histories observed = recorder.take(instants);
     std::vector<double> all;
     for (std::size_t i = 0; i < responses.size(); ++i) {
-      all.push_back(largest(responses[i].history()->map
-                                ? mapped_history(responses[i], trajectory.time, observed[i])
-                                : observed[i]));
+      if (responses[i].history()->map) {
+        all.push_back(largest(mapped_history(responses[i], trajectory.time, observed[i])));
+      } else {
+        all.push_back(largest(observed[i]));
+      }
     }
     return all;
   }

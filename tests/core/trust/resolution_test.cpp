@@ -222,6 +222,20 @@ TEST(Refinement, IsMadeWithoutDerivatives) {
                    .beam_x.empty());
 }
 
+/// A variable that may leave the plane keeps the judging run in space, too.
+TEST(Refinement, StaysInSpaceWhereAVariableMayLeaveThePlane) {
+  const ProblemFile problem = problem_from(R"({"scene": {
+      "bodies": {"b": {"type": "beam", "from": [0, 0, 0], "to": [0.3, 0, {"variable": "z"}],
+        "material": "steel", "section": {"type": "circle", "diameter": 0.01}, "elements": 2}},
+      "joints": {"f": {"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]}}},
+    "simulation": {"end_time": 0.01, "step": 0.001},
+    "variables": {"z": {"start": 0, "lower": -0.1, "upper": 0.1}},
+    "responses": {"s": {"type": "stress", "body": "b", "over_time": "max"}}})");
+  const Eigen::VectorXd x = start_design(problem);
+  EXPECT_EQ(simulate_refined(problem, x, {}).analysis->model.mechanism.system->coordinates(),
+            analyze(problem, x)->model.mechanism.system->coordinates());
+}
+
 TEST(Refinement, KeepsTheEndAndTheLengths) {
   ProblemFile problem =
       problem_from(cantilever, {"/simulation/end_time=0.1", "/simulation/step=0.02"});

@@ -300,6 +300,23 @@ TEST(ShearRange, IsNotSeriousForWhatIsNotAsked) {
   EXPECT_TRUE(only(findings_of(problem, check_variants)).is_serious);
 }
 
+/// 3 % of a deflection are a fifth of its sixth power.
+TEST(ShearRange, IsSeriousForAFormulaThatIsAsked) {
+  ProblemFile problem = LoadedBeam{rectangle(0.2)}.problem();
+  EXPECT_FALSE(only(findings_of(problem, check_variants)).is_serious);
+  Expression power;
+  power.arguments = {{ExpressionArgument::Kind::response, 0}};
+  power.steps = {
+      {Operation::argument, 0.0, 0}, {Operation::constant, 6.0}, {Operation::power, 0.0, 0, 1}};
+  ResponseSettings settings;
+  settings.name = "power";
+  settings.type = ResponseType::expression;
+  settings.expression = std::make_shared<const Expression>(power);
+  problem.responses.push_back(settings);
+  problem.objective = Objective{"power"};
+  EXPECT_TRUE(only(findings_of(problem, check_variants)).is_serious);
+}
+
 /// A file without responses asks nothing.
 TEST(ShearRange, IsNotAskedWithoutResponses) {
   ProblemFile problem = LoadedBeam{rectangle(0.5)}.problem();
