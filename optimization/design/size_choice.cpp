@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/base/eager_matrices.hpp"
+#include "core/base/int_size.hpp"
 #include "core/base/number_text.hpp"
 #include "core/base/stopwatch.hpp"
 #include "optimization/design/size_lists.hpp"
@@ -93,20 +94,19 @@ class SizeSearch {
     if (news.empty()) return;
     std::vector<Eigen::VectorXd> designs;
     for (const Sizes& choice : news) designs.push_back(lists_.design(choice, from));
-    const Stopwatch stopwatch;
     std::vector<SizeTrial> answers =
         try_sizes(file_, designs, scales_, setup_.options, setup_.execution);
-    const double seconds = stopwatch.seconds();
-    for (std::size_t i = 0; i < news.size(); ++i) keep(news[i], std::move(answers[i]));
-    solution_.result.seconds += seconds;  // they run at the same time
+    const int at_once = std::min(setup_.execution.tasks.jobs, int_size(news));
+    for (std::size_t i = 0; i < news.size(); ++i) keep(news[i], std::move(answers[i]), at_once);
   }
 
-  void keep(const Sizes& choice, SizeTrial trial) {
+  /// @param at_once  so many trials run at the same time
+  void keep(const Sizes& choice, SizeTrial trial, int at_once) {
     for (EvaluationRecord& record : trial.history) {
       record.purpose = Purpose::trial;
       record.iteration = 1;
     }
-    add_effort(std::exchange(trial.history, {}), 0.0);
+    add_effort(std::exchange(trial.history, {}), trial.seconds / at_once);
     ++report_.tried;
     if (trial.keeps_limits()) ++report_.feasible;
     const SizeTrial& kept = tried_.emplace(choice, std::move(trial)).first->second;

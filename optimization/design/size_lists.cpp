@@ -127,6 +127,7 @@ struct TrialData {
       trial.max_violation = record.max_violation;
     }
     trial.constraints = record.constraints;
+    trial.seconds = record.seconds;
     trial.history = {simulated_with(file, std::move(record))};
     return trial;
   }
@@ -140,6 +141,7 @@ struct TrialData {
     SizeTrial trial;
     trial.x = result.x;
     trial.history = result.history;
+    trial.seconds = result.seconds;
     if (!result.evaluation.has_gradients()) return trial;
     trial.objective = result.evaluation.objective;
     trial.constraints = result.evaluation.constraints;

@@ -62,6 +62,7 @@ struct SizeTrial {
   double objective = 0.0, max_violation = std::numeric_limits<double>::infinity();
   Eigen::VectorXd constraints = {};
   History history = {};
+  double seconds = 0.0;
 
   bool has_failed() const { return constraints.size() == 0 && !std::isfinite(max_violation); }
   bool keeps_limits() const { return max_violation <= Tolerances().violation; }
