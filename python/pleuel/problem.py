@@ -8,7 +8,6 @@ import json
 import os
 import pathlib
 import tempfile
-from numbers import Real
 from typing import Any, Callable, Mapping, Optional, Union
 
 import numpy as np
@@ -176,7 +175,7 @@ class Problem:
         if isinstance(x, Mapping):
             values = self.start.copy()
             for name, value in x.items():
-                if not isinstance(value, Real):
+                if isinstance(value, str):
                     raise CallError(f"{name!r}: a design has numbers in SI units, got {value!r}")
                 values[_place(name, self.variables, "variable")] = value
             return values
