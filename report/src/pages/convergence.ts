@@ -29,14 +29,14 @@ export function convergenceSection(data: ReportData): HTMLElement | null {
   const common = { xTitle: "iteration", wholeX: true, logY: true, height: 210 };
   return section(
     "How it converged",
-    "Rings are designs that break a limit.",
+    "Rings are designs that break a limit. Distances below 1e−6 % stand at 1e−6 %.",
     h(
       "div.columns",
       {},
       lineChart({
         ...common,
         title: `distance of ${words(objective.name)} to the answer`,
-        yTitle: `% of it, ${nothing} or less`,
+        yTitle: "% of it",
         series: [{ name: "distance", x, y: distance.map((one) => Math.max(one, nothing)), color: "accent", dots: true, hollow: violation.map((one) => one > allowed), labels }],
       }).element,
       violation.some((one) => one > roundOff)
