@@ -32,7 +32,7 @@ Json track_document(const BodyTrack& track) {
 }
 
 Json case_document(const ProblemFile& problem, const Eigen::VectorXd& x) {
-  const auto analysis = analyze(problem, x);
+  const auto analysis = analyze(problem, x, values_only);
   const Motion motion =
       sample_motion(problem.scene, *analysis, frames_of_motion(*analysis, most_instants));
   Json document = {{"case", problem.load_case},

@@ -140,7 +140,8 @@ std::optional<HistoryGradients> OpenProblem::history_gradients(const Eigen::Vect
   differentiated_x_ = x;
   auto found = differentiated_.find(place->load_case);
   if (found == differentiated_.end()) {
-    Analysis& analysis = problem().load_case(place->load_case).analysis_at(x);
+    Analysis& analysis =
+        problem().load_case(place->load_case).analysis_at(x, Request::values_and_gradients);
     found = differentiated_.emplace(place->load_case, pleuel::history_gradients(analysis)).first;
   }
   for (const HistoryGradients& one : found->second) {

@@ -283,7 +283,7 @@ Motion rigid_motion(const ProblemFile& problem, const Eigen::VectorXd& x) {
   const Eigen::VectorXd start = start_design(problem);
   try {
     const Model model = build_model(problem.scene, problem.effects, {start.begin(), start.end()},
-                                    {x.begin(), x.end()}, problem.sensitivity.invariants);
+                                    {x.begin(), x.end()}, std::nullopt);
     RigidMotion rigid =
         rigid_motion(problem.scene, model, problem.simulation.end_time, problem.simulation.step);
     return rigid.motion.time.size() > 1 ? std::move(rigid.motion) : Motion();

@@ -13,7 +13,7 @@ namespace {
 Eigen::VectorXd values_at(const ProblemFile& problem, Eigen::VectorXd x, Eigen::Index j,
                           double value, const ValuesOf& values) {
   x(j) = value;
-  return values(*analyze(problem, x));
+  return values(*analyze(problem, x, values_only));
 }
 
 const DesignVariable& variable(const ProblemFile& problem, Eigen::Index j) {

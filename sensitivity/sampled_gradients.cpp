@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <stdexcept>
 
 #include "core/base/int_size.hpp"
 #include "core/response/history_reduction.hpp"
@@ -74,6 +75,9 @@ class SampledGradients {
         gradients_(Gradients::Zero(values.size(), mechanism_.system->variables())),
         part_(mechanism_.system->coordinates(), mechanism_.system->multipliers(),
               mechanism_.system->variables()) {
+    if (!analysis.model.has_derivatives) {
+      throw std::logic_error("an analysis of values only is differentiated");
+    }
     for (std::size_t i = 0; i < values.size(); ++i) add_value(i, values[i], of);
   }
 

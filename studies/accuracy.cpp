@@ -132,7 +132,7 @@ class Studying {
 
   void add_effects() {
     const ProblemFile discrete = discretized(problem_, base().settings);
-    const std::unique_ptr<Analysis> analysis = analyze(problem_, x_);
+    const std::unique_ptr<Analysis> analysis = analyze(problem_, x_, values_only);
     const std::optional<double> of_file = design_.lagrangian(problem_);
     for (const Variation& one : effect_variations(problem_, analysis->model)) {
       add(one, study_.effects, [&] {
@@ -164,8 +164,9 @@ class Studying {
     const Variation other = other_formulation(problem_);
     ReferenceCheck check;
     check.formulation = other.value;
-    check.failure = failure_of(
-        [&] { check.differences = differences_of(values_of(*analyze(other.of(finest), x_))); });
+    check.failure = failure_of([&] {
+      check.differences = differences_of(values_of(*analyze(other.of(finest), x_, values_only)));
+    });
     return check;
   }
 
@@ -232,7 +233,7 @@ class Studying {
                       VariedRun& effect) const {
     if (effect.run.has_failed()) return;
     try {
-      effect.influence = values_of(*analyze(changed, x_)) - values;
+      effect.influence = values_of(*analyze(changed, x_, values_only)) - values;
     } catch (const SimulationError& error) {
       effect.run.failure = error.what();
     }

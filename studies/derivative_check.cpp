@@ -210,7 +210,7 @@ class Check {
     for_each_in_parallel(simulations, options_.threads, [&](int i) {
       const double step = i % 2 == 0 ? steps[i / 2] : -steps[i / 2];
       try {
-        values[i] = values_of(*analyze(problem_, x_ + step * direction.change));
+        values[i] = values_of(*analyze(problem_, x_ + step * direction.change, values_only));
       } catch (const SimulationError& error) {
         failures[i] = error.what();
       }

@@ -41,7 +41,7 @@ std::vector<DifferenceLevel> difference_table(Eigen::VectorXd differences) {
 /// NaN where the simulation fails.
 Eigen::VectorXd values_at(const ProblemFile& problem, const Eigen::VectorXd& x) {
   try {
-    return values_of(*analyze(problem, x));
+    return values_of(*analyze(problem, x, values_only));
   } catch (const SimulationError&) {
     return Eigen::VectorXd::Constant(problem.responses.size(),
                                      std::numeric_limits<double>::quiet_NaN());

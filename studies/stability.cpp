@@ -34,7 +34,7 @@ void measure(UndecidedProblem read, StabilityRun& run) {
   const ProblemFile problem = decided(std::move(read));
   const Stopwatch stopwatch;
   const Eigen::VectorXd x = start_design(problem);
-  const auto analysis = analyze(problem, x);
+  const auto analysis = analyze(problem, x, values_only);
   run.seconds = stopwatch.seconds();
   const Trajectory& trajectory = analysis->trajectory;
   run.steps = trajectory.steps();

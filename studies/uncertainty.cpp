@@ -116,7 +116,7 @@ struct SampleData {
 
   Sample simulated(const Eigen::VectorXd& design) const {
     try {
-      const auto analysis = analyze(problem, design);
+      const auto analysis = analyze(problem, design, values_only);
       return {values_of(*analysis), histories_of(*analysis)};
     } catch (const SimulationError&) {
       return {};

@@ -131,7 +131,7 @@ void export_motion(const OlderRun& run, const fs::path& target, Exported& export
     const auto x = design_in(run.result, problem, key);
     if (!x) continue;
     const std::string shown = series_name(name, problem.load_case);
-    const auto analysis = analyze(problem, *x);
+    const auto analysis = analyze(problem, *x, values_only);
     const int instants = write_vtk_series(target / "vtk", shown, problem, *x, *analysis,
                                           most_instants, exported.failures);
     const fs::path series = target / "vtk" / (shown + ".pvd");

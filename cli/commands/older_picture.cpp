@@ -42,8 +42,8 @@ Json optimum_picture(const OlderRun& run, const ProblemFile& problem, std::size_
   const auto add = [&](const std::string& name, const char* key, const char* trajectory) {
     const auto x = design_in(run.result, problem, key);
     if (!x) return;
-    designs.push_back(
-        {name, *x, analyze(problem, *x), run.folder / name_of_case_file(trajectory, problem)});
+    designs.push_back({name, *x, analyze(problem, *x, values_only),
+                       run.folder / name_of_case_file(trajectory, problem)});
   };
   add("start", "start", "trajectory-start");
   add(name_of_end(run.result.at("status")), "value", "trajectory-optimum");
@@ -96,7 +96,7 @@ Json single_picture(const OlderRun& run, Notes& notes) {
     design.trajectory = run.folder / "trajectory.csv";
   }
   if (!design.trajectory.empty() || command == "check") {
-    design.analysis = analyze(problem, design.x);
+    design.analysis = analyze(problem, design.x, values_only);
   }
   if (command == "check") design.influence = design_influence(problem, *design.analysis);
   std::vector<Redone> designs;

@@ -69,7 +69,11 @@ std::vector<Eigen::VectorXd> bands_of_case(const ProblemFile& joined, const Resu
 std::vector<CaseDesigns> simulate_designs(RunRecord& record, const Optimum& optimum) {
   std::vector<CaseDesigns> all;
   for (const ProblemFile* problem : simulated_problems(optimum.problem)) {
-    CaseDesigns one{problem, analyze(*problem, first_design(optimum.result.history).x), {}, {}, {}};
+    CaseDesigns one{problem,
+                    analyze(*problem, first_design(optimum.result.history).x, values_only),
+                    {},
+                    {},
+                    {}};
     one.bands = bands_of_case(optimum.problem, optimum.result, all.size());
     write_trajectory(record.result(name_of_case_file("trajectory-start", *problem)), *one.start);
     one.end = analyze(*problem, optimum.result.x);

@@ -93,7 +93,7 @@ FirstSteps take_first_steps(const ProblemFile& problem, const Eigen::VectorXd& x
   try {
     while (true) {
       const Stopwatch stopwatch;
-      first.analysis = analyze(beginning(problem, window), x);
+      first.analysis = analyze(beginning(problem, window), x, values_only);
       seconds = stopwatch.seconds();
       if (before > 0.0 && (seconds >= enough_seconds || window >= largest_share * end)) break;
       if (window >= end) break;
@@ -144,7 +144,7 @@ Shown describe(const ProblemFile& problem, const Eigen::VectorXd& x) {
   const std::vector<Finding> findings_before = check_before(problem);
   const Eigen::VectorXd start = start_design(problem);
   Model model = build_model(problem.scene, problem.effects, {start.begin(), start.end()},
-                            {x.begin(), x.end()}, problem.sensitivity.invariants);
+                            {x.begin(), x.end()}, std::nullopt);
   Shown shown;
   std::vector<std::string> warnings = impossible_corners(problem);
   shown.text = problem.name + "\n\n" + bodies_text(model);

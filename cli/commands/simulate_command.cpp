@@ -132,7 +132,7 @@ std::string simulation_text(const ProblemFile& problem, const std::string& desig
 /// Of a simulation that fails, what speaks against its numbers and against the motion before is shown.
 std::unique_ptr<Analysis> analyze_or_doubt(const ProblemInput& input) {
   try {
-    return analyze(input.problem, input.design);
+    return analyze(input.problem, input.design, values_only);
   } catch (const SimulationError& error) {
     std::vector<Finding> findings = check_proportions_before(input.problem, input.design);
     try {

@@ -265,7 +265,8 @@ void set_beam(const BeamBody& beam, const Body& body, const BuildContext& contex
   }
   model.mesh = make_mesh(body, context.scene, context.start, effects.elasticity);
   model.beam = resolve_beam(beam, model.mesh, context.scene, context.design);
-  const std::set<int> variables = beam_variables(body, model.mesh, context.scene);
+  const std::set<int> variables =
+      context.differentiated(beam_variables(body, model.mesh, context.scene));
   for (const int variable : variables) {
     model.beam_x.emplace_back(
         variable, resolve_beam(beam, model.mesh, context.scene, context.seeded(variable)));

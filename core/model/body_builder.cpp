@@ -56,7 +56,7 @@ Invariants<Scalar> make_rigid_invariants(const Body& body, const Design<Scalar>&
 
 void set_rigid(const Body& body, const BuildContext& context, BodyModel& model) {
   model.invariants = make_rigid_invariants(body, context.design);
-  for (int variable : variables_of(body, context.scene)) {
+  for (int variable : context.differentiated(variables_of(body, context.scene))) {
     model.invariants_x.push_back(
         {variable, differentiate_invariants(context, variable, [&](const auto& design) {
            return make_rigid_invariants(body, design);

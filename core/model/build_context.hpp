@@ -2,8 +2,10 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "core/base/int_size.hpp"
@@ -28,12 +30,16 @@ struct BuildContext {
   const Design<double>& design;
   std::optional<MotionPlane> plane;
   Eigen::Vector3d gravity;
-  InvariantDifferentiation differentiation = {};
+  Differentiation differentiation = {};
   std::map<std::string, BodyEffects> beam_effects = {};  ///< by body
   std::unordered_map<std::string, std::size_t> body_numbers = numbers_by_name(scene.bodies);
 
   const BodyEffects& effects_of(const std::string& beam) const { return beam_effects.at(beam); }
-  int variables() const { return int_size(design); }
+  int variables() const { return differentiation ? int_size(design) : 0; }
+  /// Of the variables that something depends on, those by which it is differentiated: all or none.
+  std::set<int> differentiated(std::set<int> variables) const {
+    return differentiation ? std::move(variables) : std::set<int>();
+  }
   /// The design with one variable seeded.
   Design<Dual> seeded(int variable) const {
     Design<Dual> dual(design.begin(), design.end());

@@ -100,7 +100,7 @@ class ModelBuilder {
   /// @param divided  the same with a body for each frame
   ModelBuilder(const Scene& scene, const DividedScene& divided, const EffectSettings& effects,
                const Design<double>& start, const Design<double>& design,
-               const InvariantDifferentiation& differentiation)
+               const Differentiation& differentiation)
       : scene_(scene), divisions_(divided.divisions), context_{divided.scene,
                                                                effects,
                                                                start,
@@ -110,6 +110,7 @@ class ModelBuilder {
                                                                differentiation} {}
 
   Model build() {
+    model_.has_derivatives = context_.differentiation.has_value();
     decide_motion();
     for (const Body& body : scene_.bodies) {
       if (!std::holds_alternative<BeamBody>(body.shape)) continue;
@@ -336,7 +337,7 @@ class ModelBuilder {
       const double size = sizes.of(body.name);
       mechanism.guess.q.segment(frame.offset, frame.size()) =
           frame_coordinates(frame, body_pose(body, context_.design));
-      for (int variable : variables_of(body, context_.scene)) {
+      for (int variable : context_.differentiated(variables_of(body, context_.scene))) {
         mechanism.guess_q_x.col(variable).segment(frame.offset, frame.size()) =
             derivative_matrix(frame_coordinates(frame, body_pose(body, context_.seeded(variable))));
       }
@@ -378,7 +379,7 @@ class ModelBuilder {
     Mechanism& mechanism = model_.mechanism;
     mechanism.guess.v.segment(frame.offset, frame.size()) =
         frame_rates<double>(frame, body, context_.design);
-    for (int variable : variables_of(body, context_.scene)) {
+    for (int variable : context_.differentiated(variables_of(body, context_.scene))) {
       mechanism.guess_v_x.col(variable).segment(frame.offset, frame.size()) =
           derivative_matrix(frame_rates<Dual>(frame, body, context_.seeded(variable)));
     }
@@ -415,7 +416,7 @@ class ModelBuilder {
 }  // namespace
 
 Model build_model(const Scene& scene, const EffectSettings& effects, const Design<double>& start,
-                  const Design<double>& design, const InvariantDifferentiation& differentiation) {
+                  const Design<double>& design, const Differentiation& differentiation) {
   if (const auto broken = find_impossible(scene, start, design)) {
     throw SimulationError("the mechanism is impossible: " + *broken);
   }

@@ -189,7 +189,7 @@ class Estimation {
     EffectSettings settings = problem_.effects;
     settings.decisions = {};
     settings.elasticity = elasticity;
-    return build_model(without_divisions(problem_.scene), settings, start_, start_);
+    return build_model(without_divisions(problem_.scene), settings, start_, start_, std::nullopt);
   }
 
   SimulationOptions options() const {

@@ -167,7 +167,7 @@ class EndFittings::Builder {
     add_variables_of(beam_.to, variables);
     if (place.point) add_variables_of(*place.point, variables);
     if (place.beam) variables.merge(variables_of(*place.beam, scene_));
-    for (const int variable : variables) {
+    for (const int variable : context_.differentiated(std::move(variables))) {
       const Dual dual = distance(beam_, end, place, context_.seeded(variable));
       result.slopes.emplace_back(variable, derivative_of(dual));
     }

@@ -165,7 +165,7 @@ void set_imported(const ImportedBody& imported, const Body& body, const BuildCon
   const BodyConstants& constants = file->constants;
   std::vector<std::pair<int, const BodyConstants*>> changes;
   for (const ImportedVariable& of : imported.variables) {
-    if (!of.number.is_bound()) continue;
+    if (!of.number.is_bound() || !context.differentiation) continue;
     changes.emplace_back(of.number.variable, &*file->design[of.in_design].derivative);
   }
   // Value and derivatives of a part that is made of the constants.

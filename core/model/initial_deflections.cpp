@@ -364,7 +364,7 @@ void set_initial_deflections(std::size_t body, const std::vector<BodyModel>& bod
   mechanism.guess.v.segment(offset, size) = initial.rate();
   mechanism.bent_starts.push_back(
       initial.start(scale_at_start(body, bodies.size(), context, mechanism.guess, weight)));
-  std::set<int> variables = variables_of(of, context.scene);
+  std::set<int> variables = context.differentiated(variables_of(of, context.scene));
   for (const auto& [variable, change] : model.invariants_x) variables.insert(variable);
   const std::vector<MatrixXd> changes = initial.derivatives(variables);
   std::size_t k = 0;

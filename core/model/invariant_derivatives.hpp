@@ -26,7 +26,7 @@ double relative_step(const InvariantDifferentiation& differentiation);
 template <class Function>
 Invariants<double> differentiate_invariants(const BuildContext& context, int variable,
                                             const Function& invariants_at) {
-  const InvariantDifferentiation& how = context.differentiation;
+  const InvariantDifferentiation& how = *context.differentiation;
   if (how.derivatives == InvariantDerivatives::exact ||
       how.derivatives == InvariantDerivatives::complex_step) {
     return derivative_of(invariants_at(context.seeded(variable)));

@@ -258,7 +258,7 @@ class JointBuilder {
     visit_numbers(joint_, [&](const Number& number, const Quantity&) {
       for (const int variable : number.variables()) all.insert(variable);
     });
-    return all;
+    return context_.differentiated(std::move(all));
   }
 
   void differentiate() {

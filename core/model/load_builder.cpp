@@ -210,7 +210,7 @@ class LoadBuilder {
     };
     visit_numbers(load_, add);
     if (visit_joint_) visit_numbers(*visit_joint_, add);
-    return all;
+    return context_.differentiated(std::move(all));
   }
 
   /// What a force element is made of.

@@ -144,6 +144,7 @@ struct Model {
   std::vector<LoadModel> loads;
   std::vector<EffectRecord> effects;
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();
+  bool has_derivatives = true;  ///< by the design variables; else its system has none of them
 
   /// The body with its constants; of a divided beam as if it were not divided.
   const BodyModel& body(const std::string& name) const;
@@ -152,15 +153,13 @@ struct Model {
   const JointModel& joint(const std::string& name) const;
 };
 
-/// Builds the equations of motion with the exact derivatives of all their constants. This is the
-/// only place that knows the scene and all effects; finite elements are not used after it.
+/// Builds the equations of motion with the derivatives of all their constants. This is the only
+/// place that knows the scene and all effects; finite elements are not used after it.
 /// @param start   values of the variables that decide the topology (plane, nodes of joints)
 /// @param design  values of the variables at which the model is built
-/// @param differentiation  how the derivatives of the invariants of rigid bodies and beams come
-///                 about
 Model build_model(const Scene& scene, const EffectSettings& effects, const Design<double>& start,
                   const Design<double>& design,
-                  const InvariantDifferentiation& differentiation = {});
+                  const Differentiation& differentiation = InvariantDifferentiation());
 
 /// Multipliers of the drives of a model.
 inline std::vector<int> drive_rows(const Model& model) {

@@ -23,7 +23,6 @@
 #include "core/response/recorder.hpp"
 #include "core/response/validity.hpp"
 #include "core/response/whole_turns.hpp"
-#include "core/scene/problem_numbers.hpp"
 #include "core/scene/response_kind.hpp"
 #include "core/scene/time_breaks.hpp"
 #include "core/start/equilibrium.hpp"
@@ -40,10 +39,11 @@ bool asks_for_modes(const ProblemFile& problem) {
 
 /// What the model leaves out of the motion is part of its frequencies.
 void set_full_mechanism(const ProblemFile& problem, const Design<double>& start,
-                        const Design<double>& design, Analysis& analysis) {
+                        const Design<double>& design, const Differentiation& differentiation,
+                        Analysis& analysis) {
   if (!asks_for_modes(problem) || has_all_modes(problem, analysis.model)) return;
   try {
-    analysis.full = make_full_mechanism(problem, start, design);
+    analysis.full = make_full_mechanism(problem, start, design, differentiation);
   } catch (const SimulationError& error) {
     analysis.modes_left_out = error.what();
   }
@@ -111,11 +111,12 @@ ProblemFile without_elasticity(const ProblemFile& problem) {
 }
 
 /// Simulates the mechanism without elasticity where a response needs it.
-void set_rigid_mechanism(const ProblemFile& problem, const Eigen::VectorXd& x, Analysis& analysis) {
+void set_rigid_mechanism(const ProblemFile& problem, Analysis& analysis) {
   const ProblemFile rigid = without_elasticity(with_steps_of(analysis.trajectory, problem));
   if (rigid.responses.empty()) return;
   try {
-    analysis.rigid = analyze(rigid, x);
+    analysis.rigid =
+        analyze(rigid, analysis.x, {.has_derivatives = analysis.model.has_derivatives});
   } catch (const SimulationError& error) {
     std::string why = error.what();
     if (analysis.rigid_path.end == RigidPath::End::bends) {
@@ -124,6 +125,20 @@ void set_rigid_mechanism(const ProblemFile& problem, const Eigen::VectorXd& x, A
     throw SimulationError(fmt::format(
         "the mechanism without elasticity, which a deflection is measured against: {}", why));
   }
+}
+
+/// Model and responses.
+void build(const ProblemFile& problem, bool has_derivatives, Analysis& analysis) {
+  const Eigen::VectorXd start = start_design(problem);
+  const Design<double> design(analysis.x.begin(), analysis.x.end()),
+      start_values(start.begin(), start.end());
+  Differentiation differentiation;
+  if (has_derivatives) differentiation = problem.sensitivity.invariants;
+  analysis.model =
+      build_model(problem.scene, problem.effects, start_values, design, differentiation);
+  analysis.model.mechanism.starts_in_equilibrium = problem.simulation.quasi_static_start;
+  set_full_mechanism(problem, start_values, design, differentiation, analysis);
+  analysis.responses = make_responses(problem.responses, analysis.model, model_of_modes(analysis));
 }
 
 /// Where windows of responses begin and end [s]: there are instants.
@@ -248,7 +263,7 @@ Eigen::VectorXd start_design(const ProblemFile& problem) {
 void require_memory(const ProblemFile& problem) {
   const Eigen::VectorXd start = start_design(problem);
   const Design<double> x(start.begin(), start.end());
-  const Model model = build_model(with_fixed_numbers(problem.scene, x), problem.effects, x, x);
+  const Model model = build_model(problem.scene, problem.effects, x, x, std::nullopt);
   require_memory(make_responses(problem.responses, model, model), problem.simulation);
 }
 
@@ -272,21 +287,14 @@ Eigen::VectorXd values_of(const Analysis& analysis) {
 }
 
 std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::VectorXd& x,
-                                  const Trajectory* similar, ShortWindow short_window) {
+                                  const AnalysisOptions& asked) {
   if (problem.has_cases()) throw std::logic_error("load cases are simulated one by one");
-  const Eigen::VectorXd start = start_design(problem);
-  const Design<double> design(x.begin(), x.end()), start_values(start.begin(), start.end());
   auto analysis = std::make_unique<Analysis>();
   analysis->x = x;
-  analysis->model = build_model(problem.scene, problem.effects, start_values, design,
-                                problem.sensitivity.invariants);
-  analysis->model.mechanism.starts_in_equilibrium = problem.simulation.quasi_static_start;
-  set_full_mechanism(problem, start_values, design, *analysis);
-  analysis->responses =
-      make_responses(problem.responses, analysis->model, model_of_modes(*analysis));
+  build(problem, asked.has_derivatives, *analysis);
   require_memory(analysis->responses, problem.simulation);
   SimulationOptions options = options_of(problem);
-  options.similar = similar;
+  options.similar = asked.similar;
   if (!problem.simulation.moves_by_bending) {
     analysis->rigid_path = follow_drives(analysis->model, options.end_time, options.step);
     require_no_lock(analysis->model, analysis->rigid_path);
@@ -313,13 +321,22 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
     analysis->histories.set(i, std::move(angles));
   }
   set_modes(*analysis);
-  set_rigid_mechanism(problem, x, *analysis);
-  reduce_responses(short_window, *analysis);
+  set_rigid_mechanism(problem, *analysis);
+  reduce_responses(asked.short_window, *analysis);
   require_finite(analysis->responses, analysis->histories, analysis->trajectory);
-  if (short_window == ShortWindow::refused) {
+  if (asked.short_window == ShortWindow::refused) {
     require_finite(analysis->responses, analysis->reductions);
   }
   return analysis;
+}
+
+void add_derivatives(const ProblemFile& problem, Analysis& analysis) {
+  if (analysis.model.has_derivatives) return;
+  build(problem, true, analysis);
+  if (analysis.rigid) {
+    add_derivatives(without_elasticity(with_steps_of(analysis.trajectory, problem)),
+                    *analysis.rigid);
+  }
 }
 
 }  // namespace pleuel

@@ -59,16 +59,30 @@ enum class ShortWindow {
   unknown  ///< not a number: of runs in larger steps than those of the file, which judge it
 };
 
+struct AnalysisOptions {
+  /// A motion of another division, beside which one is looked for (SimulationOptions); or null.
+  const Trajectory* similar = nullptr;
+  ShortWindow short_window = ShortWindow::refused;
+  /// Of the model and its responses, by the design variables. Values do not depend on it, but their
+  /// time does: of 200 variables derivatives are two thirds of a short simulation.
+  bool has_derivatives = true;
+};
+
 /// Builds and simulates the mechanism of a problem at a design, and reduces its responses.
 /// @param problem  with what its tolerance of effects leaves out (effect_measurement.hpp)
 /// @param x        design variables [SI]
-/// @param similar  a motion of another division, beside which one is looked for (SimulationOptions)
 /// @throws SimulationError
 /// @throws InputError for a window with less than two steps, where it is refused
 /// @throws std::logic_error for a problem with load cases, which are simulated one by one
 std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::VectorXd& x,
-                                  const Trajectory* similar = nullptr,
-                                  ShortWindow short_window = ShortWindow::refused);
+                                  const AnalysisOptions& options = {});
+
+/// Only values are asked for.
+inline constexpr AnalysisOptions values_only{.has_derivatives = false};
+
+/// Gives an analysis the derivatives that it was made without; one that has them stays as it is.
+/// @param problem  that it was made of
+void add_derivatives(const ProblemFile& problem, Analysis& analysis);
 
 /// The problem with the steps of a trajectory in place of those that the control of the local error
 /// or the windows of responses would ask for: so that values at neighbouring designs differ smoothly.

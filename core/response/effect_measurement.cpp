@@ -37,7 +37,7 @@ double size_of(const Analysis& analysis, std::size_t response) {
 
 std::unique_ptr<Analysis> try_to_analyze(const ProblemFile& problem) {
   try {
-    return analyze(problem, start_design(problem));
+    return analyze(problem, start_design(problem), values_only);
   } catch (const SimulationError&) {
     return nullptr;
   }
@@ -50,7 +50,7 @@ std::vector<Unit> left_out(const ProblemFile& problem) {
   const Design<double> design(start.begin(), start.end());
   std::vector<Unit> units;
   for (const EffectRecord& record :
-       build_model(problem.scene, problem.effects, design, design).effects) {
+       build_model(problem.scene, problem.effects, design, design, std::nullopt).effects) {
     const bool is_decided =
         record.kind == EffectRecord::Kind::estimated || record.kind == EffectRecord::Kind::measured;
     if (is_decided && !record.is_built) units.emplace_back(record.body, record.name);
@@ -145,7 +145,7 @@ struct Run {
 Run simulate(const ProblemFile& problem, const Eigen::VectorXd& x) {
   Run run;
   try {
-    const std::unique_ptr<Analysis> analysis = analyze(problem, x);
+    const std::unique_ptr<Analysis> analysis = analyze(problem, x, values_only);
     run.values = values_of(*analysis);
     const System& system = *analysis->model.mechanism.system;
     run.unknowns = system.coordinates() + system.multipliers();
@@ -304,11 +304,12 @@ std::vector<Measured> measure(const ProblemFile& fixed, const Eigen::VectorXd& x
 
 void measure_times(const ProblemFile& as_it_is, const Eigen::VectorXd& x,
                    std::vector<Measured>& all) {
-  std::vector<std::function<void()>> works = {[&] { analyze(as_it_is, x); }};
+  std::vector<std::function<void()>> works = {[&] { analyze(as_it_is, x, values_only); }};
   std::vector<Measured*> timed;
   for (Measured& one : all) {
     if (!one.influence.failure.empty()) continue;
-    works.push_back([&x, problem = turned(as_it_is, one.group)] { analyze(problem, x); });
+    works.push_back(
+        [&x, problem = turned(as_it_is, one.group)] { analyze(problem, x, values_only); });
     timed.push_back(&one);
   }
   const std::vector<ComparedTime> times = compare_times(works, {.seconds = timing_budget});
@@ -407,7 +408,7 @@ std::vector<EffectInfluence> effect_influences(const ProblemFile& problem, const
   const Eigen::VectorXd start = start_design(problem);
   const Model model =
       build_model(problem.scene, problem.effects, Design<double>(start.begin(), start.end()),
-                  Design<double>(x.begin(), x.end()));
+                  Design<double>(x.begin(), x.end()), std::nullopt);
   const ProblemFile fixed = with_fixed_effects(problem, model);
   std::vector<Group> groups = all_groups(fixed, model);
   if (times == InfluenceTimes::measured) groups = single_effects(groups);

@@ -81,10 +81,11 @@ ProblemFile with_all_modes(const ProblemFile& problem) {
 
 std::unique_ptr<FullMechanism> make_full_mechanism(const ProblemFile& problem,
                                                    const Design<double>& start,
-                                                   const Design<double>& design) {
+                                                   const Design<double>& design,
+                                                   const Differentiation& differentiation) {
   const ProblemFile all = with_all_modes(problem);
   auto full = std::make_unique<FullMechanism>();
-  full->model = build_model(all.scene, all.effects, start, design, problem.sensitivity.invariants);
+  full->model = build_model(all.scene, all.effects, start, design, differentiation);
   if (!asks_for_mechanism_modes(problem)) return full;
   full->vibrating = vibration_state(full->model.mechanism);
   return full;

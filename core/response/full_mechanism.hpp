@@ -32,6 +32,7 @@ bool asks_for_mechanism_modes(const ProblemFile& problem);
 /// and nothing else may have no inertia out of it
 std::unique_ptr<FullMechanism> make_full_mechanism(const ProblemFile& problem,
                                                    const Design<double>& start,
-                                                   const Design<double>& design);
+                                                   const Design<double>& design,
+                                                   const Differentiation& differentiation);
 
 }  // namespace pleuel

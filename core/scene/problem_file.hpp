@@ -57,6 +57,10 @@ struct InvariantDifferentiation {
   double step = 0.0;
 };
 
+/// How the derivatives of the invariants of rigid bodies and beams come about, and with them all
+/// other derivatives; without it a model has none, and is otherwise the same.
+using Differentiation = std::optional<InvariantDifferentiation>;
+
 struct SensitivitySettings {
   GradientMethod method = GradientMethod::automatic;
   /// Of gradients by differences of simulations, relative: Δx = step · |x|.

@@ -37,8 +37,4 @@ struct NumberGroup {
 /// @throws InputError as read_problem_text(); if a number would move a point along an elastic beam
 ProblemFile bind_numbers(const ProblemText& text, const std::vector<NumberGroup>& groups);
 
-/// The scene with every number as it is at a design: nothing of it depends on the variables any more, so
-/// that a model of it has no derivatives.
-Scene with_fixed_numbers(Scene scene, const Design<double>& design);
-
 }  // namespace pleuel

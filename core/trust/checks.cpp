@@ -204,7 +204,7 @@ std::vector<Finding> findings_before_failure(ProblemFile problem, const Eigen::V
   problem.responses.clear();
   problem.constraints.clear();
   try {
-    const auto analysis = analyze(problem, x);
+    const auto analysis = analyze(problem, x, values_only);
     std::vector<Finding> findings = check_run(problem, x, *analysis);
     std::erase_if(findings, [](const Finding& finding) { return !finding.is_serious; });
     if (findings.size() > 1) findings.resize(1);  // the others follow from the first

@@ -195,8 +195,7 @@ std::unique_ptr<Analysis> analyze_variant(const TrustedRun& run,
   change(variant);
   try {
     variant = with_steps_of(basis_of_variants(run).trajectory, std::move(variant));
-    return analyze(without_derivatives(std::move(variant), run.x), run.x, &run.analysis.trajectory,
-                   ShortWindow::unknown);
+    return analyze(variant, run.x, judging(&run.analysis.trajectory));
   } catch (const SimulationError&) {
     if (!run.shared->coarse->is_four_enough) throw;
   }

@@ -265,7 +265,7 @@ bool is_firm_in_space(const ProblemFile& space, const TrustedRun& run,
   const Design<double> start(start_values.begin(), start_values.end());
   const Design<double> design(run.x.begin(), run.x.end());
   try {
-    Model model = build_model(space.scene, space.effects, start, design);
+    Model model = build_model(space.scene, space.effects, start, design, std::nullopt);
     return std::ranges::none_of(instants.all, [&](int instant) {
       const State state = run.analysis.trajectory.state_at(instant);
       const std::optional<State> here = state_in_space(run.analysis.model, state, model);

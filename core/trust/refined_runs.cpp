@@ -12,9 +12,7 @@
 #include "core/integration/simulation_options.hpp"
 #include "core/jobs/parallel.hpp"
 #include "core/model/divided_beams.hpp"
-#include "core/model/motion_plane.hpp"
 #include "core/scene/beam_mesh.hpp"
-#include "core/scene/problem_numbers.hpp"
 
 namespace pleuel {
 
@@ -102,25 +100,13 @@ int beam_elements(const ProblemFile& problem) {
   return count;
 }
 
-ProblemFile without_derivatives(ProblemFile problem, const Eigen::VectorXd& x) {
-  if (x != start_design(problem)) return problem;
-  const Design<double> start(x.begin(), x.end());
-  // What a variable may move out of the plane is in space, even where it does not.
-  const EffectChoice spatial = problem.effects.spatial_motion;
-  if (!decide_motion_plane(problem.scene, spatial, start).plane) {
-    problem.effects.spatial_motion = EffectChoice::on;
-  }
-  problem.scene = with_fixed_numbers(std::move(problem.scene), start);
-  return problem;
-}
-
 NestedRun simulate_refined(const ProblemFile& problem, const Eigen::VectorXd& x,
                            const Refinement& refinement, const Trajectory* similar) {
   NestedRun run;
   try {
     run.problem = refined(problem, refinement);
     run.problem.simulation.moves_by_bending = true;  // whether it moves at all was asked before
-    run.analysis = analyze(without_derivatives(run.problem, x), x, similar, ShortWindow::unknown);
+    run.analysis = analyze(run.problem, x, judging(similar));
   } catch (const SimulationError& error) {
     run.failure = error.what();
   } catch (const InputError& error) {  // more modes than coordinates …

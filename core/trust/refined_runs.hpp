@@ -56,9 +56,12 @@ struct NestedRun {
   std::string failure;
 };
 
-/// The problem without derivatives at a design, which take most of building a model with many variables and
-/// which values do not need. Elsewhere than at its start, where topology is decided, it stays as it is.
-ProblemFile without_derivatives(ProblemFile problem, const Eigen::VectorXd& x);
+/// Of runs that judge another one: only values are asked for, and windows may be too short for their
+/// steps.
+/// @param similar  see analyze()
+inline AnalysisOptions judging(const Trajectory* similar) {
+  return {similar, ShortWindow::unknown, false};
+}
 
 /// @param similar  see analyze()
 NestedRun simulate_refined(const ProblemFile& problem, const Eigen::VectorXd& x,

@@ -218,7 +218,8 @@ Model unloaded_model(const ProblemFile& problem, const Eigen::VectorXd& x,
   EffectSettings effects = problem.effects;
   effects.spatial_motion = spatial_motion;
   const Eigen::VectorXd start = start_design(problem);
-  return build_model(scene, effects, {start.begin(), start.end()}, {x.begin(), x.end()});
+  return build_model(scene, effects, {start.begin(), start.end()}, {x.begin(), x.end()},
+                     std::nullopt);
 }
 
 /// By what factor the loads of an instant buckle a mechanism, by linear buckling

@@ -321,8 +321,7 @@ std::vector<Finding> judge_in_space(const TrustedRun& run, const ProblemFile& sp
   for (const double step : {2.0, 1.0}) {
     const ProblemFile coarse = refined(space, {.step = step});
     try {
-      const std::unique_ptr<Analysis> analysis =
-          analyze(without_derivatives(coarse, run.x), run.x, nullptr, ShortWindow::unknown);
+      const std::unique_ptr<Analysis> analysis = analyze(coarse, run.x, judging(nullptr));
       return judge_motion(space.scene, *analysis, step_of(run));
     } catch (const UnstableEquilibrium& error) {
       return {{fmt::format("In space and with geometric stiffening {}.{}", error.what(), remedy),

@@ -105,7 +105,7 @@ std::vector<Finding> check_open_positions(const TrustedRun& run) {
   const Eigen::VectorXd start = start_design(run.problem);
   Model model = build_model(run.problem.scene, run.problem.effects,
                             Design<double>(start.begin(), start.end()),
-                            Design<double>(run.x.begin(), run.x.end()));
+                            Design<double>(run.x.begin(), run.x.end()), std::nullopt);
   Mechanism& mechanism = model.mechanism;
   const Eigen::VectorXd placed = assembled_positions(mechanism);
   if (placement_change(mechanism, placed, mechanism.guess.q).maxCoeff() <= small_placement) {

@@ -79,7 +79,7 @@ std::unique_ptr<Analysis> first_step_from_equilibrium(const TrustedRun& run) {
   settings.end_time = settings.step;
   settings.local_error = 0.0;
   for (ResponseSettings& response : problem.responses) response.from = response.to = std::nullopt;
-  return analyze(problem, run.x);
+  return analyze(problem, run.x, values_only);
 }
 
 /// Whether the difference of both starts, which vibrations about the equilibrium are as large as, adds

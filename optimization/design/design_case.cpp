@@ -84,12 +84,14 @@ DesignCase::DesignCase(ProblemFile file, int threads, EvaluationStore* store)
   if (store_) setting_ = setting_text(file_);
 }
 
-Analysis& DesignCase::analysis_at(const Eigen::VectorXd& x) {
+Analysis& DesignCase::analysis_at(const Eigen::VectorXd& x, Request request) {
+  const bool has_derivatives = request == Request::values_and_gradients;
   if (!analysis_ || x != x_) {
     analysis_.reset();  // a failing simulation leaves nothing stale behind
-    analysis_ = analyze(file_, x);
+    analysis_ = analyze(file_, x, {.has_derivatives = has_derivatives});
     x_ = x;
   }
+  if (has_derivatives) add_derivatives(file_, *analysis_);
   return *analysis_;
 }
 
@@ -216,7 +218,7 @@ void DesignCase::confirm(const std::function<bool(const Eigen::VectorXd& x)>& co
 
 Evaluation DesignCase::simulated_rows(const Eigen::VectorXd& x, Request request,
                                       const std::vector<RowSource>& rows) {
-  Analysis& analysis = analysis_at(x);
+  Analysis& analysis = analysis_at(x, request);
   std::vector<RowSource> asked = rows;
   if (has_objective()) asked.insert(asked.begin(), RowSource());
   const std::vector<Row> all = rows_at(analysis, asked);

@@ -65,8 +65,9 @@ class DesignCase {
   void decide_method(GradientChoice choice) { choice_ = std::move(choice); }
 
   /// The simulation of a design; kept until another one is asked for.
+  /// @param request  whether it is differentiated, too
   /// @throws SimulationError
-  Analysis& analysis_at(const Eigen::VectorXd& x);
+  Analysis& analysis_at(const Eigen::VectorXd& x, Request request = Request::values);
   /// Gives the memory of the simulation back.
   void forget_analysis() { analysis_.reset(); }
 

@@ -72,7 +72,7 @@ int windows_that_part_peaks(DesignProblem& problem, const Eigen::VectorXd& x, in
   try {
     int windows = fewest;
     for (std::size_t c = 0; c < problem.case_count(); ++c) {
-      Analysis& analysis = problem.load_case(c).analysis_at(x);
+      Analysis& analysis = problem.load_case(c).analysis_at(x, Request::values_and_gradients);
       while (windows < most && have_kinks(problem, c, analysis, windows)) windows *= 2;
     }
     return windows;
@@ -145,9 +145,9 @@ std::string tying_peaks(DesignProblem& design, const Eigen::VectorXd& x) {
     for (std::size_t c = 0; c < design.case_count(); ++c) {
       DesignCase& one = design.load_case(c);
       const std::vector<std::size_t> optimized = optimized_responses(design, c);
-      const Analysis& analysis = one.analysis_at(x);
+      Analysis& analysis = one.analysis_at(x, Request::values_and_gradients);
       std::optional<std::size_t> told;
-      for (const Kink& kink : find_kinks(one.analysis_at(x), one.file().variables)) {
+      for (const Kink& kink : find_kinks(analysis, one.file().variables)) {
         if (kink.response == told || std::ranges::count(optimized, kink.response) == 0) continue;
         told = kink.response;
         const std::size_t joined = joined_response(design.file(), {c, kink.response});

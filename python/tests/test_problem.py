@@ -184,7 +184,7 @@ class TestInterrupts(unittest.TestCase):
         self.assertGreater(crank().evaluate().objective, 0.0)  # the next call is not affected
 
     def test_control_c_leaves_the_best_design_of_an_optimization(self):
-        problem = crank(**{"/simulation/step": "2 us"})
+        problem = crank(**{"/simulation/step": "0.5 us"})
         timer = threading.Timer(3.0, os.kill, (os.getpid(), signal.SIGINT))
         timer.start()
         with self.assertRaises(KeyboardInterrupt) as caught:

@@ -349,7 +349,7 @@ TEST(StateInSpace, HasTheAccelerationsOfTheMotionInThePlane) {
   const Eigen::VectorXd x = start_design(problem);
   const Design<double> design(x.begin(), x.end());
   const auto analysis = analyze(problem, x);
-  const auto space = make_full_mechanism(problem, design, design);
+  const auto space = make_full_mechanism(problem, design, design, InvariantDifferentiation());
   State state = state_of(analysis->trajectory, 330);
   const std::optional<State> here = state_in_space(analysis->model, state, space->model);
   ASSERT_TRUE(here);
@@ -375,7 +375,7 @@ TEST(StateInSpace, IsNoneWhereThePlaneLeavesTheStretchOut) {
   const Eigen::VectorXd x = start_design(problem);
   const Design<double> design(x.begin(), x.end());
   const auto analysis = analyze(problem, x);
-  const auto space = make_full_mechanism(problem, design, design);
+  const auto space = make_full_mechanism(problem, design, design, InvariantDifferentiation());
   State state = state_of(analysis->trajectory, 1);
   EXPECT_FALSE(state_in_space(analysis->model, state, space->model));
 }
