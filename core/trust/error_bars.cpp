@@ -53,29 +53,36 @@ Eigen::Index first_from(const Eigen::VectorXd& times, double time) {
   return std::ranges::lower_bound(times, time) - times.begin();
 }
 
-/// Of increasing times the index of the nearest one; between two the first.
-Eigen::Index nearest(const Eigen::VectorXd& times, double time) {
-  const Eigen::Index index = first_from(times, time);
-  if (index == 0) return 0;
-  if (index == times.size()) return index - 1;
-  return time - times(index - 1) <= times(index) - time ? index - 1 : index;
+/// Of values at increasing times, straight between them.
+template <class Values>
+double value_at(const Eigen::VectorXd& times, const Values& values, double time) {
+  const Eigen::Index next = std::clamp<Eigen::Index>(first_from(times, time), 1, times.size() - 1);
+  const double before = times(next - 1);
+  const double share = std::clamp((time - before) / (times(next) - before), 0.0, 1.0);
+  return (1.0 - share) * values(next - 1) + share * values(next);
 }
 
 /// Of a response that is no expression:
-/// Σ weight (y − y_other) over what a value depends on, each at the nearest instant of the other
-/// run: the difference at a fixed time, where that of two peaks leaves out what moved them.
+/// Σ weight (y − y_other) over what a value depends on: the difference at a fixed time, where that of
+/// two peaks leaves out what moved them. The larger one of both instants of the coarser run beside
+/// it counts, as a vibration may pass through zero at one of them.
 double local_difference(const Analysis& analysis, std::size_t response, const RefinedRun& other) {
   const Eigen::MatrixXd& history = analysis.histories[response];
   if (history.size() == 0 || other.histories[response].rows() != history.rows()) return 0.0;
   const Eigen::VectorXd& time = analysis.trajectory.time;
-  double difference = 0.0;
+  const auto difference_at = [&](const Sample& sample, Eigen::Index there) {
+    const double here = value_at(time, history.row(sample.channel), other.time(there));
+    return sample.weight * (here - other.histories[response](sample.channel, there));
+  };
+  double before = 0.0, after = 0.0;
   for (const Sample& sample : analysis.reductions[response].samples) {
-    const Eigen::Index there = nearest(other.time, time(sample.step));
-    const Eigen::Index here = nearest(time, other.time(there));
-    difference += sample.weight * (history(sample.channel, here) -
-                                   other.histories[response](sample.channel, there));
+    const Eigen::Index next =
+        std::min(first_from(other.time, time(sample.step)), other.time.size() - 1);
+    const bool is_there = other.time(next) <= time(sample.step);
+    after += difference_at(sample, next);
+    before += difference_at(sample, is_there ? next : std::max<Eigen::Index>(next - 1, 0));
   }
-  return std::abs(difference);
+  return std::max(std::abs(before), std::abs(after));
 }
 
 /// Of an expression, what its parts differ by, without regard to signs.
@@ -288,20 +295,11 @@ struct Curve {
   Eigen::VectorXd time, values;
 };
 
-/// Straight between the instants.
-double value_at(const Curve& curve, double time) {
-  const Eigen::Index next =
-      std::clamp<Eigen::Index>(first_from(curve.time, time), 1, curve.time.size() - 1);
-  const double before = curve.time(next - 1);
-  const double share = std::clamp((time - before) / (curve.time(next) - before), 0.0, 1.0);
-  return (1.0 - share) * curve.values(next - 1) + share * curve.values(next);
-}
-
 /// |fine − coarse| at the instants of the coarse one.
 Curve difference(const Curve& fine, const Curve& coarse) {
   Curve curve = coarse;
   for (Eigen::Index i = 0; i < curve.time.size(); ++i) {
-    curve.values(i) = std::abs(value_at(fine, coarse.time(i)) - coarse.values(i));
+    curve.values(i) = std::abs(value_at(fine.time, fine.values, coarse.time(i)) - coarse.values(i));
   }
   return curve;
 }

@@ -467,5 +467,31 @@ TEST(ErrorBars, HoldWhereLoadsDivideTheMesh) {
   }
 }
 
+/// A cam pushes a mass against a spring: F = m s̈ + k (s + 40 mm) with a cubic spline s, whose
+/// acceleration has corners. Behind each, forces of index 3 zigzag from step to step for long: their
+/// largest ones agree in three step sizes, where the motion beside them does not. Largest forces are those
+/// of SciPy's spline (clamped at both ends), at 2 million instants.
+TEST(ErrorBars, HoldWhereForcesZigzagBehindCorners) {
+  for (const auto& [stiffness, force] : {std::pair(2000.0, 95.29942005), {2500.0, 120.75762388}}) {
+    const ProblemFile problem = problem_from(fmt::format(
+        R"({{"scene": {{
+            "bodies": {{"follower": {{"type": "point-mass", "at": [0, 0, 0], "mass": 0.2}}}},
+            "joints": {{"cam": {{"type": "point-on-line", "bodies": ["ground", "follower"],
+              "at": [0, 0, 0], "axis": [0, 1, 0], "drive": {{"type": "table",
+                "interpolation": "spline", "times": [0, 0.02, 0.035, 0.06, 0.1],
+                "values": [0, 0.006, 0.012, 0.004, 0]}}}}}},
+            "loads": {{"spring": {{"type": "spring", "bodies": ["ground", "follower"],
+              "at": [[0, -0.1, 0], [0, 0, 0]], "stiffness": {}, "free_length": 0.06}}}}}},
+          "simulation": {{"end_time": 0.1, "step": 1e-3}},
+          "responses": {{"force": {{"type": "drive-force", "joint": "cam", "over_time": "max"}}}}}})",
+        stiffness));
+    const StartRun start(problem);
+    const Resolution found = judge_resolution(start.run());
+    const double error = std::abs(start.analysis->reductions[0].value - force);
+    EXPECT_GT(error, 0.01 * force);
+    EXPECT_GE(found.bars[0]->bound(), error);
+  }
+}
+
 }  // namespace
 }  // namespace pleuel::test::resolution_test
