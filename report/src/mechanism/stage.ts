@@ -50,10 +50,15 @@ interface Box {
   height: number;
 }
 
-/** Where a label goes that wants to be at x, y: inside the free area, beside those placed before. */
+const numberWidth = 18; // of a mark [px]
+
+/** Where a label goes that wants to be at x, y: inside the free area, to the left of its place where there is no room to the
+ * right, beside those placed before. */
 function clearOf(taken: Box[], x: number, y: number, element: HTMLElement, free: Box): [number, number] {
   const own = { width: element.offsetWidth, height: element.offsetHeight };
-  const left = Math.max(4, Math.min(x, free.width - own.width - 10));
+  const turns = x + own.width + 10 > free.width;
+  element.classList.toggle("is-left", turns);
+  const left = Math.max(4, turns ? Math.min(x, free.width - 10) + numberWidth - own.width : x);
   let top = Math.max(free.y + 4, Math.min(y, free.y + free.height - own.height - 4));
   const meets = (box: Box) => left < box.x + box.width && box.x < left + own.width && top < box.y + box.height && box.y < top + own.height;
   for (let tries = 0; tries < 12; tries++) {
