@@ -42,7 +42,7 @@ Json optimum_picture(const OlderRun& run, const ProblemFile& problem, std::size_
   const auto add = [&](const std::string& name, const char* key, const char* trajectory) {
     const auto x = design_in(run.result, problem, key);
     if (!x) return;
-    designs.push_back({name, *x, analyze(problem, *x, values_only),
+    designs.push_back({name, *x, analyze(problem, *x),
                        run.folder / name_of_case_file(trajectory, problem)});
   };
   add("start", "start", "trajectory-start");
@@ -96,7 +96,7 @@ Json single_picture(const OlderRun& run, Notes& notes) {
     design.trajectory = run.folder / "trajectory.csv";
   }
   if (!design.trajectory.empty() || command == "check") {
-    design.analysis = analyze(problem, design.x, values_only);
+    design.analysis = analyze(problem, design.x);
   }
   if (command == "check") design.influence = design_influence(problem, *design.analysis);
   std::vector<Redone> designs;

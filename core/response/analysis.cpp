@@ -330,13 +330,17 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
   return analysis;
 }
 
-void add_derivatives(const ProblemFile& problem, Analysis& analysis) {
-  if (analysis.model.has_derivatives) return;
-  build(problem, true, analysis);
-  if (analysis.rigid) {
-    add_derivatives(without_elasticity(with_steps_of(analysis.trajectory, problem)),
-                    *analysis.rigid);
+std::unique_ptr<Analysis> with_derivatives(const ProblemFile& problem,
+                                           std::unique_ptr<Analysis> analysis) {
+  if (analysis->model.has_derivatives) return analysis;
+  // States that are simulated again are those of the model that they belong to.
+  if (analysis->trajectory.recomputed()) return analyze(problem, analysis->x);
+  build(problem, true, *analysis);
+  if (analysis->rigid) {
+    const ProblemFile rigid = without_elasticity(with_steps_of(analysis->trajectory, problem));
+    analysis->rigid = with_derivatives(rigid, std::move(analysis->rigid));
   }
+  return analysis;
 }
 
 }  // namespace pleuel

@@ -80,9 +80,11 @@ std::unique_ptr<Analysis> analyze(const ProblemFile& problem, const Eigen::Vecto
 /// Only values are asked for.
 inline constexpr AnalysisOptions values_only{.has_derivatives = false};
 
-/// Gives an analysis the derivatives that it was made without; one that has them stays as it is.
+/// An analysis with the derivatives that it was made without; one that has them stays as it is. Where its
+/// states are simulated again when they are asked for, it is made anew.
 /// @param problem  that it was made of
-void add_derivatives(const ProblemFile& problem, Analysis& analysis);
+std::unique_ptr<Analysis> with_derivatives(const ProblemFile& problem,
+                                           std::unique_ptr<Analysis> analysis);
 
 /// The problem with the steps of a trajectory in place of those that the control of the local error
 /// or the windows of responses would ask for: so that values at neighbouring designs differ smoothly.

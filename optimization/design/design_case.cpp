@@ -91,7 +91,7 @@ Analysis& DesignCase::analysis_at(const Eigen::VectorXd& x, Request request) {
     analysis_ = analyze(file_, x, {.has_derivatives = has_derivatives});
     x_ = x;
   }
-  if (has_derivatives) add_derivatives(file_, *analysis_);
+  if (has_derivatives) analysis_ = with_derivatives(file_, std::move(analysis_));
   return *analysis_;
 }
 

@@ -296,21 +296,30 @@ INSTANTIATE_TEST_SUITE_P(
                     Arm{"space", R"("frame": "tangent")", "[0, 0.6, 0.8]"}),
     [](const auto& test) { return std::string(test.param.name); });
 
-/// Values first, derivatives later: the same digits as at once. Nothing is differentiated that has no
-/// derivatives, which would be zeros.
-TEST(AnalysisOfValuesOnly, HasTheSameGradientsOnceItHasDerivatives) {
+class AnalysisOfValuesOnly : public testing::TestWithParam<const char*> {};
+
+/// Values first, derivatives later: the same digits as at once, wherever the states are. Nothing is
+/// differentiated that has no derivatives, which would be zeros.
+TEST_P(AnalysisOfValuesOnly, HasTheSameGradientsOnceItHasDerivatives) {
   const ProblemFile problem = sample_problem(
       "robot_arm",
-      {"/simulation/end_time=0.02 s", R"(/responses/lowest={"type": "frequency"})",
+      {fmt::format("/sensitivity/memory={}", GetParam()), "/simulation/end_time=0.02 s",
+       R"(/responses/lowest={"type": "frequency"})",
        R"(/responses/off={"type": "deflection", "body": "forearm", "at": 1, "direction": "z",
                                       "against": "rigid-mechanism", "over_time": "rms"})"});
   const Eigen::VectorXd x = start_design(problem);
-  const auto at_once = analyze(problem, x), later = analyze(problem, x, values_only);
+  const auto at_once = analyze(problem, x);
+  auto later = analyze(problem, x, values_only);
   EXPECT_EQ(values_of(*later), values_of(*at_once));
   EXPECT_THROW(direct_gradients(*later), std::logic_error);
-  add_derivatives(problem, *later);
+  later = with_derivatives(problem, std::move(later));
   EXPECT_EQ(direct_gradients(*later), direct_gradients(*at_once));
 }
+
+INSTANTIATE_TEST_SUITE_P(Memory, AnalysisOfValuesOnly, testing::Values("4 GB", "0.1 MB"),
+                         [](const auto& test) {
+                           return test.param[0] == '4' ? "HoldsAll" : "HoldsFew";
+                         });
 
 }  // namespace
 }  // namespace pleuel::test::gradient_test
