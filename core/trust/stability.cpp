@@ -407,7 +407,8 @@ std::vector<Finding> judge_start(const TrustedRun& run) {
   return {
       {fmt::format("The mechanism is unstable where it starts: {}.{}", what,
                    is_shown ? " The frequency of such a mode is given as a negative number." : ""),
-       is_equilibrium || is_flutter, names}};
+       is_equilibrium || is_flutter,
+       is_equilibrium ? std::vector<std::string>() : names}};  // all of the motion, or its modes
 }
 
 }  // namespace
