@@ -73,10 +73,11 @@ std::string names_of_drives(const Model& model) {
 }
 
 std::string bending_text(const Model& model) {
+  const bool has_several = drive_rows(model).size() > 1;
   return fmt::format(
       "rigid bodies cannot follow the drive of {} from the start: what moves does so only because "
-      "bodies bend. If that is not meant, look at the places and axes of the joints",
-      names_of_drives(model));
+      "bodies bend. If that is not meant, {}look at the places and axes of the joints",
+      names_of_drives(model), has_several ? "a drive is too many, or " : "");
 }
 
 RigidPath follow_drives(const Model& model, double end, double step, const PathObserver& observer) {

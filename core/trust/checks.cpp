@@ -205,6 +205,7 @@ std::vector<Finding> findings_before_failure(ProblemFile problem, const Eigen::V
   problem.constraints.clear();
   try {
     const auto analysis = analyze(problem, x, values_only);
+    if (analysis->rigid_path.end == RigidPath::End::bends) return {};  // the error tells that
     std::vector<Finding> findings = check_run(problem, x, *analysis);
     std::erase_if(findings, [](const Finding& finding) { return !finding.is_serious; });
     if (findings.size() > 1) findings.resize(1);  // the others follow from the first
