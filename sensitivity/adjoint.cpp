@@ -7,6 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/stop.hpp"
+#include "core/integration/corner_jump.hpp"
 #include "core/integration/period_map.hpp"
 #include "core/integration/projection.hpp"
 #include "core/integration/step_equations.hpp"
@@ -35,6 +36,7 @@ class AdjointRun {
         y_(Eigen::MatrixXd::Zero(equations_.size(), functions)),
         sums_(Eigen::MatrixXd::Zero(system_.parameter_adjoint_count(), functions)) {
     if (trajectory.is_projected()) projection_.emplace(mechanism);
+    if (!trajectory.corners.empty()) corner_.emplace(mechanism);
   }
 
   Eigen::MatrixXd run(const FunctionDerivatives& derivatives) {
@@ -122,6 +124,17 @@ class AdjointRun {
     combine();
     std::swap(adjoint_, before_);
     adjoint_.lambda.setZero();
+    pass_corner(step);
+  }
+
+  /// What a step adds at the corner that it sets out from.
+  void pass_corner(int step) {
+    if (!trajectory_.is_corner(step - 1) || !corner_->find(old_, scheme_.step)) return;
+    const auto v = adjoint_.v.leftCols(active_), a = adjoint_.a.leftCols(active_),
+               w = adjoint_.w.leftCols(active_);
+    corner_->differentiate_transposed(
+        {a + w, trajectory_.weight_of_jerk(step) * v + scheme_.delay * w},
+        adjoint_.q.leftCols(active_), sums_.leftCols(active_));
   }
 
   /// Leaves the state as it was before the projection.
@@ -190,6 +203,7 @@ class AdjointRun {
   StepState state_, old_;
   System::Matrix matrix_;
   LinearSolver solver_;
+  std::optional<CornerJump> corner_;
   int active_ = 0;
   StateAdjoint adjoint_, before_;
   Eigen::MatrixXd y_, sums_;

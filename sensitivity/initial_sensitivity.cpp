@@ -199,7 +199,7 @@ StateSensitivity initial_sensitivity(Mechanism& mechanism, const InitialState& i
 
 StateSensitivity first_step_sensitivity(Mechanism& mechanism, const Trajectory& trajectory,
                                         const State& start, StateSensitivity initial) {
-  DampedStart damped(mechanism, start, trajectory.scheme_of(1), trajectory.weight_of_start_jerk());
+  DampedStart damped(mechanism, start, trajectory.scheme_of(1), trajectory.weight_of_jerk(1));
   auto derivatives = damped.differentiate(initial.q, initial.v, initial.a);
   initial.v = std::move(derivatives.v);
   initial.a = std::move(derivatives.a);

@@ -28,7 +28,7 @@ namespace pleuel {
 class DampedStart {
  public:
   /// @param first_step  the scheme of the first step
-  /// @param weight_of_jerk  in the velocities (Trajectory::weight_of_start_jerk)
+  /// @param weight_of_jerk  in the velocities (Trajectory::weight_of_jerk)
   /// @throws SimulationError if the first step is so long that not even a part of it can be made
   DampedStart(Mechanism& mechanism, const State& start, const Scheme& first_step,
               double weight_of_jerk);

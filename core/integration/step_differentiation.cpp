@@ -19,6 +19,7 @@ StepDifferentiation::StepDifferentiation(const Mechanism& mechanism, const Traje
       state_(equations_.make_state(State(system_.coordinates(), system_.multipliers()))),
       matrix_(equations_.make_matrix()),
       solver_(matrix_, mechanism.elastic) {
+  if (!trajectory.corners.empty()) corner_.emplace(mechanism);
   if (trajectory.is_projected()) projection_.emplace(mechanism);
 }
 
@@ -35,6 +36,7 @@ bool StepDifferentiation::advance() {
   ++step_;
   scheme_ = trajectory_.scheme_of(step_);
   equations_.set_scheme(scheme_);
+  pass_corner();
   equations_.begin(state_);
   old_q_ = state_.q;
   trajectory_.states->load_record(step_, state_);
@@ -44,6 +46,14 @@ bool StepDifferentiation::advance() {
   solve();
   project();
   return true;
+}
+
+void StepDifferentiation::pass_corner() {
+  if (!trajectory_.is_corner(step_ - 1) || !corner_->find(state_, scheme_.step)) return;
+  const auto jumps = corner_->differentiate(sensitivity_.q, of_);
+  sensitivity_.v += trajectory_.weight_of_jerk(step_) * jumps.jerk;
+  sensitivity_.a += jumps.acceleration;
+  sensitivity_.w += jumps.acceleration + scheme_.delay * jumps.jerk;
 }
 
 /// ŝ = history · s, then shifted along the correction to ŝ_q = 0: the unknown is s_q itself, in

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "core/integration/corner_jump.hpp"
 #include "core/integration/projection.hpp"
 #include "core/integration/step_equations.hpp"
 #include "core/integration/trajectory.hpp"
@@ -34,6 +35,7 @@ class StepDifferentiation {
   const StateSensitivity& sensitivity() const { return sensitivity_; }
 
  private:
+  void pass_corner();
   void predict();
   void solve();
   void swap_projected();
@@ -54,6 +56,7 @@ class StepDifferentiation {
   LinearSolver solver_;
   Eigen::MatrixXd rhs_;
   std::optional<Projection> projection_;
+  std::optional<CornerJump> corner_;
 };
 
 }  // namespace pleuel

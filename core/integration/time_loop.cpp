@@ -69,9 +69,13 @@ TimeLoop::TimeLoop(Mechanism& mechanism, const SimulationOptions& options, Insta
       predictor_(equations_),
       corrector_(mechanism, equations_, options),
       control_(mechanism, options),
+      breaks_(options.breaks),
       is_continued_(start != nullptr),
       drift_(system_.size()) {
   if (options.formulation.is_projected) projection_.emplace(mechanism);
+  // Index 1 has accelerations that drives prescribe, at every instant anew.
+  if (options.formulation.constraints == ConstraintForm::index_1) breaks_.clear();
+  std::ranges::sort(breaks_);
 }
 
 StepState TimeLoop::make_start(const SchemeState* start) const {
@@ -206,16 +210,18 @@ void TimeLoop::advance_to(double time, int splits) {
 std::optional<StepFailure> TimeLoop::make_step(double time, NewtonCorrector::Trust trust) {
   use_step(time);
   old_ = state_;
-  if (stored_ == 1 && !is_continued_) correct_start();
-  equations_.begin(old_);
-  predictor_.predict(old_, time, scheme_, equations_, state_);
+  const bool is_start = stored_ == 1 && !is_continued_;
+  if (is_start) correct_start();
+  const StepState& from = !is_start && passes_corner() ? behind_corner_ : old_;
+  equations_.begin(from);
+  predictor_.predict(from, time, scheme_, equations_, state_);
   const bool is_foreseeable = step_ > 2 && step_ % curvature_interval != 1;
   if (!is_foreseeable || mechanism_.has_laws_of_motion) trust = NewtonCorrector::Trust::none;
   std::optional<StepFailure> failure = corrector_.correct(equations_, state_, trust);
   if (failure && predictor_.looks_ahead()) {
     predictor_.forget();
     state_ = old_;
-    predictor_.predict(old_, time, scheme_, equations_, state_);
+    predictor_.predict(from, time, scheme_, equations_, state_);
     failure = corrector_.correct(equations_, state_, trust);
   }
   if (failure) return failure;
@@ -238,13 +244,30 @@ void TimeLoop::use_step(double time) {
 
 void TimeLoop::correct_start() {
   if (!damped_start_ || damped_start_step_ != scheme_.step) {
-    damped_start_.emplace(mechanism_, start_, scheme_, trajectory_.weight_of_start_jerk());
+    damped_start_.emplace(mechanism_, start_, scheme_, trajectory_.weight_of_jerk(1));
     damped_start_step_ = scheme_.step;
   }
   // Not of state_, which a first step that failed leaves changed.
   old_.v = damped_start_->v();
   old_.a = damped_start_->a();
   old_.w = damped_start_->w();
+}
+
+bool TimeLoop::passes_corner() {
+  constexpr double round_off = 1e-9;  // of the instants, in steps
+  const double time = old_.time, near = round_off * scheme_.step;
+  const auto one = std::ranges::lower_bound(breaks_, time - near);
+  if (one == breaks_.end() || *one > time + near) return false;
+  if (!corner_) corner_.emplace(mechanism_);
+  if (!corner_->find(old_, scheme_.step)) return false;
+  const auto instant = static_cast<int>(stored_) - 1;
+  if (!trajectory_.is_corner(instant)) trajectory_.corners.push_back(instant);
+  const auto& [acceleration, jerk] = corner_->value();
+  behind_corner_ = old_;
+  behind_corner_.v += trajectory_.weight_of_jerk(instant + 1) * jerk;
+  behind_corner_.a += acceleration;
+  behind_corner_.w += acceleration + scheme_.delay * jerk;
+  return true;
 }
 
 void TimeLoop::accept() {

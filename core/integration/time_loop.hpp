@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/int_size.hpp"
+#include "core/integration/corner_jump.hpp"
 #include "core/integration/damped_start.hpp"
 #include "core/integration/newton_corrector.hpp"
 #include "core/integration/projection.hpp"
@@ -146,6 +147,8 @@ class TimeLoop {
   /// So that the first step makes no more of the initial values than it can resolve, and
   /// multipliers have their order from it on.
   void correct_start();
+  /// Whether the step sets out from a corner of the motion: then from behind_corner_.
+  bool passes_corner();
   /// What the steps set out from.
   StepState make_start(const SchemeState* start) const;
   /// Takes the step that was made into the trajectory.
@@ -176,6 +179,9 @@ class TimeLoop {
   State start_;                              ///< consistent initial values
   std::optional<DampedStart> damped_start_;  ///< for a first step of this size:
   double damped_start_step_ = 0.0;           ///< [s]
+  std::optional<CornerJump> corner_;         ///< from the first break on
+  StepState behind_corner_;                  ///< old_ as the step behind a corner takes it
+  std::vector<double> breaks_;               ///< ascending [s]
   bool is_continued_;                        ///< starts as if a step had led there
   int step_ = 0;                             ///< regular step at work
   Eigen::Index stored_ = 0;                  ///< instants of the trajectory

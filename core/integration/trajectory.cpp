@@ -47,9 +47,9 @@ Scheme Trajectory::scheme_of(int step) const {
                       : make_restarting_scheme(scheme_type, h, spectral_radius);
 }
 
-double Trajectory::weight_of_start_jerk() const {
+double Trajectory::weight_of_jerk(int step) const {
   if (!has_constraints || formulation.constraints != ConstraintForm::index_3) return 0.0;
-  return -scheme_of(1).local_error / step_size(1);
+  return -scheme_of(step).local_error / step_size(step);
 }
 
 }  // namespace pleuel

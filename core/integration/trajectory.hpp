@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
+#include <vector>
 
 #include "core/base/int_size.hpp"
 #include "core/base/time_integration.hpp"
@@ -59,7 +61,8 @@ struct Trajectory {
   Formulation formulation = {};
   /// Size of the step that would lead to the start, of a motion that repeats itself; 0: none [s].
   double step_before = 0.0;
-  Eigen::VectorXd end_w;  ///< algorithmic acceleration of the scheme at the last instant (n)
+  std::vector<int> corners;  ///< instants, ascending: see CornerJump
+  Eigen::VectorXd end_w;     ///< algorithmic acceleration of the scheme at the last instant (n)
   /// How a motion that repeats itself was found; null: it starts as given.
   std::shared_ptr<const PeriodicStart> periodic;
   int split_steps = 0;     ///< that Newton's method could not do: halved, which adds an instant
@@ -81,9 +84,11 @@ struct Trajectory {
   double step_size(int step) const;
   /// The scheme that made a step, from 1.
   Scheme scheme_of(int step) const;
-  /// What the first step adds to the initial velocities, as a multiple of the jerk that the
-  /// constraints prescribe (damped_start.cpp) [s²].
-  double weight_of_start_jerk() const;
+  /// What velocities of a step, from 1, are off by, as a multiple of the jerk that the constraints
+  /// prescribe (damped_start.cpp, corner_jump.hpp) [s²].
+  double weight_of_jerk(int step) const;
+  /// Whether a step sets out from a corner of the motion.
+  bool is_corner(int instant) const { return std::ranges::binary_search(corners, instant); }
 };
 
 }  // namespace pleuel
