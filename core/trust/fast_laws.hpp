@@ -50,11 +50,6 @@ struct MissedSubject {
 void add_missed(const MissedSubject& subject, const MissedValues& missed, double scale,
                 std::vector<Finding>& findings);
 
-/// Peaks of jerks that lie where the law of a drive has a corner in its acceleration: behind it the
-/// accelerations of index 3 and of the stabilized index 2 ring for some steps by an amount of first
-/// order in the step, whose rate is wrong by as much with any step.
-std::vector<Finding> check_jerks_at_corners(const TrustedRun& run);
-
 /// Bodies that nothing drives and that turn by more than a quarter of a turn within a step: at whole
 /// turns a step they seem to stand still.
 std::vector<Finding> check_fast_turning(const TrustedRun& run);
