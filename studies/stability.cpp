@@ -78,12 +78,6 @@ const std::vector<ComparedFormulation>& compared_formulations() {
       {"index-1", formulation("index-1")},
       {"index-1 with Baumgarte", formulation("index-1", {"/simulation/baumgarte=100"})},
       {"index-1 with projection", formulation("index-1", {"/simulation/projection=true"})},
-  };
-  return all;
-}
-
-const std::vector<ComparedFormulation>& compared_schemes() {
-  static const std::vector<ComparedFormulation> all = {
       {"index-3, Newmark", formulation("index-3", {"/simulation/scheme=newmark"})},
       {"index-3, implicit Euler", formulation("index-3", {"/simulation/scheme=implicit-euler"})},
   };
@@ -99,16 +93,14 @@ std::vector<StabilityRun> stability_study(const std::vector<std::filesystem::pat
   for (const auto& file : files) read_with(file, reading, compared_formulations().front());
   std::vector<StabilityRun> runs;
   for (const auto& file : files) {
-    for (const auto* compared : {&compared_formulations(), &compared_schemes()}) {
-      for (const ComparedFormulation& formulation : *compared) {
-        try {
-          runs.push_back(try_to_measure(file, reading, formulation));
-        } catch (const Stopped&) {
-          if (runs.empty()) throw;
-          return runs;
-        }
-        if (observer) observer(runs.back());
+    for (const ComparedFormulation& formulation : compared_formulations()) {
+      try {
+        runs.push_back(try_to_measure(file, reading, formulation));
+      } catch (const Stopped&) {
+        if (runs.empty()) throw;
+        return runs;
       }
+      if (observer) observer(runs.back());
     }
   }
   return runs;
