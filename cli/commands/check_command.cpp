@@ -17,14 +17,14 @@ namespace pleuel {
 namespace {
 
 struct Examination {
-  std::unique_ptr<Analysis> analysis;
+  std::shared_ptr<Analysis> analysis;
   DegreesOfFreedom freedoms;
   double simulation_seconds = 0.0, gradient_seconds = 0.0;
   Ties ties;
   std::vector<EffectInfluence> influences;
-  std::optional<DesignInfluence> influence;  ///< likewise
-  DerivativeChecks derivatives;              ///< empty without variables
-  bool is_interrupted = false;               ///< before the derivatives were verified
+  std::shared_ptr<const DesignInfluence> influence;  ///< likewise
+  DerivativeChecks derivatives;                      ///< empty without variables
+  bool is_interrupted = false;                       ///< before the derivatives were verified
   std::vector<std::string> warnings;
   int consequences = 0;  ///< so many warnings are not told, since they follow from others
 };
@@ -54,7 +54,8 @@ Examination examine(const ProblemFile& problem, const Eigen::VectorXd& x,
         problem, x, arguments.wants_effects ? InfluenceTimes::measured : InfluenceTimes::none);
     if (problem.variables.empty() || problem.responses.empty()) return findings;
     const Stopwatch gradient;
-    findings.influence = DesignInfluence{direct_gradients(*findings.analysis)};
+    findings.influence =
+        std::make_shared<DesignInfluence>(DesignInfluence{direct_gradients(*findings.analysis)});
     findings.gradient_seconds = gradient.seconds();
     const auto see_differences = [&](int simulations) {
       const std::string line =
@@ -161,11 +162,8 @@ Outcome run_check(const Arguments& arguments) {
                   make_text(problem, findings, arguments.wants_effects)};
   if (!record) return outcome;
   record->finish(outcome, [&] {
-    return run_picture(problem, {{input.design_name,
-                                  input.design,
-                                  findings.analysis.get(),
-                                  {},
-                                  findings.influence ? &*findings.influence : nullptr}});
+    return run_picture(
+        problem, {{input.design_name, input.design, findings.analysis, {}, findings.influence}});
   });
   return outcome;
 }

@@ -51,7 +51,7 @@ double simulations_of(GradientMethod method, Eigen::Index variables, int threads
 }
 
 struct MethodFindings {
-  std::unique_ptr<Analysis> analysis;
+  std::shared_ptr<Analysis> analysis;
   double simulation_seconds = 0.0;
   std::optional<MethodChoice> choice;  ///< if it was left to the program
   std::vector<MethodResult> results;
@@ -218,15 +218,15 @@ std::string seconds_text(const std::vector<MethodResult>& results, double simula
 
 /// Into the run folder.
 void write_run(RunRecord& record, const Arguments& arguments, const ProblemInput& input,
-               Analysis& analysis, Outcome& outcome) {
+               const std::shared_ptr<Analysis>& analysis, Outcome& outcome) {
   record.begin_phase("histories");
   record.write_result(outcome.document);
-  write_trajectory(record.result("trajectory.csv"), analysis);
+  write_trajectory(record.result("trajectory.csv"), *analysis);
   if (arguments.wants_histories) {
-    write_history_gradients(record.result("gradients.csv"), input.problem, analysis);
+    write_history_gradients(record.result("gradients.csv"), input.problem, *analysis);
   }
   record.finish(outcome, [&] {
-    return run_picture(input.problem, {{input.design_name, input.design, &analysis}});
+    return run_picture(input.problem, {{input.design_name, input.design, analysis}});
   });
 }
 
@@ -299,7 +299,7 @@ Outcome run_gradient(const Arguments& arguments) {
   if (!arguments.wants_all_warnings) findings.consequences = count_consequences(trust.findings);
   findings.errors = std::move(trust.errors);
   Outcome outcome = make_outcome(arguments, input, findings);
-  if (record) write_run(*record, arguments, input, *findings.analysis, outcome);
+  if (record) write_run(*record, arguments, input, findings.analysis, outcome);
   return outcome;
 }
 

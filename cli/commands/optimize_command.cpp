@@ -51,9 +51,7 @@ struct Examined {
 /// Both designs as one load case simulates them.
 struct CaseDesigns {
   const ProblemFile* problem;
-  std::unique_ptr<Analysis> start, end;
-  std::vector<Eigen::VectorXd> bands;  ///< of histories at the end
-  std::optional<DesignInfluence> influence;
+  ShownDesign start, end;
 };
 
 std::vector<Eigen::VectorXd> bands_of_case(const ProblemFile& joined, const Result& result,
@@ -68,13 +66,15 @@ std::vector<Eigen::VectorXd> bands_of_case(const ProblemFile& joined, const Resu
 
 std::vector<CaseDesigns> simulate_designs(RunRecord& record, const Optimum& optimum) {
   std::vector<CaseDesigns> all;
+  const Eigen::VectorXd &start = first_design(optimum.result.history).x, &end = optimum.result.x;
   for (const ProblemFile* problem : simulated_problems(optimum.problem)) {
-    CaseDesigns one{problem, analyze(*problem, first_design(optimum.result.history).x), {}, {}, {}};
-    one.bands = bands_of_case(optimum.problem, optimum.result, all.size());
-    write_trajectory(record.result(name_of_case_file("trajectory-start", *problem)), *one.start);
-    one.end = analyze(*problem, optimum.result.x);
-    write_trajectory(record.result(name_of_case_file("trajectory-optimum", *problem)), *one.end,
-                     one.bands);
+    CaseDesigns one{problem, {"start", start, analyze(*problem, start)}, {}};
+    write_trajectory(record.result(name_of_case_file("trajectory-start", *problem)),
+                     *one.start.analysis);
+    one.end = {name_of_end(to_string(optimum.result.status)), end, analyze(*problem, end),
+               bands_of_case(optimum.problem, optimum.result, all.size())};
+    write_trajectory(record.result(name_of_case_file("trajectory-optimum", *problem)),
+                     *one.end.analysis, one.end.bands);
     all.push_back(std::move(one));
   }
   return all;
@@ -82,10 +82,9 @@ std::vector<CaseDesigns> simulate_designs(RunRecord& record, const Optimum& opti
 
 /// Of all cases, in the order of the joined problem.
 Eigen::VectorXd joined_values(const ProblemFile& joined, const std::vector<CaseDesigns>& designs,
-                              const Eigen::VectorXd& x,
-                              const std::function<Eigen::VectorXd(const CaseDesigns&)>& values_in) {
+                              ShownDesign CaseDesigns::*which) {
   std::vector<Eigen::VectorXd> values;
-  for (const CaseDesigns& one : designs) values.push_back(values_in(one));
+  for (const CaseDesigns& one : designs) values.push_back(values_of(*(one.*which).analysis));
   if (!joined.has_cases()) return values.front();
   const ValueInCase value_of = [&](std::size_t response) {
     const auto [load_case, index] = joined.case_responses[response];
@@ -94,7 +93,7 @@ Eigen::VectorXd joined_values(const ProblemFile& joined, const std::vector<CaseD
   Eigen::VectorXd all(std::ssize(joined.responses));
   for (std::size_t i = 0; i < joined.responses.size(); ++i) {
     try {
-      all(i) = value_over_cases(joined, i, x, value_of);
+      all(i) = value_over_cases(joined, i, (designs.front().*which).x, value_of);
     } catch (const SimulationError&) {  // of one that is only looked at
       all(i) = std::numeric_limits<double>::quiet_NaN();
     }
@@ -133,25 +132,25 @@ Eigen::VectorXd gradient_over_cases(const Optimum& optimum, std::size_t response
 }
 
 /// Gradients of the responses of all cases; none if those of a case are not known.
-std::optional<DesignInfluence> joined_influence(const Optimum& optimum,
-                                                const std::vector<CaseDesigns>& designs) {
+std::shared_ptr<const DesignInfluence> joined_influence(const Optimum& optimum,
+                                                        const std::vector<CaseDesigns>& designs) {
   const ProblemFile& joined = optimum.problem;
-  if (!joined.has_cases()) return designs.front().influence;
+  if (!joined.has_cases()) return designs.front().end.influence;
   for (const CaseDesigns& one : designs) {
-    if (!one.influence) return std::nullopt;
+    if (!one.end.influence) return nullptr;
   }
   DesignInfluence all;
   all.gradients.resize(std::ssize(joined.responses), std::ssize(joined.variables));
   const auto gradient_in_case = [&](std::size_t response) -> Eigen::VectorXd {
     const auto [load_case, index] = joined.case_responses[response];
-    return designs[load_case].influence->gradients.row(index);
+    return designs[load_case].end.influence->gradients.row(index);
   };
   for (std::size_t i = 0; i < joined.responses.size(); ++i) {
     all.gradients.row(i) = is_over_cases(joined, i)
                                ? gradient_over_cases(optimum, i, gradient_in_case)
                                : gradient_in_case(i);
   }
-  return all;
+  return std::make_shared<DesignInfluence>(std::move(all));
 }
 
 const char* word_of(ResponseType type) {
@@ -196,20 +195,21 @@ Examined examine_cases(Optimum& optimum, std::vector<CaseDesigns>& designs) {
   Examined examined;
   std::vector<std::vector<Finding>> findings;
   for (CaseDesigns& one : designs) {
-    one.influence = design_influence(*one.problem, *one.end);
-    const Monitors monitors = monitor(one.end->model, one.end->trajectory);
+    Analysis& end = *one.end.analysis;
+    one.end.influence = design_influence(*one.problem, end);
+    const Monitors monitors = monitor(end.model, end.trajectory);
     if (&one == &designs.front()) optimum.monitors = monitors;
     add_monitors(optimum.monitors, monitors);
     // Of an answer with gradients the findings are known: they are part of its verdict.
     if (!optimum.result.evaluation.has_gradients()) {
-      findings.push_back(check_run(TrustedRun{*one.problem, optimum.result.x, *one.end, monitors}));
+      findings.push_back(check_run(TrustedRun{*one.problem, optimum.result.x, end, monitors}));
     }
     const std::string& load_case = one.problem->load_case;
-    for (Json& effect : effects_document(*one.problem, one.end->model, optimum.influences)) {
+    for (Json& effect : effects_document(*one.problem, end.model, optimum.influences)) {
       if (!load_case.empty()) effect["case"] = load_case;
       examined.effects.push_back(std::move(effect));
     }
-    const std::string drives = drives_text(*one.problem, *one.start, *one.end);
+    const std::string drives = drives_text(*one.problem, *one.start.analysis, end);
     if (!drives.empty() && !load_case.empty()) {
       examined.drives += fmt::format("Case \"{}\":\n", load_case);
     }
@@ -225,15 +225,9 @@ Examined examine_cases(Optimum& optimum, std::vector<CaseDesigns>& designs) {
 
 /// Of all cases; that which decides is shown first.
 Json picture_of(const Optimum& optimum, const std::vector<CaseDesigns>& designs) {
-  const Eigen::VectorXd& start = first_design(optimum.result.history).x;
-  const std::string end = name_of_end(to_string(optimum.result.status));
   std::vector<Json> cases;
   for (const CaseDesigns& one : designs) {
-    cases.push_back(run_picture(*one.problem,
-                                {{"start", start, one.start.get()},
-                                 {end, optimum.result.x, one.end.get(), one.bands,
-                                  one.influence ? &*one.influence : nullptr}},
-                                designs.size()));
+    cases.push_back(run_picture(*one.problem, {one.start, one.end}, designs.size()));
   }
   if (!optimum.problem.has_cases()) return cases.front();
   return picture_of_cases(optimum.problem, std::move(cases),
@@ -243,12 +237,8 @@ Json picture_of(const Optimum& optimum, const std::vector<CaseDesigns>& designs)
 /// Simulates both for their trajectory files and for what is reported of them.
 Examined examine_designs(RunRecord& record, Optimum& optimum) {
   std::vector<CaseDesigns> designs = simulate_designs(record, optimum);
-  const EvaluationRecord& first = first_design(optimum.result.history);
-  optimum.start_responses =
-      joined_values(optimum.problem, designs, first.x,
-                    [](const CaseDesigns& one) { return values_of(*one.start); });
-  optimum.responses = joined_values(optimum.problem, designs, optimum.result.x,
-                                    [](const CaseDesigns& one) { return values_of(*one.end); });
+  optimum.start_responses = joined_values(optimum.problem, designs, &CaseDesigns::start);
+  optimum.responses = joined_values(optimum.problem, designs, &CaseDesigns::end);
   record.begin_phase("influence");
   Examined examined = examine_cases(optimum, designs);
   optimum.influence = joined_influence(optimum, designs);

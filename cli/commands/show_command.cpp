@@ -173,9 +173,7 @@ Shown describe(const ProblemFile& problem, const Eigen::VectorXd& x) {
 }
 
 Json picture_of(const ProblemInput& input, const Motion& motion) {
-  ShownDesign design{input.design_name, input.design};
-  if (motion.time.size() > 0) design.rigid = &motion;
-  return run_picture(input.problem, {design});
+  return run_picture(input.problem, {{input.design_name, input.design, {}, {}, {}, motion}});
 }
 
 /// Into a run folder, as of other commands.

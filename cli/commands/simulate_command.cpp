@@ -153,7 +153,7 @@ Outcome run_simulate(const Arguments& arguments) {
   RunRecord record(arguments, input, Json::object());
   record.begin_phase("simulate");
   const Stopwatch stopwatch;
-  const auto analysis = analyze_or_doubt(input);
+  const std::shared_ptr<Analysis> analysis = analyze_or_doubt(input);
   const double seconds = stopwatch.seconds();
   record.begin_phase("monitor");
   Simulated run{*analysis, monitor(analysis->model, analysis->trajectory), seconds};
@@ -180,8 +180,7 @@ Outcome run_simulate(const Arguments& arguments) {
   record.write_result(outcome.document);
   write_trajectory(record.result("trajectory.csv"), *analysis, run.bands);
   record.finish(outcome, [&] {
-    return run_picture(input.problem,
-                       {{input.design_name, input.design, analysis.get(), run.bands}});
+    return run_picture(input.problem, {{input.design_name, input.design, analysis, run.bands}});
   });
   return outcome;
 }

@@ -202,7 +202,7 @@ Json design_document(const ProblemFile& problem, const ShownDesign& design, std:
   Json document = {{"name", design.name}};
   document["variables"] = std::vector<double>(design.x.begin(), design.x.end());
   document["geometry"] = geometry_picture(problem, design.x);
-  if (design.rigid != nullptr) document["motion"] = motion_document(*design.rigid);
+  if (design.rigid.time.size() > 0) document["motion"] = motion_document(design.rigid);
   if (design.analysis == nullptr) return document;
   const Analysis& analysis = *design.analysis;
   add_surfaces(problem.scene, design.x, document["geometry"]["bodies"]);
@@ -251,12 +251,9 @@ Json run_picture(const ProblemFile& problem, const std::vector<ShownDesign>& des
 
 Json rigid_picture(const ProblemFile& problem,
                    const std::vector<std::pair<std::string, Eigen::VectorXd>>& designs) {
-  std::vector<Motion> motions;
-  for (const auto& [name, x] : designs) motions.push_back(rigid_motion(problem, x));
   std::vector<ShownDesign> shown;
-  for (std::size_t i = 0; i < designs.size(); ++i) {
-    shown.push_back({designs[i].first, designs[i].second});
-    if (motions[i].time.size() > 0) shown.back().rigid = &motions[i];
+  for (const auto& [name, x] : designs) {
+    shown.push_back({name, x, {}, {}, {}, rigid_motion(problem, x)});
   }
   return run_picture(problem, shown);
 }

@@ -12,11 +12,11 @@ namespace pleuel {
 struct ShownDesign {
   std::string name;  ///< "start", "optimum"; for people, too
   Eigen::VectorXd x;
-  const Analysis* analysis = nullptr;  ///< null: geometry only
+  std::shared_ptr<Analysis> analysis{};  ///< null: geometry only
   /// Of the histories (core/trust/error_bars.hpp); empty where none is known.
   std::vector<Eigen::VectorXd> bands{};
-  const DesignInfluence* influence = nullptr;  ///< of the variables; null: not known
-  const Motion* rigid = nullptr;  ///< without an analysis: how drives move it; null: it stands
+  std::shared_ptr<const DesignInfluence> influence{};  ///< of the variables; null: not known
+  Motion rigid{};  ///< without an analysis: how drives move it; empty: it stands
 };
 
 /// The mechanism of a problem at some designs: its geometry and, of simulated ones, motion, stress,

@@ -22,18 +22,20 @@ bool is_cheap(const ProblemFile& problem, const Analysis& analysis) {
 
 }  // namespace
 
-std::optional<DesignInfluence> design_influence(const ProblemFile& problem, Analysis& analysis) {
-  if (problem.variables.empty() || analysis.responses.empty()) return std::nullopt;
+std::shared_ptr<const DesignInfluence> design_influence(const ProblemFile& problem,
+                                                        Analysis& analysis) {
+  if (problem.variables.empty() || analysis.responses.empty()) return nullptr;
   try {
     if (is_cheap(problem, analysis)) {
       ResponseDerivatives all = response_derivatives(analysis);
-      return DesignInfluence{std::move(all.values), std::move(all.histories)};
+      return std::make_shared<DesignInfluence>(
+          DesignInfluence{std::move(all.values), std::move(all.histories)});
     }
     const std::vector<SampledValue> values = response_values(analysis);
-    return DesignInfluence{
-        sampled_gradients(analysis, values, choose_method(analysis, values).method)};
+    return std::make_shared<DesignInfluence>(DesignInfluence{
+        sampled_gradients(analysis, values, choose_method(analysis, values).method)});
   } catch (const SimulationError&) {
-    return std::nullopt;
+    return nullptr;
   }
 }
 

@@ -14,7 +14,8 @@ struct DesignInfluence {
 
 /// Of a simulation that is there already: no other one is made. With few variables by one run of
 /// direct differentiation, which gives the histories, too; with many by the cheaper exact method.
-/// Nothing without variables, and where the gradients cannot be computed.
-std::optional<DesignInfluence> design_influence(const ProblemFile& problem, Analysis& analysis);
+/// Null without variables, and where the gradients cannot be computed.
+std::shared_ptr<const DesignInfluence> design_influence(const ProblemFile& problem,
+                                                        Analysis& analysis);
 
 }  // namespace pleuel

@@ -23,8 +23,8 @@ struct Optimum {
   std::optional<GradientChoice> method;  ///< of the gradients; none if there was none
   /// Of the last design, by runs of twice the step; empty: not measured.
   std::vector<EffectInfluence> influences{};
-  std::optional<DesignInfluence> influence{};  ///< of the variables; none: not known
-  const SizeChoiceReport* sizes = nullptr;     ///< where some are chosen from lists
+  std::shared_ptr<const DesignInfluence> influence{};  ///< of the variables; null: not known
+  const SizeChoiceReport* sizes = nullptr;             ///< where some are chosen from lists
 
   bool has_design() const { return result.evaluation.has_gradients(); }
 
