@@ -8,20 +8,9 @@ namespace pleuel {
 
 namespace {
 
-Json read_document(const fs::path& path) {
-  if (!fs::is_regular_file(path)) {
-    throw InputError(
-        fmt::format("{}: there is no such file: not the folder of a finished run", path.string()));
-  }
-  Json document = document_in(path);
-  if (document.is_null()) throw InputError(path.string() + ": is not a JSON document");
-  return document;
-}
-
 /// @returns what the user is told
 std::string make_report(const fs::path& folder, WriteFailures& failures) {
-  const OlderRun run{folder, read_document(folder / card_name),
-                     read_document(folder / "result.json")};
+  const OlderRun run = read_older_run(folder);
   if (const std::string damage = damage_of(run); !damage.empty()) throw InputError(damage);
   Json picture;
   Notes notes;

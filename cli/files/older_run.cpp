@@ -33,14 +33,15 @@ bool is_at_work(const fs::path& folder) {
   return !is_free;
 }
 
-}  // namespace
-
+/// The JSON object in a file; null if there is none that can be read.
 Json document_in(const fs::path& file) {
   if (!fs::is_regular_file(file)) return nullptr;
   std::ifstream stream(file);
   Json document = Json::parse(stream, nullptr, /*allow_exceptions=*/false);
   return document.is_object() ? document : Json();
 }
+
+}  // namespace
 
 std::string OlderRun::problem() const {
   const Json inputs = card.value("inputs", Json::array({card.value("input", Json())}));
@@ -91,15 +92,12 @@ std::optional<OlderRun> find_older_run(const fs::path& folder) {
 
 namespace {
 
-/// What a result has that is whole.
-struct Needed {
-  const char* key;
-  Json::value_t type;
-};
+using Type = Json::value_t;
+using Needed = std::vector<std::pair<const char*, Type>>;
 
-std::vector<Needed> needed_in(const std::string& command) {
-  using Type = Json::value_t;
-  static const std::map<std::string, std::vector<Needed>> needed = {
+/// What a result has that is whole.
+Needed needed_in(const std::string& command) {
+  static const std::map<std::string, Needed> needed = {
       {"accuracy", {{"runs", Type::array}}},
       {"check", {{"responses", Type::object}}},
       {"gradient", {{"responses", Type::object}}},
@@ -115,7 +113,7 @@ std::vector<Needed> needed_in(const std::string& command) {
       {"uncertainty", {{"responses", Type::object}}},
   };
   const auto found = needed.find(command);
-  return found == needed.end() ? std::vector<Needed>() : found->second;
+  return found == needed.end() ? Needed() : found->second;
 }
 
 }  // namespace
@@ -129,10 +127,10 @@ std::string damage_of(const OlderRun& run) {
   if (!run.result.is_object()) {
     return fmt::format("{}: there is none that can be read", (run.folder / result_name).string());
   }
-  for (const Needed& one : needed_in(command)) {
-    if (run.result.value(one.key, Json()).type() != one.type) {
+  for (const auto& [key, type] : needed_in(command)) {
+    if (run.result.value(key, Json()).type() != type) {
       return damaged(result_name,
-                     fmt::format("a run of `pleuel {}` has \"{}\" there", command, one.key));
+                     fmt::format("a run of `pleuel {}` has \"{}\" there", command, key));
     }
   }
   if (command != "optimize" || !run.objective()) return "";
@@ -175,6 +173,13 @@ bool take_effects(const Json& result, ProblemFile& problem) {
 }
 
 }  // namespace
+
+std::optional<ProblemFile> problem_on_card(const fs::path& folder) try {
+  const Json card = document_in(folder / card_name);
+  return read_problem_text(card.at("problem").dump(), card.at("input").at("file"), {}).complete();
+} catch (const std::exception&) {
+  return std::nullopt;
+}
 
 ProblemFile problem_of(const OlderRun& run) {
   return problem_of(run, run.shown_case());
