@@ -1,9 +1,8 @@
-#include "cli/run_command.hpp"
+#include "cli/program.hpp"
 
 #include <map>
 
 #include "cli/commands/commands.hpp"
-#include "cli/commands/each_case.hpp"
 #include "core/jobs/child_program.hpp"
 
 namespace pleuel {

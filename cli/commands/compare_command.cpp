@@ -2,7 +2,6 @@
 #include <map>
 
 #include "cli/commands/commands.hpp"
-#include "cli/commands/older_picture.hpp"
 #include "cli/files/report_page.hpp"
 #include "cli/files/run_folder.hpp"
 #include "core/scene/shown_unit.hpp"

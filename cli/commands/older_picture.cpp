@@ -1,4 +1,4 @@
-#include "cli/commands/older_picture.hpp"
+#include "cli/commands/commands.hpp"
 
 #include <optional>
 
@@ -6,7 +6,7 @@
 #include "cli/files/run_picture.hpp"
 #include "cli/input/problem_input.hpp"
 #include "cli/reports/case_report.hpp"
-#include "cli/reports/optimum_report.hpp"
+#include "cli/reports/optimum_document.hpp"
 
 namespace pleuel {
 

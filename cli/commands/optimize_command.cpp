@@ -8,7 +8,7 @@
 
 #include "cli/commands/commands.hpp"
 #include "cli/files/csv_file.hpp"
-#include "cli/files/failed_design.hpp"
+#include "cli/files/command_text.hpp"
 #include "cli/files/run_picture.hpp"
 #include "cli/files/run_record.hpp"
 #include "cli/input/run_setting.hpp"
@@ -17,7 +17,7 @@
 #include "cli/reports/iteration_lines.hpp"
 #include "cli/reports/limits_report.hpp"
 #include "cli/reports/optimum_document.hpp"
-#include "cli/reports/optimum_report.hpp"
+#include "cli/reports/scene_report.hpp"
 #include "cli/reports/setting_report.hpp"
 #include "cli/reports/starts_report.hpp"
 #include "cli/text/wrapped_text.hpp"
@@ -282,6 +282,46 @@ ExitCode exit_code(const Optimum& optimum) {
   if (optimum.result.status == Status::interrupted) return ExitCode::not_verified;
   if (!optimum.has_design()) return ExitCode::simulation_failed;
   return optimum.result.status == Status::verified ? ExitCode::done : ExitCode::not_verified;
+}
+
+// What is left of a design that could not be evaluated, so that it can be looked at.
+
+constexpr const char* dossier_name = "failed_design.json";
+
+/// For the folder in which the optimization was called. Where gradients were asked for, they are
+/// what may have failed.
+std::string command_again(const RunRecord& record, const Arguments& arguments,
+                          const ProblemFile& problem, const EvaluationRecord& failed) {
+  const bool takes_gradients =
+      failed.request != Request::values ||
+      std::ranges::any_of(problem.constraints, [](const ConstraintSettings& constraint) {
+        return constraint.deviations > 0.0;
+      });
+  return command_at(takes_gradients ? "gradient" : "simulate", arguments,
+                    record.folder() / dossier_name);
+}
+
+/// Writes failed_design.json: design, failure, and the command that evaluates that design again.
+void write_failed_design(RunRecord& record, const Arguments& arguments, const ProblemFile& problem,
+                         const EvaluationRecord& failed) {
+  record.write(dossier_name, {{"evaluation", failed.evaluation},
+                              {"request", to_string(failed.request)},
+                              {"failure", failed.failure},
+                              {"command", command_again(record, arguments, problem, failed)},
+                              {"variables", variables_document(problem, failed.x)}});
+}
+
+/// Says where the last failed design is and how to run it; empty if none failed.
+std::string failed_design_text(const RunRecord& record, const Arguments& arguments,
+                               const ProblemFile& problem, const History& history) {
+  const auto last =
+      std::find_if(history.rbegin(), history.rend(), std::mem_fn(&EvaluationRecord::has_failed));
+  if (last == history.rend()) return "";
+  const std::string sentence = fmt::format(
+      "{} of {} evaluations failed; the last such design is in {}, and this runs it again:\n",
+      count_failures(history), history.size(), (record.folder() / dossier_name).string());
+  return wrapped(sentence, "  ") +
+         fmt::format("  {}\n", command_again(record, arguments, problem, *last));
 }
 
 /// A missing unit is told when the first design is known, not after a search for nothing.

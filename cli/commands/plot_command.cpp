@@ -9,10 +9,9 @@
 #include <unistd.h>
 
 #include "cli/commands/commands.hpp"
-#include "cli/files/older_run.hpp"
 #include "cli/files/output_file.hpp"
 #include "cli/files/run_folder.hpp"
-#include "cli/reports/optimum_report.hpp"
+#include "cli/reports/optimum_document.hpp"
 #include "cli/text/csv_table.hpp"
 #include "cli/text/history_chart.hpp"
 #include "core/base/find_named.hpp"

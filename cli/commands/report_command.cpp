@@ -1,5 +1,4 @@
 #include "cli/commands/commands.hpp"
-#include "cli/commands/older_picture.hpp"
 #include "cli/files/report_page.hpp"
 #include "cli/files/run_folder.hpp"
 

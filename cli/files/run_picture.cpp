@@ -5,7 +5,6 @@
 #include <functional>
 
 #include "cli/files/csv_file.hpp"
-#include "cli/files/scene_picture.hpp"
 #include "cli/reports/document_table.hpp"
 #include "cli/reports/limits_report.hpp"
 #include "cli/reports/scene_report.hpp"

@@ -35,4 +35,14 @@ Json rigid_picture(const ProblemFile& problem,
 /// of all cases, by their names in result.json.
 Json picture_of_cases(const ProblemFile& joined, std::vector<Json> cases, std::size_t shown);
 
+// What is drawn of a scene.
+
+/// What does not depend on the design: names, kinds, who is joined to whom, gravity, plane of
+/// motion.
+Json scene_picture(const ProblemFile& problem);
+
+/// What does: bodies with their axes and the outlines of their sections, places of joints and loads
+/// on the bodies, drives and loads over time.
+Json geometry_picture(const ProblemFile& problem, const Eigen::VectorXd& x);
+
 }  // namespace pleuel

@@ -1,4 +1,4 @@
-#include "cli/files/scene_picture.hpp"
+#include "cli/files/run_picture.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "cli/input/parse_arguments.hpp"
+#include "cli/input/command_table.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -9,7 +9,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "cli/input/command_table.hpp"
 #include "cli/input/fingerprint.hpp"
 #include "cli/text/console.hpp"
 #include "cli/text/wrapped_text.hpp"

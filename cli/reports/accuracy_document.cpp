@@ -1,4 +1,4 @@
-#include "cli/reports/accuracy_document.hpp"
+#include "cli/reports/accuracy_report.hpp"
 
 #include <variant>
 

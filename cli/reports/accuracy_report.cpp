@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cli/reports/accuracy_document.hpp"
 #include "cli/reports/outcome.hpp"
 #include "cli/reports/time_text.hpp"
 #include "cli/reports/warnings.hpp"

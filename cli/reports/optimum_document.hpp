@@ -45,4 +45,13 @@ std::string neighbours_text(const Optimum& optimum);
 /// The document of `optimize`; see docs/reference/commands.md.
 Json optimum_document(const Optimum& optimum);
 
+/// What the last design of a run is called: "optimum", or "end" where nothing is proven of it.
+/// @param status  as in result.json
+std::string name_of_end(const std::string& status);
+
+/// The result of `optimize` for people: verdict, objective, dimensions, limits, what speaks against it.
+/// @param document    the same as optimum_document() has it
+/// @param is_verbose  with the audit and the prices of limits
+std::string optimum_report(const Optimum& optimum, const Json& document, bool is_verbose);
+
 }  // namespace pleuel

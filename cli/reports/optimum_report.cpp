@@ -1,4 +1,4 @@
-#include "cli/reports/optimum_report.hpp"
+#include "cli/reports/optimum_document.hpp"
 
 #include <cmath>
 
