@@ -1,16 +1,8 @@
-#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "cli/commands/commands.hpp"
-#include "cli/files/csv_file.hpp"
 #include "cli/files/command_text.hpp"
-#include "cli/files/run_picture.hpp"
-#include "cli/files/run_record.hpp"
 #include "cli/input/run_setting.hpp"
 #include "cli/reports/case_report.hpp"
 #include "cli/reports/effects_report.hpp"
@@ -20,21 +12,13 @@
 #include "cli/reports/scene_report.hpp"
 #include "cli/reports/setting_report.hpp"
 #include "cli/reports/starts_report.hpp"
-#include "cli/text/wrapped_text.hpp"
-#include "core/base/error.hpp"
-#include "core/base/number_text.hpp"
 #include "core/base/stop.hpp"
 #include "core/response/value_over_cases.hpp"
 #include "core/scene/body_rules.hpp"
 #include "core/scene/load_cases.hpp"
-#include "core/scene/shown_unit.hpp"
 #include "core/trust/check_list.hpp"
-#include "core/trust/checks.hpp"
 #include "core/trust/refined_runs.hpp"
-#include "optimization/design/multi_start.hpp"
 #include "optimization/design/number_judgement.hpp"
-#include "optimization/design/staged_solve.hpp"
-#include "optimization/result.hpp"
 #include "picture/companions.hpp"
 
 namespace pleuel {
@@ -112,26 +96,8 @@ void add_monitors(Monitors& all, const Monitors& one) {
   all.most_bent = one.most_bent;
 }
 
-/// By those of single cases. @returns NaN where there is none
-template <class GradientInCase>
-Eigen::VectorXd gradient_over_cases(const Optimum& optimum, std::size_t response,
-                                    const GradientInCase& gradient_in_case) {
-  const ValueInCase value_of = [&](std::size_t part) { return optimum.responses(part); };
-  try {
-    const LinearizedResponse linear =
-        linearized_over_cases(optimum.problem, response, optimum.result.x, value_of);
-    Eigen::VectorXd gradient = linear.design;
-    for (const WeightedResponse& part : linear.parts) {
-      gradient += part.weight * gradient_in_case(part.response);
-    }
-    return gradient;
-  } catch (const SimulationError&) {
-    return Eigen::VectorXd::Constant(optimum.result.x.size(),
-                                     std::numeric_limits<double>::quiet_NaN());
-  }
-}
-
-/// Gradients of the responses of all cases; none if those of a case are not known.
+/// Gradients of the responses of all cases, NaN of those that have none; null if those of a case are not
+/// known.
 std::shared_ptr<const DesignInfluence> joined_influence(const Optimum& optimum,
                                                         const std::vector<CaseDesigns>& designs) {
   const ProblemFile& joined = optimum.problem;
@@ -139,16 +105,22 @@ std::shared_ptr<const DesignInfluence> joined_influence(const Optimum& optimum,
   for (const CaseDesigns& one : designs) {
     if (!one.end.influence) return nullptr;
   }
+  const ValueInCase value_of = [&](std::size_t part) { return optimum.responses(part); };
   DesignInfluence all;
-  all.gradients.resize(std::ssize(joined.responses), std::ssize(joined.variables));
-  const auto gradient_in_case = [&](std::size_t response) -> Eigen::VectorXd {
-    const auto [load_case, index] = joined.case_responses[response];
-    return designs[load_case].end.influence->gradients.row(index);
-  };
+  all.gradients.setConstant(std::ssize(joined.responses), std::ssize(joined.variables),
+                            std::numeric_limits<double>::quiet_NaN());
   for (std::size_t i = 0; i < joined.responses.size(); ++i) {
-    all.gradients.row(i) = is_over_cases(joined, i)
-                               ? gradient_over_cases(optimum, i, gradient_in_case)
-                               : gradient_in_case(i);
+    try {
+      const LinearizedResponse linear =
+          linearized_over_cases(joined, i, optimum.result.x, value_of);
+      Eigen::RowVectorXd gradient = linear.design;
+      for (const WeightedResponse& part : linear.parts) {
+        const auto [load_case, index] = joined.case_responses[part.response];
+        gradient += part.weight * designs[load_case].end.influence->gradients.row(index);
+      }
+      all.gradients.row(i) = gradient;
+    } catch (const SimulationError&) {
+    }
   }
   return std::make_shared<DesignInfluence>(std::move(all));
 }
