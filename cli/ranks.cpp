@@ -11,7 +11,6 @@
 #include "cli/input/fingerprint.hpp"
 #include "cli/interruption.hpp"
 #include "core/base/error.hpp"
-#include "core/jobs/rank_place.hpp"
 #include "optimization/design/multi_start.hpp"
 #include "optimization/design/size_lists.hpp"
 #include "studies/pareto.hpp"

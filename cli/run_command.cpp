@@ -1,8 +1,7 @@
-#include "cli/program.hpp"
-
 #include <map>
 
 #include "cli/commands/commands.hpp"
+#include "cli/program.hpp"
 #include "core/jobs/child_program.hpp"
 
 namespace pleuel {

@@ -1,15 +1,10 @@
 #include "studies/accuracy.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <memory>
-
 #include <fmt/format.h>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/relative_error.hpp"
 #include "core/base/stop.hpp"
-#include "core/response/analysis.hpp"
 #include "core/scene/response_parts.hpp"
 #include "core/trust/trusted_run.hpp"
 

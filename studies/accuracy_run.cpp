@@ -1,8 +1,6 @@
 #include "studies/accuracy_run.hpp"
 
-#include <algorithm>
 #include <ctime>
-#include <memory>
 #include <tuple>
 #include <utility>
 #include <variant>

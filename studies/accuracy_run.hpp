@@ -1,13 +1,5 @@
 #pragma once
 
-#include <functional>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include <Eigen/Core>
-
-#include "core/scene/problem_file.hpp"
 #include "core/trust/finding.hpp"
 #include "optimization/problem.hpp"
 

@@ -1,8 +1,6 @@
 #include "studies/derivative_check.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <numeric>
 #include <span>

@@ -2,18 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iterator>
 #include <map>
-#include <optional>
 #include <set>
 
 #include <fmt/format.h>
 
-#include "core/base/dense_solvers.hpp"
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
-#include "core/base/int_size.hpp"
 #include "core/integration/period_map.hpp"
 #include "core/integration/repetition.hpp"
 #include "core/model/motion_plane.hpp"

@@ -1,15 +1,12 @@
 #include "studies/pareto.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <map>
-#include <utility>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/base/find_named.hpp"
-#include "core/base/int_size.hpp"
 #include "core/base/stop.hpp"
 #include "core/scene/case_goals.hpp"
 #include "optimization/design/design_problem.hpp"

@@ -1,11 +1,9 @@
 #include "studies/point_searches.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/base/int_size.hpp"
 #include "core/base/stop.hpp"
 #include "core/jobs/parallel.hpp"
 #include "core/scene/case_goals.hpp"
@@ -13,7 +11,6 @@
 #include "optimization/design/design_solve.hpp"
 #include "optimization/design/size_choice.hpp"
 #include "optimization/design/size_lists.hpp"
-#include "optimization/result.hpp"
 
 namespace pleuel {
 

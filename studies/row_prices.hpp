@@ -1,9 +1,5 @@
 #pragma once
 
-#include <memory>
-#include <optional>
-
-#include "optimization/design/design_problem.hpp"
 #include "optimization/design/margin_problem.hpp"
 #include "optimization/design/peak_problem.hpp"
 

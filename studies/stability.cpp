@@ -2,12 +2,9 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/stop.hpp"
-#include "core/base/stopwatch.hpp"
-#include "core/response/analysis.hpp"
 #include "core/response/effect_measurement.hpp"
 #include "core/response/monitors.hpp"
 #include "core/scene/load_cases.hpp"
-#include "core/scene/problem_reader.hpp"
 #include "core/trust/checks.hpp"
 #include "optimization/problem.hpp"
 

@@ -1,7 +1,6 @@
 #include "studies/uncertainty.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -11,11 +10,9 @@
 #include "core/base/stop.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/scene/packed_problem.hpp"
-#include "core/scene/problem_file.hpp"
 #include "core/trust/checks.hpp"
 #include "optimization/design/design_case.hpp"
 #include "optimization/verdict.hpp"
-#include "sensitivity/gradients.hpp"
 #include "sensitivity/method_choice.hpp"
 #include "studies/missing_settings.hpp"
 #include "studies/noise.hpp"

@@ -1,14 +1,6 @@
 #pragma once
 
-#include <functional>
-#include <memory>
-#include <optional>
-#include <string>
-
-#include <Eigen/Core>
-
 #include "core/base/error_bar.hpp"
-#include "core/scene/problem_file.hpp"
 #include "core/trust/finding.hpp"
 #include "optimization/evaluation_store.hpp"
 

@@ -2,7 +2,6 @@
 #include "cli/input/run_setting.hpp"
 #include "cli/reports/accuracy_report.hpp"
 #include "core/base/stop.hpp"
-#include "studies/accuracy_optimum.hpp"
 #include "studies/accuracy_run.hpp"
 
 namespace pleuel {

@@ -4,7 +4,6 @@
 /// SimulationError.
 
 #include <algorithm>
-#include <optional>
 
 #include <fmt/format.h>
 
@@ -12,7 +11,6 @@
 #include "cli/files/csv_file.hpp"
 #include "cli/files/older_run.hpp"
 #include "cli/files/run_picture.hpp"
-#include "cli/files/run_record.hpp"
 #include "cli/files/run_store.hpp"
 #include "cli/input/problem_input.hpp"
 #include "cli/reports/document_table.hpp"
@@ -21,7 +19,6 @@
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/error.hpp"
 #include "core/base/number_text.hpp"
-#include "core/base/stopwatch.hpp"
 
 namespace pleuel {
 

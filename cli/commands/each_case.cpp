@@ -1,16 +1,8 @@
-#include "cli/commands/commands.hpp"
-
-#include <algorithm>
 #include <array>
 
-#include <fmt/format.h>
-
-#include "cli/input/problem_input.hpp"
+#include "cli/commands/commands.hpp"
 #include "cli/reports/case_report.hpp"
 #include "cli/reports/limits_report.hpp"
-#include "cli/text/console.hpp"
-#include "cli/text/wrapped_text.hpp"
-#include "core/base/error.hpp"
 #include "core/base/plain_file_name.hpp"
 #include "core/base/stop.hpp"
 #include "core/scene/load_cases.hpp"

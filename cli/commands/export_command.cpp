@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "cli/commands/commands.hpp"
-#include "cli/files/older_run.hpp"
 #include "cli/files/vtk_series.hpp"
 #include "core/base/plain_file_name.hpp"
 

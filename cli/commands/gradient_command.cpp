@@ -9,7 +9,6 @@
 #include "core/scene/shown_unit.hpp"
 #include "core/trust/checks.hpp"
 #include "sensitivity/initial_sensitivity.hpp"
-#include "sensitivity/kinks.hpp"
 #include "sensitivity/method_choice.hpp"
 #include "studies/method_comparison.hpp"
 

@@ -1,6 +1,4 @@
 #include "cli/commands/commands.hpp"
-#include "cli/input/problem_input.hpp"
-#include "cli/reports/warnings.hpp"
 #include "cli/text/table.hpp"
 #include "core/model/divided_beams.hpp"
 #include "core/model/motion_plane.hpp"

@@ -1,10 +1,5 @@
+
 #include "cli/commands/commands.hpp"
-
-#include <optional>
-
-#include "cli/files/csv_file.hpp"
-#include "cli/files/run_picture.hpp"
-#include "cli/input/problem_input.hpp"
 #include "cli/reports/case_report.hpp"
 #include "cli/reports/optimum_document.hpp"
 

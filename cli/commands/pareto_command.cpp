@@ -6,7 +6,6 @@
 #include "core/scene/load_cases.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "studies/missing_settings.hpp"
-#include "studies/pareto.hpp"
 #include "studies/pareto_point.hpp"
 
 namespace pleuel {

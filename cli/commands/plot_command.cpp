@@ -16,7 +16,6 @@
 #include "cli/text/history_chart.hpp"
 #include "core/base/find_named.hpp"
 #include "core/scene/reading/suggestion.hpp"
-#include "core/scene/shown_unit.hpp"
 
 /// Histories of a run as a drawing, and in the terminal.
 namespace pleuel {

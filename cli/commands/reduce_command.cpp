@@ -3,7 +3,6 @@
 #include "cli/commands/commands.hpp"
 #include "cli/files/output_file.hpp"
 #include "cli/text/table.hpp"
-#include "core/scene/body_constants.hpp"
 #include "reduction/reduce.hpp"
 
 namespace pleuel {

@@ -1,13 +1,10 @@
 #include <cmath>
-#include <memory>
 
 #include "cli/commands/commands.hpp"
 #include "cli/files/report_page.hpp"
-#include "cli/files/run_record.hpp"
 #include "cli/reports/effects_report.hpp"
 #include "cli/reports/scene_report.hpp"
 #include "core/mobility/lock.hpp"
-#include "core/model/model.hpp"
 #include "core/response/monitors.hpp"
 #include "core/scene/body_rules.hpp"
 #include "core/start/initial_state.hpp"

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "cli/commands/commands.hpp"
-#include "cli/text/wrapped_text.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "core/trust/checks.hpp"
 #include "studies/missing_settings.hpp"

@@ -2,9 +2,7 @@
 
 #include <ctime>
 #include <fstream>
-#include <map>
 #include <utility>
-#include <vector>
 
 #include <fcntl.h>
 #include <fmt/chrono.h>

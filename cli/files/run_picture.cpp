@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "cli/files/csv_file.hpp"
-#include "cli/reports/document_table.hpp"
 #include "cli/reports/limits_report.hpp"
 #include "cli/reports/scene_report.hpp"
 #include "core/model/imported_constants.hpp"

@@ -1,11 +1,10 @@
-#include "cli/files/run_picture.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "cli/files/run_picture.hpp"
 #include "cli/reports/scene_report.hpp"
 #include "core/base/number_text.hpp"
 #include "core/model/motion_plane.hpp"

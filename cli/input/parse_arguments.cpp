@@ -1,5 +1,3 @@
-#include "cli/input/command_table.hpp"
-
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
@@ -9,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "cli/input/command_table.hpp"
 #include "cli/input/fingerprint.hpp"
 #include "cli/text/console.hpp"
 #include "cli/text/wrapped_text.hpp"

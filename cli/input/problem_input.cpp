@@ -1,7 +1,6 @@
 #include "cli/input/problem_input.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,7 +10,6 @@
 #include "core/response/effect_measurement.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/reading/document_reader.hpp"
-#include "core/scene/reading/json_node.hpp"
 #include "core/scene/reading/override.hpp"
 #include "core/scene/reading/syntax_error.hpp"
 #include "core/scene/shown_unit.hpp"

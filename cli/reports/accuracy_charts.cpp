@@ -1,10 +1,9 @@
-#include "cli/reports/accuracy_report.hpp"
-
 #include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "cli/reports/accuracy_report.hpp"
 #include "core/base/number_text.hpp"
 #include "core/scene/shown_unit.hpp"
 

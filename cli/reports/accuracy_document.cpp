@@ -1,7 +1,6 @@
-#include "cli/reports/accuracy_report.hpp"
-
 #include <variant>
 
+#include "cli/reports/accuracy_report.hpp"
 #include "cli/reports/outcome.hpp"
 #include "cli/reports/setting_report.hpp"
 #include "cli/reports/time_text.hpp"

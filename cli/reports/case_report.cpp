@@ -5,7 +5,6 @@
 #include <limits>
 #include <map>
 #include <numeric>
-#include <optional>
 
 #include <fmt/format.h>
 
@@ -18,7 +17,6 @@
 #include "core/scene/case_goals.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/shown_unit.hpp"
-#include "optimization/result.hpp"
 
 namespace pleuel {
 

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstddef>
-
 #include "cli/text/json.hpp"
 #include "core/scene/problem_file.hpp"
 #include "optimization/result.hpp"

@@ -1,7 +1,6 @@
 #include "cli/reports/limits_report.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>

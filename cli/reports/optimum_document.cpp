@@ -9,8 +9,6 @@
 #include "cli/reports/scene_report.hpp"
 #include "core/base/number_text.hpp"
 #include "core/scene/case_goals.hpp"
-#include "core/scene/shown_unit.hpp"
-#include "optimization/result.hpp"
 
 namespace pleuel {
 

@@ -6,7 +6,6 @@
 #include "core/scene/shown_unit.hpp"
 #include "optimization/design/size_choice.hpp"
 #include "optimization/solve.hpp"
-#include "sensitivity/gradients.hpp"
 
 namespace pleuel {
 

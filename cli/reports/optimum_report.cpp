@@ -1,19 +1,16 @@
-#include "cli/reports/optimum_document.hpp"
-
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "cli/reports/case_report.hpp"
-#include "cli/reports/document_table.hpp"
 #include "cli/reports/limits_report.hpp"
+#include "cli/reports/optimum_document.hpp"
 #include "cli/reports/scene_report.hpp"
 #include "cli/reports/starts_report.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/find_named.hpp"
 #include "core/base/number_text.hpp"
 #include "core/scene/case_goals.hpp"
-#include "optimization/result.hpp"
 
 namespace pleuel {
 
