@@ -23,6 +23,10 @@ struct UncertainResponse {
   std::optional<Sampled> sampled;
 };
 
+/// @param gradient  by all variables of the problem
+UncertainResponse first_order(const UncertaintySettings& settings, double value,
+                              const Eigen::VectorXd& gradient);
+
 /// The history of a signal at the place where its response is taken, with its deviation at every
 /// instant.
 struct UncertainHistory {

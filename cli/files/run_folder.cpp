@@ -70,26 +70,25 @@ bool has_begun_only(const fs::path& folder) {
   throw InputError(fmt::format("-o {}: {}", folder.string(), reason));
 }
 
+fs::path free_path(const std::string& name, const std::string& ending) {
+  fs::path free = name + ending;
+  for (int number = 2; fs::exists(fs::symlink_status(free)); ++number) {
+    free = fmt::format("{}-{}{}", name, number, ending);
+  }
+  return free;
+}
+
 }  // namespace
 
 fs::path free_folder(const fs::path& folder) {
   // A path that ends with a slash names the folder, not something in it.
   const std::string name =
       (folder.has_filename() ? folder : folder.parent_path()).lexically_normal().string();
-  fs::path free = name;
-  for (int number = 2; fs::exists(fs::symlink_status(free)); ++number) {
-    free = fmt::format("{}-{}", name, number);
-  }
-  return free;
+  return free_path(name, "");
 }
 
 fs::path free_page(const std::string& name) {
-  const fs::path runs = "runs";
-  fs::path page = runs / (name + ".html");
-  for (int number = 2; fs::exists(page); ++number) {
-    page = runs / fmt::format("{}-{}.html", name, number);
-  }
-  return page;
+  return free_path("runs/" + name, ".html");
 }
 
 void require_free(const fs::path& file, const Arguments& arguments) {

@@ -214,32 +214,18 @@ void add_gradients(const ProblemFile& joined, const Json& cases, const Linearize
   }
 }
 
-/// First order, as of one case (studies/uncertainty.hpp): the parameters are the same in all of them.
-void add_uncertainty(const ProblemFile& joined, const Json& cases, const LinearizedResponse& linear,
-                     Json& entry) {
-  const Eigen::VectorXd gradient =
-      gradient_at(joined, cases, linear, Json::json_pointer("/gradients")).value();
-  double variance = 0.0, bound = 0.0;
-  Json shares = Json::object();
-  for (const UncertainParameter& parameter : joined.uncertainty->parameters) {
-    const std::string& name = joined.variables[parameter.variable].name;
-    const double slope = gradient(parameter.variable);
-    const double deviation = slope * parameter.standard_deviation();
-    entry["gradients"][name] = slope;
-    shares[name] = deviation * deviation;
-    variance += deviation * deviation;
-    bound += std::abs(slope) * parameter.half_width();
-  }
-  for (Json& share : shares) {
-    if (variance > 0.0) share = share.get<double>() / variance;
-  }
-  const double value = entry.at("value").get<double>();
-  entry["deviation"] = std::sqrt(variance);
-  entry["bounds"] = {value - bound, value + bound};
-  entry["shares"] = shares;
-}
-
 }  // namespace
+
+Json uncertain_document(const ProblemFile& problem, const UncertainResponse& response) {
+  std::vector<DesignVariable> parameters;
+  for (const UncertainParameter& parameter : problem.uncertainty->parameters) {
+    parameters.push_back(problem.variables[parameter.variable]);
+  }
+  return {{"deviation", response.deviation},
+          {"bounds", {response.value - response.bound, response.value + response.bound}},
+          {"shares", by_name(parameters, response.shares)},
+          {"gradients", by_name(parameters, response.gradient)}};
+}
 
 Json over_cases_document(const ProblemFile& joined, const Eigen::VectorXd& x, const Json& cases) {
   const ValueInCase value_of = [&](std::size_t response) {
@@ -255,7 +241,9 @@ Json over_cases_document(const ProblemFile& joined, const Eigen::VectorXd& x, co
       entry["value"] = value_over_cases(joined, i, x, value_of);
       const LinearizedResponse linear = linearized_over_cases(joined, i, x, value_of);
       if (cases.front().contains("parameters")) {  // of `uncertainty`
-        add_uncertainty(joined, cases, linear, entry);
+        const auto gradient = gradient_at(joined, cases, linear, Json::json_pointer("/gradients"));
+        entry.update(uncertain_document(
+            joined, first_order(*joined.uncertainty, entry["value"], gradient.value())));
       } else {
         add_gradients(joined, cases, linear, entry);
       }
