@@ -93,10 +93,8 @@ Outcome write_one(const fs::path& path, const ProblemFile& problem,
                     "--body, or a folder",
                     path.string(), files.size()));
   }
-  WriteFailures failures;
-  write_file({path, &failures}, write_invariants(files.front()));
   Outcome outcome = report(problem, files, {path});
-  outcome.unwritten = failures.files();
+  write_file({path, &outcome.unwritten}, write_invariants(files.front()));
   return outcome;
 }
 

@@ -189,13 +189,11 @@ Outcome run_plot(const Arguments& arguments) {
   }
   const fs::path drawing = drawing_path(arguments);
   if (arguments.output) require_free(drawing, arguments);
-  WriteFailures failures;
   outcome.document = {{"histories", arguments.names}};
-  if (write_file({drawing, &failures}, to_svg(charts))) {
+  if (write_file({drawing, &outcome.unwritten}, to_svg(charts))) {
     outcome.document["drawing"] = drawing.string();
     outcome.text += fmt::format("Drawn in {}\n", drawing.string());
   }
-  outcome.unwritten = failures.files();
   return outcome;
 }
 

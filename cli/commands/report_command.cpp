@@ -7,8 +7,7 @@ namespace pleuel {
 
 namespace {
 
-/// @returns what the user is told
-std::string make_report(const fs::path& folder, WriteFailures& failures) {
+void make_report(const fs::path& folder, Outcome& outcome) {
   const OlderRun run = read_older_run(folder);
   if (const std::string damage = damage_of(run); !damage.empty()) throw InputError(damage);
   Json picture;
@@ -21,13 +20,12 @@ std::string make_report(const fs::path& folder, WriteFailures& failures) {
   if (!run.card.value("finished", true)) {
     notes.push_back("the run did not come to its end: what it had written is shown");
   }
-  std::string text;
-  if (write_page({folder / report_name, &failures},
-                 report_data(run.card, run.result, picture, folder))) {
-    text = fmt::format("Report: {}\n", (folder / report_name).string());
+  const std::string page = (folder / report_name).string();
+  if (write_page({page, &outcome.unwritten}, report_data(run.card, run.result, picture, folder))) {
+    outcome.text += fmt::format("Report: {}\n", page);
+    outcome.document["reports"].push_back(page);
   }
-  for (const std::string& note : notes) text += wrapped("Note: " + note + "\n", "  ");
-  return text;
+  for (const std::string& note : notes) outcome.text += wrapped("Note: " + note + "\n", "  ");
 }
 
 }  // namespace
@@ -36,16 +34,7 @@ Outcome run_report(const Arguments& arguments) {
   if (!find_report_template()) throw InputError(no_template);
   Outcome outcome;
   outcome.document = {{"reports", Json::array()}};
-  WriteFailures failures;
-  for (const fs::path& folder : arguments.files) {
-    outcome.text += make_report(folder, failures);
-    const std::string report = (folder / report_name).string();
-    const auto& failed = failures.files();
-    if (std::ranges::find(failed, report) == failed.end()) {
-      outcome.document["reports"].push_back(report);
-    }
-  }
-  outcome.unwritten = failures.files();
+  for (const fs::path& folder : arguments.files) make_report(folder, outcome);
   return outcome;
 }
 
