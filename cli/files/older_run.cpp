@@ -39,6 +39,46 @@ Json document_in(const fs::path& file) {
   return document.is_object() ? document : Json();
 }
 
+using Type = Json::value_t;
+using Needed = std::vector<std::pair<const char*, Type>>;
+
+/// What a result has that is whole.
+Needed needed_in(const std::string& command) {
+  static const std::map<std::string, Needed> needed = {
+      {"accuracy", {{"runs", Type::array}}},
+      {"check", {{"responses", Type::object}}},
+      {"gradient", {{"responses", Type::object}}},
+      {"optimize",
+       {{"status", Type::string},
+        {"objective", Type::object},
+        {"variables", Type::object},
+        {"constraints", Type::object}}},
+      {"pareto", {{"points", Type::array}}},
+      {"prices", {{"prices", Type::object}}},
+      {"simulate", {{"responses", Type::object}}},
+      {"stability", {{"runs", Type::array}}},
+      {"uncertainty", {{"responses", Type::object}}},
+  };
+  const auto found = needed.find(command);
+  return found == needed.end() ? Needed() : found->second;
+}
+
+/// The effects of the model that the result is of: where an optimization has ended, more of them may
+/// matter than where it began.
+/// @returns whether the result names them
+bool take_effects(const Json& result, ProblemFile& problem) {
+  if (problem.has_cases() || !result.contains("effects")) return false;
+  EffectDecisions decisions;
+  for (const Json& effect : result["effects"]) {
+    if (!effect.contains("body") || effect.value("case", "") != problem.load_case) continue;
+    const std::pair key(effect["body"].get<std::string>(), effect.at("name").get<std::string>());
+    decisions.measured[key].is_needed = effect.at("built").get<bool>();
+  }
+  if (decisions.measured.empty()) return false;
+  problem.effects.decisions = std::move(decisions);
+  return true;
+}
+
 }  // namespace
 
 std::string OlderRun::problem() const {
@@ -88,34 +128,6 @@ std::optional<OlderRun> find_older_run(const fs::path& folder) {
   return run;
 }
 
-namespace {
-
-using Type = Json::value_t;
-using Needed = std::vector<std::pair<const char*, Type>>;
-
-/// What a result has that is whole.
-Needed needed_in(const std::string& command) {
-  static const std::map<std::string, Needed> needed = {
-      {"accuracy", {{"runs", Type::array}}},
-      {"check", {{"responses", Type::object}}},
-      {"gradient", {{"responses", Type::object}}},
-      {"optimize",
-       {{"status", Type::string},
-        {"objective", Type::object},
-        {"variables", Type::object},
-        {"constraints", Type::object}}},
-      {"pareto", {{"points", Type::array}}},
-      {"prices", {{"prices", Type::object}}},
-      {"simulate", {{"responses", Type::object}}},
-      {"stability", {{"runs", Type::array}}},
-      {"uncertainty", {{"responses", Type::object}}},
-  };
-  const auto found = needed.find(command);
-  return found == needed.end() ? Needed() : found->second;
-}
-
-}  // namespace
-
 std::string damage_of(const OlderRun& run) {
   const auto damaged = [&](const char* file, const std::string& what) {
     return fmt::format("{}: is damaged: {}", (run.folder / file).string(), what);
@@ -151,26 +163,6 @@ OlderRun read_older_run(const fs::path& folder) {
   }
   return std::move(*run);
 }
-
-namespace {
-
-/// The effects of the model that the result is of: where an optimization has ended, more of them may
-/// matter than where it began.
-/// @returns whether the result names them
-bool take_effects(const Json& result, ProblemFile& problem) {
-  if (problem.has_cases() || !result.contains("effects")) return false;
-  EffectDecisions decisions;
-  for (const Json& effect : result["effects"]) {
-    if (!effect.contains("body") || effect.value("case", "") != problem.load_case) continue;
-    const std::pair key(effect["body"].get<std::string>(), effect.at("name").get<std::string>());
-    decisions.measured[key].is_needed = effect.at("built").get<bool>();
-  }
-  if (decisions.measured.empty()) return false;
-  problem.effects.decisions = std::move(decisions);
-  return true;
-}
-
-}  // namespace
 
 std::optional<ProblemFile> problem_on_card(const fs::path& folder) try {
   const Json card = document_in(folder / card_name);

@@ -113,6 +113,41 @@ std::size_t first_in_conflict(const ProblemFile& problem, const std::vector<std:
   return cases.front();
 }
 
+/// What the document of its case says of a response of one case.
+const Json& entry_of(const ProblemFile& joined, const Json& cases, std::size_t response) {
+  const OfCase of_case = case_of_response(joined, response);
+  const ProblemFile& one = joined.cases[of_case.load_case];
+  return cases.at(one.load_case).at("responses").at(one.responses[of_case.index].name);
+}
+
+/// The derivatives that stand there in the entries of all parts; none if one of them has none.
+std::optional<Eigen::VectorXd> gradient_at(const ProblemFile& joined, const Json& cases,
+                                           const LinearizedResponse& linear,
+                                           const Json::json_pointer& place) {
+  Eigen::VectorXd gradient = linear.design;
+  for (const WeightedResponse& part : linear.parts) {
+    const Json slopes = entry_of(joined, cases, part.response).value(place, Json());
+    if (!slopes.is_object()) return std::nullopt;
+    for (Eigen::Index j = 0; j < gradient.size(); ++j) {
+      gradient(j) += part.weight * slopes.value(joined.variables[j].name, 0.0);
+    }
+  }
+  return gradient;
+}
+
+/// By each method that the gradients of all parts were computed by.
+void add_gradients(const ProblemFile& joined, const Json& cases, const LinearizedResponse& linear,
+                   Json& entry) {
+  if (linear.parts.empty()) return;
+  const Json& first = entry_of(joined, cases, linear.parts.front().response);
+  const Json methods = first.value("gradients", Json::object());
+  for (const auto& [method, unused] : methods.items()) {
+    const auto gradient =
+        gradient_at(joined, cases, linear, Json::json_pointer("/gradients") / method);
+    if (gradient) entry["gradients"][method] = by_name(joined.variables, *gradient);
+  }
+}
+
 }  // namespace
 
 std::string case_of(const ProblemFile& problem, std::size_t constraint) {
@@ -176,45 +211,6 @@ std::string name_of_case_file(const std::string& stem, const ProblemFile& load_c
   const std::string name = load_case.load_case;
   return fmt::format("{}{}.csv", stem, name.empty() ? "" : "-" + plain_file_name(name));
 }
-
-namespace {
-
-/// What the document of its case says of a response of one case.
-const Json& entry_of(const ProblemFile& joined, const Json& cases, std::size_t response) {
-  const OfCase of_case = case_of_response(joined, response);
-  const ProblemFile& one = joined.cases[of_case.load_case];
-  return cases.at(one.load_case).at("responses").at(one.responses[of_case.index].name);
-}
-
-/// The derivatives that stand there in the entries of all parts; none if one of them has none.
-std::optional<Eigen::VectorXd> gradient_at(const ProblemFile& joined, const Json& cases,
-                                           const LinearizedResponse& linear,
-                                           const Json::json_pointer& place) {
-  Eigen::VectorXd gradient = linear.design;
-  for (const WeightedResponse& part : linear.parts) {
-    const Json slopes = entry_of(joined, cases, part.response).value(place, Json());
-    if (!slopes.is_object()) return std::nullopt;
-    for (Eigen::Index j = 0; j < gradient.size(); ++j) {
-      gradient(j) += part.weight * slopes.value(joined.variables[j].name, 0.0);
-    }
-  }
-  return gradient;
-}
-
-/// By each method that the gradients of all parts were computed by.
-void add_gradients(const ProblemFile& joined, const Json& cases, const LinearizedResponse& linear,
-                   Json& entry) {
-  if (linear.parts.empty()) return;
-  const Json& first = entry_of(joined, cases, linear.parts.front().response);
-  const Json methods = first.value("gradients", Json::object());
-  for (const auto& [method, unused] : methods.items()) {
-    const auto gradient =
-        gradient_at(joined, cases, linear, Json::json_pointer("/gradients") / method);
-    if (gradient) entry["gradients"][method] = by_name(joined.variables, *gradient);
-  }
-}
-
-}  // namespace
 
 Json uncertain_document(const ProblemFile& problem, const UncertainResponse& response) {
   std::vector<DesignVariable> parameters;

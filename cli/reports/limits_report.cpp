@@ -90,18 +90,6 @@ double shown_margin(const Json& limit) {
   return std::abs(margin) < 1e-5 * std::abs(bound) ? 0.0 : margin;
 }
 
-}  // namespace
-
-std::vector<std::string> broken_limits(const Json& limits) {
-  std::vector<std::string> broken;
-  for (const auto& [name, limit] : limits.items()) {
-    if (!limit["kept"].get<bool>()) broken.push_back(name);
-  }
-  return broken;
-}
-
-namespace {
-
 std::string sum_text(const Json& limits) {
   const std::vector<std::string> broken = broken_limits(limits);
   const std::size_t all = limits.size();
@@ -113,7 +101,36 @@ std::string sum_text(const Json& limits) {
                  "  ");
 }
 
+const char* cause_text(FrontGap::Cause cause) {
+  static constexpr std::array<const char*, 4> names = {"open", "jump", "failure", "narrow"};
+  return names[static_cast<std::size_t>(cause)];
+}
+
+/// Of a gap that more points do not close.
+const char* reason(FrontGap::Cause cause) {
+  if (cause == FrontGap::Cause::jump) return "the front jumps: searches found no design there";
+  if (cause == FrontGap::Cause::narrow) {
+    return "nothing was looked for: limits there are too near to each other, and the objective "
+           "cannot be limited in their place";
+  }
+  return "searches failed, or came to designs that others dominate";
+}
+
+std::string describe(const Tie& tie, const Response& response) {
+  const PeakTie& peaks = tie.peaks;
+  return fmt::format("{}: peaks within {:.2g} %, {}; gradients differ by {:.3g} %", response.name,
+                     100 * peaks.gap, describe_tie(peaks, response), 100 * *tie.kink);
+}
+
 }  // namespace
+
+std::vector<std::string> broken_limits(const Json& limits) {
+  std::vector<std::string> broken;
+  for (const auto& [name, limit] : limits.items()) {
+    if (!limit["kept"].get<bool>()) broken.push_back(name);
+  }
+  return broken;
+}
 
 Json responses_document(const ProblemFile& problem, const Analysis& analysis,
                         const ErrorBars& errors) {
@@ -249,25 +266,6 @@ std::string limits_text(const ProblemFile& problem, const Json& limits) {
   return "\n" + table.text() + "\n" + sum_text(limits);
 }
 
-namespace {
-
-const char* cause_text(FrontGap::Cause cause) {
-  static constexpr std::array<const char*, 4> names = {"open", "jump", "failure", "narrow"};
-  return names[static_cast<std::size_t>(cause)];
-}
-
-/// Of a gap that more points do not close.
-const char* reason(FrontGap::Cause cause) {
-  if (cause == FrontGap::Cause::jump) return "the front jumps: searches found no design there";
-  if (cause == FrontGap::Cause::narrow) {
-    return "nothing was looked for: limits there are too near to each other, and the objective "
-           "cannot be limited in their place";
-  }
-  return "searches failed, or came to designs that others dominate";
-}
-
-}  // namespace
-
 std::string gaps_message(const ProblemFile& problem, const ParetoFront& front,
                          const std::string& limited) {
   const double asked = problem.pareto->gap;
@@ -311,16 +309,6 @@ Json gaps_document(const ProblemFile& problem, const ParetoFront& front) {
   });
   return document;
 }
-
-namespace {
-
-std::string describe(const Tie& tie, const Response& response) {
-  const PeakTie& peaks = tie.peaks;
-  return fmt::format("{}: peaks within {:.2g} %, {}; gradients differ by {:.3g} %", response.name,
-                     100 * peaks.gap, describe_tie(peaks, response), 100 * *tie.kink);
-}
-
-}  // namespace
 
 Ties find_ties(Analysis& analysis, const std::vector<DesignVariable>& variables) {
   return make_ties(analysis, find_kinks(analysis, variables));

@@ -60,6 +60,67 @@ int drives(const Model& model) {
       model.joints, [](const JointModel& joint) { return joint.drive_row >= 0; }));
 }
 
+std::string both(const std::array<std::string, 2>& bodies) {
+  return bodies[0] + " – " + bodies[1];
+}
+
+std::string joined(std::vector<std::string> parts) {
+  std::string text;
+  for (const std::string& part : parts) {
+    if (!part.empty()) text += (text.empty() ? "" : ", ") + part;
+  }
+  return text;
+}
+
+std::string constant_text(const char* name, double value, const char* unit) {
+  return value == 0.0 ? "" : fmt::format("{} {} {}", name, significant(value, 4), unit);
+}
+
+std::string resistance_text(const std::optional<TimeFunction>& resistance) {
+  if (!resistance) return "";
+  if (std::holds_alternative<FrictionLaw>(*resistance)) return "friction";
+  if (std::holds_alternative<ClearanceLaw>(*resistance)) return "clearance";
+  return "resistance";
+}
+
+/// A row of the table of what acts.
+class ActionRow {
+ public:
+  ActionRow(const ProblemFile& problem, const Design<double>& design)
+      : end_time_(problem.simulation.end_time), design_(design) {}
+
+  std::vector<std::string> operator()(const PointLoad& load) const {
+    return {load.is_force() ? "force" : "torque", load.body, value_text(load, load.unit())};
+  }
+  std::vector<std::string> operator()(const SpringDamper& load) const {
+    return {"spring", both(load.bodies), spring_text(load, design_)};
+  }
+  std::vector<std::string> operator()(const JointForce& load) const {
+    const bool turns = load.coordinate == DrivenCoordinate::angle;
+    std::string motor;
+    if (load.control) motor = "motor that follows a motion";
+    if (load.motor && depends_on_state(*load.motor)) {
+      motor = fmt::format("motor over {}", turns ? "angle or speed" : "displacement or speed");
+    } else if (load.motor) {
+      motor = "motor " + range_text(points(*load.motor), turns ? "N m" : "N");
+    }
+    return {"in the joint", load.joint, joined({spring_text(load, design_), motor})};
+  }
+
+ private:
+  std::string value_text(const PointLoad& load, const char* unit) const {
+    if (!load.over) return range_text(points(load.value), unit);
+    const bool turns = load.over->coordinate == DrivenCoordinate::angle;
+    return fmt::format("over the {} of {}", turns ? "angle" : "displacement", load.over->joint);
+  }
+  LawPoints points(const TimeFunction& function) const {
+    return law_points(function, end_time_, design_, LawOf::load);
+  }
+
+  double end_time_;
+  const Design<double>& design_;
+};
+
 }  // namespace
 
 ReachedBound reached_bound(const DesignVariable& variable, double value) {
@@ -187,71 +248,6 @@ std::string variables_text(const ProblemFile& problem) {
                    unit_column(units)})
       .text();
 }
-
-namespace {
-
-std::string both(const std::array<std::string, 2>& bodies) {
-  return bodies[0] + " – " + bodies[1];
-}
-
-std::string joined(std::vector<std::string> parts) {
-  std::string text;
-  for (const std::string& part : parts) {
-    if (!part.empty()) text += (text.empty() ? "" : ", ") + part;
-  }
-  return text;
-}
-
-std::string constant_text(const char* name, double value, const char* unit) {
-  return value == 0.0 ? "" : fmt::format("{} {} {}", name, significant(value, 4), unit);
-}
-
-std::string resistance_text(const std::optional<TimeFunction>& resistance) {
-  if (!resistance) return "";
-  if (std::holds_alternative<FrictionLaw>(*resistance)) return "friction";
-  if (std::holds_alternative<ClearanceLaw>(*resistance)) return "clearance";
-  return "resistance";
-}
-
-/// A row of the table of what acts.
-class ActionRow {
- public:
-  ActionRow(const ProblemFile& problem, const Design<double>& design)
-      : end_time_(problem.simulation.end_time), design_(design) {}
-
-  std::vector<std::string> operator()(const PointLoad& load) const {
-    return {load.is_force() ? "force" : "torque", load.body, value_text(load, load.unit())};
-  }
-  std::vector<std::string> operator()(const SpringDamper& load) const {
-    return {"spring", both(load.bodies), spring_text(load, design_)};
-  }
-  std::vector<std::string> operator()(const JointForce& load) const {
-    const bool turns = load.coordinate == DrivenCoordinate::angle;
-    std::string motor;
-    if (load.control) motor = "motor that follows a motion";
-    if (load.motor && depends_on_state(*load.motor)) {
-      motor = fmt::format("motor over {}", turns ? "angle or speed" : "displacement or speed");
-    } else if (load.motor) {
-      motor = "motor " + range_text(points(*load.motor), turns ? "N m" : "N");
-    }
-    return {"in the joint", load.joint, joined({spring_text(load, design_), motor})};
-  }
-
- private:
-  std::string value_text(const PointLoad& load, const char* unit) const {
-    if (!load.over) return range_text(points(load.value), unit);
-    const bool turns = load.over->coordinate == DrivenCoordinate::angle;
-    return fmt::format("over the {} of {}", turns ? "angle" : "displacement", load.over->joint);
-  }
-  LawPoints points(const TimeFunction& function) const {
-    return law_points(function, end_time_, design_, LawOf::load);
-  }
-
-  double end_time_;
-  const Design<double>& design_;
-};
-
-}  // namespace
 
 double LawPoints::lowest() const {
   return *std::ranges::min_element(values);

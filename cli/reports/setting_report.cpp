@@ -37,6 +37,12 @@ std::string error_text(const TriedSetting& setting) {
                                       : std::string("not resolved");
 }
 
+/// Of several load cases one each, in their order.
+Json settings_document(const std::vector<TriedSetting>& settings) {
+  if (settings.size() == 1) return tried_document(settings.front());
+  return {{"cases", list_of(settings, tried_document)}};
+}
+
 }  // namespace
 
 Json overrides_document(const Json& effective, const ProblemFile& divided) {
@@ -98,16 +104,6 @@ std::string setting_text(const ProblemFile& problem, const SettingChoice& choice
       fmt::format("No setting that was tried is known to keep {}; the best of {}, {}, {}.{}\n",
                   target, choice.tried.size(), setting, left, reason));
 }
-
-namespace {
-
-/// Of several load cases one each, in their order.
-Json settings_document(const std::vector<TriedSetting>& settings) {
-  if (settings.size() == 1) return tried_document(settings.front());
-  return {{"cases", list_of(settings, tried_document)}};
-}
-
-}  // namespace
 
 Json stages_document(const std::vector<Stage>& stages) {
   return list_of(stages, [](const Stage& stage) {
