@@ -1,4 +1,3 @@
-#include <map>
 
 #include "cli/commands/commands.hpp"
 #include "cli/program.hpp"

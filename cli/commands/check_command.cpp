@@ -1,12 +1,8 @@
 #include "cli/commands/commands.hpp"
-#include "cli/input/run_setting.hpp"
 #include "cli/reports/derivative_report.hpp"
 #include "cli/reports/effects_report.hpp"
-#include "cli/reports/limits_report.hpp"
 #include "cli/reports/scene_report.hpp"
-#include "core/base/stop.hpp"
 #include "core/scene/body_rules.hpp"
-#include "core/trust/checks.hpp"
 #include "sensitivity/gradients.hpp"
 #include "sensitivity/initial_sensitivity.hpp"
 

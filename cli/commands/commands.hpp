@@ -4,6 +4,7 @@
 /// SimulationError.
 
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -13,12 +14,14 @@
 #include "cli/files/run_picture.hpp"
 #include "cli/files/run_store.hpp"
 #include "cli/input/problem_input.hpp"
-#include "cli/reports/document_table.hpp"
-#include "cli/reports/warnings.hpp"
+#include "cli/input/run_setting.hpp"
+#include "cli/reports/limits_report.hpp"
 #include "cli/text/console.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/error.hpp"
 #include "core/base/number_text.hpp"
+#include "core/base/stop.hpp"
+#include "core/trust/checks.hpp"
 
 namespace pleuel {
 

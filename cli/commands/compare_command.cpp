@@ -1,10 +1,7 @@
-#include <cmath>
-#include <map>
 
 #include "cli/commands/commands.hpp"
 #include "cli/files/report_page.hpp"
 #include "cli/files/run_folder.hpp"
-#include "core/scene/shown_unit.hpp"
 
 /// What differs between two runs, in what went in and in what came out.
 namespace pleuel {

@@ -2,9 +2,7 @@
 
 #include "cli/commands/commands.hpp"
 #include "cli/reports/case_report.hpp"
-#include "cli/reports/limits_report.hpp"
 #include "core/base/plain_file_name.hpp"
-#include "core/base/stop.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/scene/reading/document_reader.hpp"

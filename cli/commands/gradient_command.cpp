@@ -1,13 +1,7 @@
-#include <cmath>
-#include <map>
 
 #include "cli/commands/commands.hpp"
 #include "cli/reports/derivative_report.hpp"
-#include "cli/reports/limits_report.hpp"
 #include "cli/reports/time_text.hpp"
-#include "cli/text/table.hpp"
-#include "core/scene/shown_unit.hpp"
-#include "core/trust/checks.hpp"
 #include "sensitivity/initial_sensitivity.hpp"
 #include "sensitivity/method_choice.hpp"
 #include "studies/method_comparison.hpp"

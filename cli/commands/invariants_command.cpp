@@ -1,11 +1,9 @@
 #include "cli/commands/commands.hpp"
-#include "cli/text/table.hpp"
 #include "core/model/divided_beams.hpp"
 #include "core/model/motion_plane.hpp"
 #include "core/response/analysis.hpp"
 #include "core/response/body_export.hpp"
 #include "core/scene/body_constants.hpp"
-#include "core/scene/shown_unit.hpp"
 
 namespace pleuel {
 

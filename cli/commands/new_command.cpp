@@ -1,7 +1,6 @@
 #include "cli/commands/commands.hpp"
 #include "cli/files/command_text.hpp"
 #include "cli/files/starters.hpp"
-#include "cli/text/table.hpp"
 #include "core/scene/reading/suggestion.hpp"
 
 namespace pleuel {

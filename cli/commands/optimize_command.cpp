@@ -1,18 +1,14 @@
-#include <cmath>
 #include <limits>
 
 #include "cli/commands/commands.hpp"
 #include "cli/files/command_text.hpp"
-#include "cli/input/run_setting.hpp"
 #include "cli/reports/case_report.hpp"
 #include "cli/reports/effects_report.hpp"
 #include "cli/reports/iteration_lines.hpp"
-#include "cli/reports/limits_report.hpp"
 #include "cli/reports/optimum_document.hpp"
 #include "cli/reports/scene_report.hpp"
 #include "cli/reports/setting_report.hpp"
 #include "cli/reports/starts_report.hpp"
-#include "core/base/stop.hpp"
 #include "core/response/value_over_cases.hpp"
 #include "core/scene/body_rules.hpp"
 #include "core/scene/load_cases.hpp"

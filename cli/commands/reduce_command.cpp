@@ -2,7 +2,6 @@
 
 #include "cli/commands/commands.hpp"
 #include "cli/files/output_file.hpp"
-#include "cli/text/table.hpp"
 #include "reduction/reduce.hpp"
 
 namespace pleuel {

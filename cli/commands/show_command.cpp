@@ -1,4 +1,3 @@
-#include <cmath>
 
 #include "cli/commands/commands.hpp"
 #include "cli/files/report_page.hpp"
@@ -9,7 +8,6 @@
 #include "core/scene/body_rules.hpp"
 #include "core/start/initial_state.hpp"
 #include "core/trust/check_list.hpp"
-#include "core/trust/checks.hpp"
 #include "picture/motion.hpp"
 
 /// The mechanism as the file places it, before anything is simulated.

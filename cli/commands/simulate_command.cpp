@@ -1,12 +1,9 @@
 #include "cli/commands/commands.hpp"
 #include "cli/reports/effects_report.hpp"
-#include "cli/reports/limits_report.hpp"
 #include "cli/reports/scene_report.hpp"
 #include "cli/reports/setting_report.hpp"
-#include "core/base/stop.hpp"
 #include "core/integration/period_map.hpp"
 #include "core/trust/check_list.hpp"
-#include "core/trust/checks.hpp"
 
 namespace pleuel {
 

@@ -1,5 +1,4 @@
 #include "cli/commands/commands.hpp"
-#include "core/trust/checks.hpp"
 #include "studies/stability.hpp"
 
 namespace pleuel {

@@ -1,10 +1,7 @@
-#include <cmath>
-#include <map>
 #include <utility>
 
 #include "cli/commands/commands.hpp"
 #include "cli/reports/case_report.hpp"
-#include "core/trust/checks.hpp"
 #include "studies/missing_settings.hpp"
 
 namespace pleuel {
