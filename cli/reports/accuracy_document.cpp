@@ -15,10 +15,6 @@ Json of_responses(const ProblemFile& problem, const Eigen::VectorXd& numbers) {
   return by_name(problem.responses, numbers);
 }
 
-Json number_or_null(const std::optional<double>& number) {
-  return number ? Json(*number) : Json(nullptr);
-}
-
 /// What is known of a run that succeeded.
 void add_measures(const ProblemFile& problem, const AccuracyRun& run, Json& document) {
   document["errors"] = of_responses(problem, run.errors);

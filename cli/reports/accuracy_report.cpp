@@ -141,11 +141,6 @@ double objective_size(const ProblemFile& problem, const AccuracyStudy& study) {
   return index ? std::abs(study.reference.values(*index)) : 0.0;
 }
 
-std::string words_of(std::string name) {
-  std::ranges::replace(name, '_', ' ');
-  return name;
-}
-
 /// What leaving out an effect, or including it, changes: of the optimum, or of the worst response.
 std::string influence_text(const ProblemFile& problem, const AccuracyStudy& study,
                            const VariedRun& varied) {

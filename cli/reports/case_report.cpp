@@ -93,12 +93,10 @@ std::vector<Eigen::VectorXd> measures_of_cases(const ProblemFile& problem, const
 /// Leaves those whose number is the largest, within what round-off makes of equal ones.
 void keep_largest(const Eigen::VectorXd& numbers, std::vector<std::size_t>& cases) {
   if (numbers.size() == 0) return;
-  const auto number_of = [&](std::size_t c) { return numbers(c); };
-  double largest = -std::numeric_limits<double>::infinity();
-  for (const std::size_t c : cases) largest = std::max(largest, number_of(c));
+  const double largest = numbers(cases).maxCoeff();
   if (!std::isfinite(largest)) return;
   const double least = largest - least_share * std::abs(largest);
-  std::erase_if(cases, [&](std::size_t c) { return number_of(c) < least; });
+  std::erase_if(cases, [&](std::size_t c) { return numbers(c) < least; });
 }
 
 /// Of equal ones that of the first limit in conflict, where limits are; else the first.

@@ -295,8 +295,7 @@ std::string gaps_message(const ProblemFile& problem, const ParetoFront& front,
 }
 
 Json gaps_document(const ProblemFile& problem, const ParetoFront& front) {
-  Json document = {{"asked", problem.pareto->gap}, {"largest", nullptr}};
-  if (front.gaps.largest) document["largest"] = *front.gaps.largest;
+  Json document = {{"asked", problem.pareto->gap}, {"largest", number_or_null(front.gaps.largest)}};
   const auto limited = [&](std::size_t i) {
     const ParetoPoint& point = front.points[i];
     return point.has_design() && point.keeps_limits() ? Json(point.limited_value) : Json(nullptr);

@@ -123,15 +123,10 @@ class ActionRow {
 
 }  // namespace
 
-ReachedBound reached_bound(const DesignVariable& variable, double value) {
-  if (variable.lower == variable.upper) return ReachedBound::both;
-  if (is_at(variable.lower, variable, value)) return ReachedBound::lower;
-  return is_at(variable.upper, variable, value) ? ReachedBound::upper : ReachedBound::none;
-}
-
-const char* to_string(ReachedBound reached) {
-  static constexpr std::array<const char*, 4> names = {"", "lower", "upper", "both"};
-  return names[static_cast<std::size_t>(reached)];
+std::string reached_bound(const DesignVariable& variable, double value) {
+  if (variable.lower == variable.upper) return "both";
+  if (is_at(variable.lower, variable, value)) return "lower";
+  return is_at(variable.upper, variable, value) ? "upper" : "";
 }
 
 Json bodies_document(const Model& model) {
@@ -234,8 +229,8 @@ Json variables_document(const ProblemFile& problem, const Eigen::VectorXd& x) {
     Json& entry = document[variable.name];
     entry["value"] = x(i);
     if (const auto choice = size_text(variable, x(i))) entry["choice"] = *choice;
-    const ReachedBound reached = reached_bound(variable, x(i));
-    if (reached != ReachedBound::none) entry["at_bound"] = to_string(reached);
+    const std::string reached = reached_bound(variable, x(i));
+    if (!reached.empty()) entry["at_bound"] = reached;
   }
   return document;
 }
@@ -247,14 +242,6 @@ std::string variables_text(const ProblemFile& problem) {
                    shown_column("lower", "/lower", units), shown_column("upper", "/upper", units),
                    unit_column(units)})
       .text();
-}
-
-double LawPoints::lowest() const {
-  return *std::ranges::min_element(values);
-}
-
-double LawPoints::highest() const {
-  return *std::ranges::max_element(values);
 }
 
 LawPoints law_points(const TimeFunction& function, double end_time, const Design<double>& design,
@@ -279,7 +266,8 @@ LawPoints law_points(const TimeFunction& function, double end_time, const Design
 std::string range_text(const LawPoints& points, const std::string& si) {
   ShownUnit unit = engineering_unit(si);
   if (si == "rad") unit = {si, "°", std::numbers::pi / 180.0};
-  const double low = unit.shown(points.lowest()), high = unit.shown(points.highest());
+  const auto [least, most] = std::ranges::minmax(points.values);
+  const double low = unit.shown(least), high = unit.shown(most);
   const double size = std::max(std::abs(low), std::abs(high));
   if (high - low <= 1e-9 * size) return fmt::format("{} {}", significant(high, 4), unit.name);
   const auto text = [&](double value) {

@@ -13,10 +13,6 @@ namespace pleuel {
 
 namespace {
 
-Json number_or_null(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
 Json tried_document(const TriedSetting& tried) {
   return {{"step", tried.step},
           {"elements", tried.elements},
