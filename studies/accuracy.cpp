@@ -144,11 +144,6 @@ class Studying {
  private:
   const AccuracyRun& base() const { return study_.runs[*study_.base]; }
 
-  static std::string name_of(const Discretization& settings) {
-    return fmt::format("step {} s, elements {}, factor {}", settings.step, settings.elements,
-                       settings.factor);
-  }
-
   std::optional<double> lagrangian_of_reference() const {
     return kept_part(parts_, "lagrangian of the reference", [&] {
       return design_.lagrangian(discretized(problem_, study_.reference.settings));

@@ -5,6 +5,8 @@
 #include <utility>
 #include <variant>
 
+#include <fmt/format.h>
+
 #include "core/base/eager_matrices.hpp"
 #include "core/base/relative_error.hpp"
 #include "core/trust/checks.hpp"
@@ -88,6 +90,11 @@ void keep_values(const Analysis& analysis, AccuracyRun& run) {
 }
 
 }  // namespace
+
+std::string name_of(const Discretization& settings) {
+  return fmt::format("step {} s, elements {}, factor {}", settings.step, settings.elements,
+                     settings.factor);
+}
 
 ProblemFile discretized(ProblemFile problem, const Discretization& settings) {
   const double step = problem.simulation.step;

@@ -12,6 +12,9 @@ struct Discretization {
   double factor = 1.0;
 };
 
+/// In the record of a study.
+std::string name_of(const Discretization& settings);
+
 /// The problem divided like that. A rounded number of elements is rounded up.
 ProblemFile discretized(ProblemFile problem, const Discretization& settings);
 

@@ -92,19 +92,17 @@ void add_monitors(Monitors& all, const Monitors& one) {
   all.most_bent = one.most_bent;
 }
 
-/// Gradients of the responses of all cases, NaN of those that have none; null if those of a case are not
-/// known.
-std::shared_ptr<const DesignInfluence> joined_influence(const Optimum& optimum,
-                                                        const std::vector<CaseDesigns>& designs) {
+/// Of the responses of all cases, NaN of those that have none; empty if those of a case are not known.
+Eigen::MatrixXd joined_gradients(const Optimum& optimum, const std::vector<CaseDesigns>& designs) {
   const ProblemFile& joined = optimum.problem;
-  if (!joined.has_cases()) return designs.front().end.influence;
   for (const CaseDesigns& one : designs) {
-    if (!one.end.influence) return nullptr;
+    if (!one.end.influence) return {};
   }
+  if (!joined.has_cases()) return designs.front().end.influence->gradients;
   const ValueInCase value_of = [&](std::size_t part) { return optimum.responses(part); };
-  DesignInfluence all;
-  all.gradients.setConstant(std::ssize(joined.responses), std::ssize(joined.variables),
-                            std::numeric_limits<double>::quiet_NaN());
+  Eigen::MatrixXd all =
+      Eigen::MatrixXd::Constant(std::ssize(joined.responses), std::ssize(joined.variables),
+                                std::numeric_limits<double>::quiet_NaN());
   for (std::size_t i = 0; i < joined.responses.size(); ++i) {
     try {
       const LinearizedResponse linear =
@@ -114,11 +112,11 @@ std::shared_ptr<const DesignInfluence> joined_influence(const Optimum& optimum,
         const auto [load_case, index] = joined.case_responses[part.response];
         gradient += part.weight * designs[load_case].end.influence->gradients.row(index);
       }
-      all.gradients.row(i) = gradient;
+      all.row(i) = gradient;
     } catch (const SimulationError&) {
     }
   }
-  return std::make_shared<DesignInfluence>(std::move(all));
+  return all;
 }
 
 const char* word_of(ResponseType type) {
@@ -209,7 +207,7 @@ Examined examine_designs(RunRecord& record, Optimum& optimum) {
   optimum.responses = joined_values(optimum.problem, designs, &CaseDesigns::end);
   record.begin_phase("influence");
   Examined examined = examine_cases(optimum, designs);
-  optimum.influence = joined_influence(optimum, designs);
+  optimum.gradients = joined_gradients(optimum, designs);
   record.show_picture([&] { return picture_of(optimum, designs); });
   record.begin_phase("trajectories");
   return examined;

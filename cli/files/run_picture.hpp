@@ -2,11 +2,24 @@
 
 #include <utility>
 
-#include "cli/reports/design_influence.hpp"
+#include "cli/text/json.hpp"
 #include "picture/motion.hpp"
+#include "sensitivity/gradients.hpp"
 
 /// What the report shows of simulated designs (docs/report.md) [SI].
 namespace pleuel {
+
+struct DesignInfluence {
+  Eigen::MatrixXd gradients;  ///< responses × variables [SI]
+  /// Empty where they would take too much time or memory.
+  std::vector<HistoryGradients> histories{};
+};
+
+/// Of a simulation that is there already: no other one is made. With few variables by one run of
+/// direct differentiation, which gives the histories, too; with many by the cheaper exact method.
+/// Null without variables, and where the gradients cannot be computed.
+std::shared_ptr<const DesignInfluence> design_influence(const ProblemFile& problem,
+                                                        Analysis& analysis);
 
 /// A design that is shown.
 struct ShownDesign {

@@ -73,9 +73,9 @@ Json responses_document(const Optimum& optimum) {
                                {"start", optimum.start_responses(i)}};
     const ErrorBars& errors = optimum.result.response_errors;
     if (!errors.empty()) document[response.name]["error"] = error_document(error_of(errors, i));
-    if (optimum.influence) {
+    if (optimum.gradients.size() > 0) {
       document[response.name]["gradients"] =
-          by_name(optimum.problem.variables, optimum.influence->gradients.row(i));
+          by_name(optimum.problem.variables, optimum.gradients.row(i));
     }
   }
   return document;

@@ -1,11 +1,12 @@
 #pragma once
 
-#include "cli/reports/design_influence.hpp"
+#include "cli/text/json.hpp"
 #include "core/response/effect_measurement.hpp"
 #include "core/response/monitors.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "optimization/design/size_choice.hpp"
 #include "optimization/solve.hpp"
+#include "sensitivity/gradients.hpp"
 
 namespace pleuel {
 
@@ -22,8 +23,8 @@ struct Optimum {
   std::optional<GradientChoice> method;  ///< of the gradients; none if there was none
   /// Of the last design, by runs of twice the step; empty: not measured.
   std::vector<EffectInfluence> influences{};
-  std::shared_ptr<const DesignInfluence> influence{};  ///< of the variables; null: not known
-  const SizeChoiceReport* sizes = nullptr;             ///< where some are chosen from lists
+  Eigen::MatrixXd gradients{};              ///< responses × variables [SI]; empty: not known
+  const SizeChoiceReport* sizes = nullptr;  ///< where some are chosen from lists
 
   bool has_design() const { return result.evaluation.has_gradients(); }
 
