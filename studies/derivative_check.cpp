@@ -286,11 +286,10 @@ JudgedDerivative judge_derivative(const DerivativeEvidence& evidence,
   return judged;
 }
 
-std::size_t DerivativeCheck::worst_direction() const {
-  const auto worst = std::ranges::max_element(directions, {}, [](const JudgedDerivative& one) {
+const JudgedDerivative& DerivativeCheck::worst() const {
+  return *std::ranges::max_element(directions, {}, [](const JudgedDerivative& one) {
     return std::pair(one.verdict, one.error);
   });
-  return static_cast<std::size_t>(worst - directions.begin());
 }
 
 DerivativeChecks check_derivatives(const ProblemFile& problem, const Eigen::VectorXd& x,

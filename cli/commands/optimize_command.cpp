@@ -12,6 +12,7 @@
 #include "core/response/value_over_cases.hpp"
 #include "core/scene/body_rules.hpp"
 #include "core/scene/load_cases.hpp"
+#include "core/scene/reading/override.hpp"
 #include "core/trust/check_list.hpp"
 #include "core/trust/refined_runs.hpp"
 #include "optimization/design/number_judgement.hpp"
@@ -156,20 +157,16 @@ std::string drives_text(const ProblemFile& problem, const Analysis& start,
   return text;
 }
 
-/// What each case says of the design; several are told apart by their names.
+/// What each case says of the design; several are told apart by their names. The findings are known:
+/// they are part of the verdict.
 Examined examine_cases(Optimum& optimum, std::vector<CaseDesigns>& designs) {
   Examined examined;
-  std::vector<std::vector<Finding>> findings;
   for (CaseDesigns& one : designs) {
     Analysis& end = *one.end.analysis;
     one.end.influence = design_influence(*one.problem, end);
     const Monitors monitors = monitor(end.model, end.trajectory);
     if (&one == &designs.front()) optimum.monitors = monitors;
     add_monitors(optimum.monitors, monitors);
-    // Of an answer with gradients the findings are known: they are part of its verdict.
-    if (!optimum.result.evaluation.has_gradients()) {
-      findings.push_back(check_run(TrustedRun{*one.problem, optimum.result.x, end, monitors}));
-    }
     const std::string& load_case = one.problem->load_case;
     for (Json& effect : effects_document(*one.problem, end.model, optimum.influences)) {
       if (!load_case.empty()) effect["case"] = load_case;
@@ -180,11 +177,6 @@ Examined examine_cases(Optimum& optimum, std::vector<CaseDesigns>& designs) {
       examined.drives += fmt::format("Case \"{}\":\n", load_case);
     }
     examined.drives += drives;
-  }
-  if (!optimum.result.evaluation.has_gradients()) {
-    const std::vector<Finding> joined = joined_findings(optimum.problem, findings);
-    optimum.warnings = texts_of(joined);
-    optimum.consequences = count_consequences(joined);
   }
   return examined;
 }
@@ -263,8 +255,19 @@ std::string command_again(const RunRecord& record, const Arguments& arguments,
       std::ranges::any_of(problem.constraints, [](const ConstraintSettings& constraint) {
         return constraint.deviations > 0.0;
       });
-  return command_at(takes_gradients ? "gradient" : "simulate", arguments,
-                    record.folder() / dossier_name);
+  std::string text =
+      command_on(takes_gradients ? "gradient" : "simulate", arguments, arguments.file);
+  // By its pointer: the value of a variable that is called by its name would take the place of that in
+  // the file.
+  for (const std::string& assignment : arguments.overrides) {
+    text += " --set " +
+            shell_word(assigned_pointer(assignment) + assignment.substr(assignment.find('=')));
+  }
+  if (arguments.allows_programs) text += " --allow-programs";
+  if (takes_gradients) {
+    for (const std::string& method : arguments.methods) text += " --method " + method;
+  }
+  return text + " --design " + shell_word((record.folder() / dossier_name).string());
 }
 
 /// Writes failed_design.json: design, failure, and the command that evaluates that design again.

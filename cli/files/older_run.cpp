@@ -135,7 +135,8 @@ std::string damage_of(const OlderRun& run) {
   const std::string command = text_at(run.card, "/command");
   if (command.empty()) return damaged(card_name, "it names no command");
   if (!run.result.is_object()) {
-    return fmt::format("{}: there is none that can be read", (run.folder / result_name).string());
+    return fmt::format("{}: is missing, or is no JSON document",
+                       (run.folder / result_name).string());
   }
   for (const auto& [key, type] : needed_in(command)) {
     if (run.result.value(key, Json()).type() != type) {
