@@ -38,7 +38,7 @@ Examination examine(const ProblemFile& problem, const Eigen::VectorXd& x,
   const Model& model = findings.analysis->model;
   findings.freedoms = rigid_degrees_of_freedom(model.mechanism, initial);
   findings.freedoms.blocked = blocked_drives(model.mechanism, initial, drive_rows(model));
-  findings.ties = find_ties(*findings.analysis, problem.variables);
+  findings.ties = make_ties(*findings.analysis, find_kinks(*findings.analysis, problem.variables));
   const std::vector<Finding> of_checks = check_run(problem, x, *findings.analysis);
   warn(texts_of(of_checks));
   if (!arguments.wants_all_warnings) findings.consequences = count_consequences(of_checks);

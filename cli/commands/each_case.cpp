@@ -18,11 +18,7 @@ constexpr std::array commands = {"simulate", "check",    "gradient",
 std::vector<std::string> case_names(const Arguments& arguments) {
   const Json document = overridden_document(
       {read_text_file(arguments.file), arguments.file.string(), arguments.overrides});
-  std::vector<std::string> names;
-  for (const CaseChanges& one : cases_of(document, arguments.file.string())) {
-    names.push_back(one.name);
-  }
-  return names;
+  return list_of(cases_of(document, arguments.file.string()), &CaseChanges::name);
 }
 
 /// Tells errors of the input by the case that they are of; those of the file are of all.

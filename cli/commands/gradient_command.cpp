@@ -279,8 +279,8 @@ Outcome run_gradient(const Arguments& arguments) {
   }
   const bool is_checked = arguments.scrutiny != Scrutiny::none;
   if (is_checked) progress.show_share("checking the numbers", 0.0);
-  findings.ties = findings.kinks ? make_ties(*findings.analysis, *findings.kinks)
-                                 : find_ties(*findings.analysis, problem.variables);
+  if (!findings.kinks) findings.kinks = find_kinks(*findings.analysis, problem.variables);
+  findings.ties = make_ties(*findings.analysis, *findings.kinks);
   const Analysis& analysis = *findings.analysis;
   const Monitors monitors = is_checked ? monitor(analysis.model, analysis.trajectory) : Monitors{};
   TrustedRun judged{problem, input.design, analysis, monitors, arguments.scrutiny};

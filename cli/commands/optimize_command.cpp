@@ -125,14 +125,6 @@ const char* word_of(ResponseType type) {
   return type == ResponseType::drive_force ? "force" : "power";
 }
 
-/// " (−57.1 %)"; nothing where there was nothing before.
-std::string change_text(double before, double after) {
-  if (before == 0.0) return "";
-  const double percents = 100.0 * (after / before - 1.0);
-  if (std::abs(percents) < 0.05) return " (the same)";
-  return fmt::format(" ({}{:.1f} %)", percents < 0.0 ? "−" : "+", std::abs(percents));
-}
-
 /// "Drive bearing: torque 464.28 → 199.13 N m (−57.1 %), power 92856 → 39826 W (−57.1 %)", a line
 /// for each drive: the largest magnitudes over time of two designs. Empty without drives.
 std::string drives_text(const ProblemFile& problem, const Analysis& start,
@@ -146,7 +138,8 @@ std::string drives_text(const ProblemFile& problem, const Analysis& start,
     const double from = before.all[i].value, to = after.all[i].value;
     const bool is_power = settings.type == ResponseType::drive_power;
     line += fmt::format("{} {} → {} {}{}", word_of(settings.type), significant(unit.shown(from)),
-                        significant(unit.shown(to)), unit.name, change_text(from, to));
+                        significant(unit.shown(to)), unit.name,
+                        from == 0.0 ? "" : fmt::format(" ({})", signed_percent(to / from - 1.0)));
     if (!is_power) {
       line += ", ";
       continue;

@@ -19,8 +19,7 @@ namespace pleuel {
 namespace {
 
 void check_names(const JsonNode& variables, const ProblemFile& problem) {
-  std::vector<std::string> known;
-  for (const DesignVariable& variable : problem.variables) known.push_back(variable.name);
+  const std::vector<std::string> known = list_of(problem.variables, &DesignVariable::name);
   for (const auto& [name, member] : variables.members()) {
     if (std::ranges::find(known, name) != known.end()) continue;
     fail_unknown_name(variables, "design variable", name, known);

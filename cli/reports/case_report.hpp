@@ -2,6 +2,7 @@
 
 #include "cli/text/json.hpp"
 #include "core/scene/problem_file.hpp"
+#include "optimization/result.hpp"
 #include "studies/uncertainty.hpp"
 
 /// What is said of load cases at an optimum: which of them decide.

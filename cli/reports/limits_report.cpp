@@ -309,10 +309,6 @@ Json gaps_document(const ProblemFile& problem, const ParetoFront& front) {
   return document;
 }
 
-Ties find_ties(Analysis& analysis, const std::vector<DesignVariable>& variables) {
-  return make_ties(analysis, find_kinks(analysis, variables));
-}
-
 Ties make_ties(const Analysis& analysis, const std::vector<Kink>& kinks) {
   Ties ties(analysis.responses.size());
   for (std::size_t i = 0; i < ties.size(); ++i) {

@@ -65,11 +65,8 @@ std::string both(const std::array<std::string, 2>& bodies) {
 }
 
 std::string joined(std::vector<std::string> parts) {
-  std::string text;
-  for (const std::string& part : parts) {
-    if (!part.empty()) text += (text.empty() ? "" : ", ") + part;
-  }
-  return text;
+  std::erase(parts, "");
+  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 std::string constant_text(const char* name, double value, const char* unit) {
