@@ -20,6 +20,14 @@ extern "C" void record_interruption(int signal) {
   std::signal(signal, SIG_DFL);
 }
 
+namespace fs = std::filesystem;
+
+/// "/tmp/aaaa…: File name too long": long names are told by their beginnings.
+std::string path_text(const fs::filesystem_error& error) {
+  return fmt::format("{}: the system says: {}", excerpt(error.path1().string(), 120),
+                     error.code().message());
+}
+
 }  // namespace
 
 Interruption::Interruption() {
@@ -34,18 +42,6 @@ Interruption::Interruption() {
 Interruption::~Interruption() {
   for (std::size_t i = 0; i < signals.size(); ++i) std::signal(signals[i], before_[i]);
 }
-
-namespace {
-
-namespace fs = std::filesystem;
-
-/// "/tmp/aaaa…: File name too long": long names are told by their beginnings.
-std::string path_text(const fs::filesystem_error& error) {
-  return fmt::format("{}: the system says: {}", excerpt(error.path1().string(), 120),
-                     error.code().message());
-}
-
-}  // namespace
 
 Failure current_failure() {
   try {

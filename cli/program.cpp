@@ -5,13 +5,11 @@
 
 #include <unistd.h>
 
-#include "cli/input/parse_arguments.hpp"
 #include "cli/input/problem_input.hpp"
 #include "cli/input/run_setting.hpp"
 #include "cli/interruption.hpp"
 #include "cli/rank_of_job.hpp"
 #include "cli/ranks.hpp"
-#include "cli/run_command.hpp"
 #include "cli/text/console.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/quoted.hpp"

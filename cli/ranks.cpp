@@ -11,7 +11,6 @@
 #include "cli/input/fingerprint.hpp"
 #include "cli/interruption.hpp"
 #include "core/base/error.hpp"
-#include "core/jobs/rank_place.hpp"
 #include "optimization/design/multi_start.hpp"
 #include "optimization/design/size_lists.hpp"
 #include "studies/pareto.hpp"
@@ -44,12 +43,11 @@ WorkMakers work_makers() {
           {sample_work_name, make_sample_work}};
 }
 
-}  // namespace
-
 RankDescription describe_rank() {
   return {machine_name(), program_fingerprint(), usable_processors()};
 }
 
+/// Processors of each rank, at least one: where several may use the same ones each has its part.
 std::vector<int> processors_of(const std::vector<RankDescription>& ranks) {
   std::map<std::pair<std::string, int>, int> users;  // of each processor
   for (const RankDescription& rank : ranks) {
@@ -64,6 +62,8 @@ std::vector<int> processors_of(const std::vector<RankDescription>& ranks) {
   }
   return counts;
 }
+
+}  // namespace
 
 Ranks::Ranks(std::vector<Channel> links) : links_(std::move(links)), ranks_{describe_rank()} {
   for (Channel& link : links_) {

@@ -13,12 +13,6 @@ struct RankDescription {
   std::vector<int> processors;  ///< of its machine that it may use
 };
 
-/// Of this process.
-RankDescription describe_rank();
-
-/// Processors of each rank, at least one: where several may use the same ones each has its part.
-std::vector<int> processors_of(const std::vector<RankDescription>& ranks);
-
 /// The other ranks of a job, as rank 0 sees them.
 class Ranks {
  public:

@@ -1,9 +1,6 @@
-#include "cli/run_command.hpp"
-
-#include <map>
 
 #include "cli/commands/commands.hpp"
-#include "cli/commands/each_case.hpp"
+#include "cli/program.hpp"
 #include "core/jobs/child_program.hpp"
 
 namespace pleuel {

@@ -5,10 +5,8 @@
 #include <vector>
 
 #include "cli/input/fingerprint.hpp"
-#include "cli/input/parse_arguments.hpp"
 #include "cli/input/run_setting.hpp"
 #include "cli/program.hpp"
-#include "cli/run_command.hpp"
 #include "core/base/stop.hpp"
 #include "library/guarded_call.hpp"
 

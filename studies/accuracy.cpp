@@ -1,15 +1,10 @@
 #include "studies/accuracy.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <memory>
-
 #include <fmt/format.h>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/relative_error.hpp"
 #include "core/base/stop.hpp"
-#include "core/response/analysis.hpp"
 #include "core/scene/response_parts.hpp"
 #include "core/trust/trusted_run.hpp"
 
@@ -148,11 +143,6 @@ class Studying {
 
  private:
   const AccuracyRun& base() const { return study_.runs[*study_.base]; }
-
-  static std::string name_of(const Discretization& settings) {
-    return fmt::format("step {} s, elements {}, factor {}", settings.step, settings.elements,
-                       settings.factor);
-  }
 
   std::optional<double> lagrangian_of_reference() const {
     return kept_part(parts_, "lagrangian of the reference", [&] {

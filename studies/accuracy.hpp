@@ -1,15 +1,7 @@
 #pragma once
 
-#include <functional>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include <Eigen/Core>
-
 #include "core/base/stopwatch.hpp"
 #include "core/jobs/part_store.hpp"
-#include "core/scene/problem_file.hpp"
 #include "studies/accuracy_knobs.hpp"
 #include "studies/accuracy_run.hpp"
 #include "studies/row_prices.hpp"

@@ -1,7 +1,6 @@
 #include "studies/accuracy_knobs.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 

@@ -1,12 +1,9 @@
 #pragma once
 
 #include <functional>
-#include <string>
 #include <variant>
-#include <vector>
 
 #include "core/model/model.hpp"
-#include "core/scene/problem_file.hpp"
 
 /// What can be chosen besides steps and elements, one change at a time.
 namespace pleuel {

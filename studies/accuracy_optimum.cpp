@@ -5,8 +5,6 @@
 #include <limits>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "core/base/eager_matrices.hpp"
 #include "core/base/stop.hpp"
 #include "optimization/design/design_solve.hpp"
@@ -146,10 +144,8 @@ OptimumStudy optimum_study(const ProblemFile& problem, const Eigen::VectorXd& x,
       });
     }
     for (const Discretization& settings : efficient_settings(study)) {
-      const std::string name = fmt::format("optimum with step {} s, elements {}, factor {}",
-                                           settings.step, settings.elements, settings.factor);
-      OptimumRun run =
-          kept_part(parts, name, [&] { return try_to_optimize(problem, settings, options); });
+      OptimumRun run = kept_part(parts, "optimum with " + name_of(settings),
+                                 [&] { return try_to_optimize(problem, settings, options); });
       if (!run.has_failed()) run.change = run.objective - optima.reference.objective;
       optima.runs.push_back(std::move(run));
       if (observer) observer(optima.runs.back());

@@ -1,12 +1,5 @@
 #pragma once
 
-#include <functional>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include <Eigen/Core>
-
 #include "optimization/evaluation_store.hpp"
 #include "optimization/solve.hpp"
 #include "studies/accuracy.hpp"

@@ -1,11 +1,11 @@
 #include "studies/accuracy_run.hpp"
 
-#include <algorithm>
 #include <ctime>
-#include <memory>
 #include <tuple>
 #include <utility>
 #include <variant>
+
+#include <fmt/format.h>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/relative_error.hpp"
@@ -65,7 +65,36 @@ void divide(BeamBody& beam, int elements) {
   }
 }
 
+/// What repetitions may take [s]: what takes longer is so far above the noise that once is enough.
+constexpr double enough = 0.25;
+/// Measured that often, and what is very short until that time is spent [s].
+constexpr int repetitions = 4;
+constexpr double at_least = 0.03;
+
+bool is_enough(int measurements, double spent) {
+  return spent >= enough || (measurements >= repetitions && spent >= at_least);
+}
+
+void keep_values(const Analysis& analysis, AccuracyRun& run) {
+  run.values = values_of(analysis);
+  run.magnitudes = run.values.cwiseAbs();
+  for (Eigen::Index i = 0; i < run.magnitudes.size(); ++i) {
+    const Eigen::MatrixXd& history = analysis.histories[i];
+    if (history.size() > 0) run.magnitudes(i) = history.cwiseAbs().maxCoeff();
+  }
+  const System& system = *analysis.model.mechanism.system;
+  run.steps = analysis.trajectory.steps();
+  run.unknowns = system.coordinates() + system.multipliers();
+  run.newton_iterations = analysis.trajectory.newton_iterations;
+  run.factorizations = analysis.trajectory.factorizations;
+}
+
 }  // namespace
+
+std::string name_of(const Discretization& settings) {
+  return fmt::format("step {} s, elements {}, factor {}", settings.step, settings.elements,
+                     settings.factor);
+}
 
 ProblemFile discretized(ProblemFile problem, const Discretization& settings) {
   const double step = problem.simulation.step;
@@ -114,34 +143,6 @@ Discretization slightly_coarser(Discretization settings) {
   settings.factor *= 3.0 / 4.0;
   return settings;
 }
-
-namespace {
-
-/// What repetitions may take [s]: what takes longer is so far above the noise that once is enough.
-constexpr double enough = 0.25;
-/// Measured that often, and what is very short until that time is spent [s].
-constexpr int repetitions = 4;
-constexpr double at_least = 0.03;
-
-bool is_enough(int measurements, double spent) {
-  return spent >= enough || (measurements >= repetitions && spent >= at_least);
-}
-
-void keep_values(const Analysis& analysis, AccuracyRun& run) {
-  run.values = values_of(analysis);
-  run.magnitudes = run.values.cwiseAbs();
-  for (Eigen::Index i = 0; i < run.magnitudes.size(); ++i) {
-    const Eigen::MatrixXd& history = analysis.histories[i];
-    if (history.size() > 0) run.magnitudes(i) = history.cwiseAbs().maxCoeff();
-  }
-  const System& system = *analysis.model.mechanism.system;
-  run.steps = analysis.trajectory.steps();
-  run.unknowns = system.coordinates() + system.multipliers();
-  run.newton_iterations = analysis.trajectory.newton_iterations;
-  run.factorizations = analysis.trajectory.factorizations;
-}
-
-}  // namespace
 
 double processor_seconds(const std::function<void()>& work) {
   const std::clock_t begin = std::clock();

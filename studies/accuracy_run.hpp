@@ -1,13 +1,5 @@
 #pragma once
 
-#include <functional>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include <Eigen/Core>
-
-#include "core/scene/problem_file.hpp"
 #include "core/trust/finding.hpp"
 #include "optimization/problem.hpp"
 
@@ -19,6 +11,9 @@ struct Discretization {
   int elements = 0;   ///< of every segment of every beam; 0: `factor` times those of the file
   double factor = 1.0;
 };
+
+/// In the record of a study.
+std::string name_of(const Discretization& settings);
 
 /// The problem divided like that. A rounded number of elements is rounded up.
 ProblemFile discretized(ProblemFile problem, const Discretization& settings);

@@ -1,8 +1,6 @@
 #include "studies/derivative_check.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <numeric>
 #include <span>
@@ -60,43 +58,6 @@ bool is_excused(double distance, double nearest_error, const BestDifference& bes
   const double noise = most_deviations * best.noise;
   return distance <= noise || (nearest_error <= wrong && distance <= noise + best.truncation);
 }
-
-}  // namespace
-
-std::string to_string(DerivativeVerdict verdict) {
-  constexpr std::array<const char*, 4> names = {"agrees", "noise", "kink", "differs"};
-  return names[static_cast<std::size_t>(verdict)];
-}
-
-JudgedDerivative judge_derivative(const DerivativeEvidence& evidence,
-                                  std::vector<CentralDifference> curve) {
-  std::ranges::sort(curve, {}, &CentralDifference::step);
-  for (CentralDifference& difference : curve) {
-    const double distance = std::abs(evidence.derivative - difference.value);
-    difference.error =
-        distance == 0.0 ? 0.0 : distance / least_derivative(evidence, difference.value);
-  }
-  const CentralDifference& nearest =
-      *std::ranges::min_element(curve, {}, &CentralDifference::error);
-  const BestDifference best = best_resolved(evidence, curve);
-  const double uncertain = best.noise + best.truncation;
-  JudgedDerivative judged;
-  judged.derivative = evidence.derivative;
-  judged.error = nearest.error;
-  judged.step = nearest.step;
-  judged.resolution = uncertain == 0.0 ? 0.0 : uncertain / least_derivative(evidence, best.value);
-  if (nearest.error <= agreement) {
-    judged.verdict = DerivativeVerdict::agrees;
-  } else if (evidence.has_kink) {
-    judged.verdict = DerivativeVerdict::kink;
-  } else if (is_excused(std::abs(evidence.derivative - best.value), nearest.error, best)) {
-    judged.verdict = DerivativeVerdict::noise;
-  }
-  judged.curve = std::move(curve);
-  return judged;
-}
-
-namespace {
 
 constexpr double first_steps[] = {1e-5, 1e-4, 1e-6, 1e-3}, further_steps[] = {1e-7, 1e-2, 1e-8};
 
@@ -292,11 +253,43 @@ void excuse_loose_newton(DerivativeChecks& checks, const ProblemFile& problem,
 
 }  // namespace
 
-std::size_t DerivativeCheck::worst_direction() const {
-  const auto worst = std::ranges::max_element(directions, {}, [](const JudgedDerivative& one) {
+std::string to_string(DerivativeVerdict verdict) {
+  constexpr std::array<const char*, 4> names = {"agrees", "noise", "kink", "differs"};
+  return names[static_cast<std::size_t>(verdict)];
+}
+
+JudgedDerivative judge_derivative(const DerivativeEvidence& evidence,
+                                  std::vector<CentralDifference> curve) {
+  std::ranges::sort(curve, {}, &CentralDifference::step);
+  for (CentralDifference& difference : curve) {
+    const double distance = std::abs(evidence.derivative - difference.value);
+    difference.error =
+        distance == 0.0 ? 0.0 : distance / least_derivative(evidence, difference.value);
+  }
+  const CentralDifference& nearest =
+      *std::ranges::min_element(curve, {}, &CentralDifference::error);
+  const BestDifference best = best_resolved(evidence, curve);
+  const double uncertain = best.noise + best.truncation;
+  JudgedDerivative judged;
+  judged.derivative = evidence.derivative;
+  judged.error = nearest.error;
+  judged.step = nearest.step;
+  judged.resolution = uncertain == 0.0 ? 0.0 : uncertain / least_derivative(evidence, best.value);
+  if (nearest.error <= agreement) {
+    judged.verdict = DerivativeVerdict::agrees;
+  } else if (evidence.has_kink) {
+    judged.verdict = DerivativeVerdict::kink;
+  } else if (is_excused(std::abs(evidence.derivative - best.value), nearest.error, best)) {
+    judged.verdict = DerivativeVerdict::noise;
+  }
+  judged.curve = std::move(curve);
+  return judged;
+}
+
+const JudgedDerivative& DerivativeCheck::worst() const {
+  return *std::ranges::max_element(directions, {}, [](const JudgedDerivative& one) {
     return std::pair(one.verdict, one.error);
   });
-  return static_cast<std::size_t>(worst - directions.begin());
 }
 
 DerivativeChecks check_derivatives(const ProblemFile& problem, const Eigen::VectorXd& x,

@@ -1,9 +1,7 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "core/response/analysis.hpp"
 
@@ -80,8 +78,7 @@ struct DerivativeCheck {
   std::vector<JudgedDerivative> directions;
 
   /// The direction whose derivative is worst: by verdict, then by error.
-  std::size_t worst_direction() const;
-  const JudgedDerivative& worst() const { return directions[worst_direction()]; }
+  const JudgedDerivative& worst() const;
 };
 
 struct DerivativeChecks {

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <optional>
-#include <vector>
-
 #include "studies/pareto_point.hpp"
 
 /// Gaps of a front, and the points that close them.

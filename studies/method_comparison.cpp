@@ -1,6 +1,5 @@
 #include "studies/method_comparison.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "core/base/eager_matrices.hpp"

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <functional>
-#include <optional>
-#include <vector>
-
 #include "core/base/stopwatch.hpp"
 #include "core/response/analysis.hpp"
 #include "core/scene/problem_file.hpp"

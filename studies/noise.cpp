@@ -1,13 +1,7 @@
 #include "studies/noise.hpp"
 
-#include <algorithm>
-#include <limits>
-#include <vector>
-
 #include "core/base/eager_matrices.hpp"
-#include "core/base/error.hpp"
 #include "core/jobs/parallel.hpp"
-#include "core/response/analysis.hpp"
 #include "optimization/problem.hpp"
 #include "sensitivity/finite_difference.hpp"
 

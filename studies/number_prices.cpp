@@ -2,18 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iterator>
 #include <map>
-#include <optional>
 #include <set>
 
 #include <fmt/format.h>
 
-#include "core/base/dense_solvers.hpp"
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
-#include "core/base/int_size.hpp"
 #include "core/integration/period_map.hpp"
 #include "core/integration/repetition.hpp"
 #include "core/model/motion_plane.hpp"
@@ -115,28 +111,6 @@ Groups bindable(const ProblemText& text, const Groups& groups) {
   kept.insert(kept.end(), rest.begin(), rest.end());
   return kept;
 }
-
-}  // namespace
-
-PricedNumbers priced_numbers(const ProblemText& text, const ProblemFile& problem) {
-  const Eigen::VectorXd start = start_design(problem);
-  const Design<double> design(start.begin(), start.end());
-  std::set<std::string> taken;
-  for (const Eigen::Vector3d& point : bound_points(problem.scene, design)) {
-    taken.insert(place_text(point.x(), point.y(), point.z()));
-  }
-  const PlaneAnalysis plane = find_motion_plane(problem.scene, design);
-  const Groups wanted = grouped(scene_numbers(text), plane.plane, taken);
-  PricedNumbers priced{bindable(text, wanted), {}};
-  for (const NumberGroup& group : wanted) {
-    const bool is_priced = std::ranges::any_of(
-        priced.groups, [&](const NumberGroup& one) { return one.name == group.name; });
-    if (!is_priced) priced.left_out.push_back(group.name);
-  }
-  return priced;
-}
-
-namespace {
 
 /// What is left of the terms of a price where they cancel, by the round-off of gradients.
 constexpr double round_off = 1e-7;
@@ -324,6 +298,24 @@ void add_numbers(const ProblemFile& extended, const std::vector<NumberGroup>& gr
 }
 
 }  // namespace
+
+PricedNumbers priced_numbers(const ProblemText& text, const ProblemFile& problem) {
+  const Eigen::VectorXd start = start_design(problem);
+  const Design<double> design(start.begin(), start.end());
+  std::set<std::string> taken;
+  for (const Eigen::Vector3d& point : bound_points(problem.scene, design)) {
+    taken.insert(place_text(point.x(), point.y(), point.z()));
+  }
+  const PlaneAnalysis plane = find_motion_plane(problem.scene, design);
+  const Groups wanted = grouped(scene_numbers(text), plane.plane, taken);
+  PricedNumbers priced{bindable(text, wanted), {}};
+  for (const NumberGroup& group : wanted) {
+    const bool is_priced = std::ranges::any_of(
+        priced.groups, [&](const NumberGroup& one) { return one.name == group.name; });
+    if (!is_priced) priced.left_out.push_back(group.name);
+  }
+  return priced;
+}
 
 PriceList number_prices(const ProblemText& text, const ProblemFile& file, const Eigen::VectorXd& x,
                         int threads) {

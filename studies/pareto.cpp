@@ -1,15 +1,12 @@
 #include "studies/pareto.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <map>
-#include <utility>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/base/find_named.hpp"
-#include "core/base/int_size.hpp"
 #include "core/base/stop.hpp"
 #include "core/scene/case_goals.hpp"
 #include "optimization/design/design_problem.hpp"
@@ -53,22 +50,6 @@ std::string name_of_limit_on(const Objective& goal, const ProblemFile& problem) 
   if (!index) return goal.response;
   return problem.cases.front().responses[problem.case_responses[*index].index].name;
 }
-
-}  // namespace
-
-ProblemFile trade_off_problem(ProblemFile problem) {
-  if (!problem.pareto || problem.pareto->goals.empty()) return problem;
-  for (Objective& goal : problem.pareto->goals) goal = goal_of_problem(problem, goal);
-  const Objective &first = problem.pareto->goals[0], &second = problem.pareto->goals[1];
-  std::string name = name_of_limit_on(second, problem);
-  while (!constraints_of_limit(problem, name).empty()) name += " (traded)";
-  set_objective(problem, first);
-  add_limit(problem, second, second.sign() * infinity, name);
-  problem.pareto->constraint = name;
-  return problem;
-}
-
-namespace {
 
 /// Scales of the constraints, from the first design that can be simulated.
 std::optional<Eigen::VectorXd> scales_at(const ProblemFile& problem,
@@ -264,6 +245,18 @@ ParetoFront front_between(ProblemFile problem, const SolveOptions& options,
 }
 
 }  // namespace
+
+ProblemFile trade_off_problem(ProblemFile problem) {
+  if (!problem.pareto || problem.pareto->goals.empty()) return problem;
+  for (Objective& goal : problem.pareto->goals) goal = goal_of_problem(problem, goal);
+  const Objective &first = problem.pareto->goals[0], &second = problem.pareto->goals[1];
+  std::string name = name_of_limit_on(second, problem);
+  while (!constraints_of_limit(problem, name).empty()) name += " (traded)";
+  set_objective(problem, first);
+  add_limit(problem, second, second.sign() * infinity, name);
+  problem.pareto->constraint = name;
+  return problem;
+}
 
 ParetoFront pareto_front(const ProblemFile& problem, const SolveOptions& options,
                          const Execution& execution, const ParetoObserver& observer) {

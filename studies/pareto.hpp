@@ -1,13 +1,6 @@
 #pragma once
 
-#include <optional>
-#include <vector>
-
-#include "core/scene/problem_file.hpp"
-#include "optimization/evaluation_store.hpp"
-#include "optimization/solve.hpp"
 #include "studies/front_gaps.hpp"
-#include "studies/pareto_point.hpp"
 #include "studies/point_searches.hpp"
 
 namespace pleuel {

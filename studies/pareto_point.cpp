@@ -146,21 +146,12 @@ void set_limit(ProblemFile& problem, double limit) {
 }
 
 double limited_value(const ProblemFile& problem, const Eigen::VectorXd& constraints) {
-  std::optional<double> worst;
-  for (const std::size_t row : varied_rows(problem)) {
-    const double value = constraints(row);
-    const bool is_upper = problem.constraints[row].upper.has_value();
-    if (!worst || (is_upper ? value > *worst : value < *worst)) worst = value;
-  }
-  return *worst;
+  const Eigen::VectorXd values = constraints(varied_rows(problem));
+  return good_side(problem) == GoodSide::low ? values.maxCoeff() : values.minCoeff();
 }
 
 double multiplier_of_limit(const ProblemFile& problem, const Eigen::VectorXd& multipliers) {
-  double sum = 0.0;
-  for (const std::size_t row : varied_rows(problem)) {
-    sum += multipliers(row);
-  }
-  return sum;
+  return multipliers(varied_rows(problem)).sum();
 }
 
 bool can_exchange_goals(const ProblemFile& problem) {

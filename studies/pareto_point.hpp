@@ -1,12 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <optional>
-#include <vector>
-
-#include <Eigen/Core>
-
 #include "core/scene/problem_file.hpp"
 #include "optimization/result.hpp"
 

@@ -1,11 +1,9 @@
 #include "studies/point_searches.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/base/int_size.hpp"
 #include "core/base/stop.hpp"
 #include "core/jobs/parallel.hpp"
 #include "core/scene/case_goals.hpp"
@@ -13,7 +11,6 @@
 #include "optimization/design/design_solve.hpp"
 #include "optimization/design/size_choice.hpp"
 #include "optimization/design/size_lists.hpp"
-#include "optimization/result.hpp"
 
 namespace pleuel {
 
@@ -110,54 +107,6 @@ struct PointData {
     return needed.empty() ? start_design(problem) : unpacked<FoundPoint>(needed).next_start();
   }
 };
-
-}  // namespace
-
-SizedDesign search_with_sizes(const ProblemFile& file, const SolveOptions& options,
-                              EvaluationStore* store) {
-  StagedSolution solution;
-  solution.problem = std::make_unique<DesignProblem>(file, available_threads(), store);
-  solution.result = solve_design(*solution.problem, options);
-  if (!has_choices(file)) return {std::move(solution.result), std::move(solution.problem), {}, {}};
-  const SizeChoiceReport report =
-      choose_sizes(solution, {options, {{.jobs = available_threads()}, store}});
-  if (!report.is_choice && solution.result.evaluation.has_gradients()) {
-    solution.result.status = Status::failed;
-    solution.result.message = "no choice of sizes could be simulated";
-    solution.result.evaluation = {};
-  }
-  const TriedSizes sizes = {report.combinations, report.tried, report.is_exhaustive,
-                            report.penalty(solution.result.evaluation.objective)};
-  return {std::move(solution.result), std::move(solution.problem), report.relaxed_x, sizes};
-}
-
-void start_from(const Eigen::VectorXd& x, std::vector<DesignVariable>& variables) {
-  for (std::size_t i = 0; i < variables.size(); ++i) {
-    variables[i].start = std::clamp(x(i), variables[i].lower, variables[i].upper);
-  }
-}
-
-std::unique_ptr<TaskWork> make_point_work(const std::string& content) {
-  return make_stored_work<PointData>(content);
-}
-
-FoundPoints search_points(const ProblemFile& problem, const std::vector<PointSearch>& searches,
-                          const SolveOptions& options, const Execution& execution,
-                          const ParetoObserver& observer) {
-  AnsweredTasks<PointData> tasks({problem, searches, options}, execution.store,
-                                 [&](const FoundPoint& found) {
-                                   if (observer) observer(found.point);
-                                 });
-  bool is_whole = true;
-  try {
-    run_tasks(tasks, execution.tasks);
-  } catch (const Stopped&) {
-    is_whole = false;
-  }
-  return {tasks.take_answers(), is_whole};
-}
-
-namespace {
 
 /// By how much goals may be missed where the other one is improved, relative to their value.
 constexpr double end_tolerance = 1e-4;
@@ -272,6 +221,50 @@ class EndSearch {
 };
 
 }  // namespace
+
+SizedDesign search_with_sizes(const ProblemFile& file, const SolveOptions& options,
+                              EvaluationStore* store) {
+  StagedSolution solution;
+  solution.problem = std::make_unique<DesignProblem>(file, available_threads(), store);
+  solution.result = solve_design(*solution.problem, options);
+  if (!has_choices(file)) return {std::move(solution.result), std::move(solution.problem), {}, {}};
+  const SizeChoiceReport report =
+      choose_sizes(solution, {options, {{.jobs = available_threads()}, store}});
+  if (!report.is_choice && solution.result.evaluation.has_gradients()) {
+    solution.result.status = Status::failed;
+    solution.result.message = "no choice of sizes could be simulated";
+    solution.result.evaluation = {};
+  }
+  const TriedSizes sizes = {report.combinations, report.tried, report.is_exhaustive,
+                            report.penalty(solution.result.evaluation.objective)};
+  return {std::move(solution.result), std::move(solution.problem), report.relaxed_x, sizes};
+}
+
+void start_from(const Eigen::VectorXd& x, std::vector<DesignVariable>& variables) {
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    variables[i].start = std::clamp(x(i), variables[i].lower, variables[i].upper);
+  }
+}
+
+std::unique_ptr<TaskWork> make_point_work(const std::string& content) {
+  return make_stored_work<PointData>(content);
+}
+
+FoundPoints search_points(const ProblemFile& problem, const std::vector<PointSearch>& searches,
+                          const SolveOptions& options, const Execution& execution,
+                          const ParetoObserver& observer) {
+  AnsweredTasks<PointData> tasks({problem, searches, options}, execution.store,
+                                 [&](const FoundPoint& found) {
+                                   if (observer) observer(found.point);
+                                 });
+  bool is_whole = true;
+  try {
+    run_tasks(tasks, execution.tasks);
+  } catch (const Stopped&) {
+    is_whole = false;
+  }
+  return {tasks.take_answers(), is_whole};
+}
 
 FrontEnds find_front_ends(const ProblemFile& problem, const SolveOptions& options,
                           const Execution& execution) {

@@ -1,13 +1,5 @@
 #pragma once
 
-#include <array>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include "core/scene/problem_file.hpp"
 #include "optimization/design/design_problem.hpp"
 #include "optimization/evaluation_store.hpp"
 #include "optimization/solve.hpp"

@@ -1,7 +1,6 @@
 #include "studies/row_prices.hpp"
 
 #include <algorithm>
-#include <vector>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"

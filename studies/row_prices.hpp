@@ -1,9 +1,5 @@
 #pragma once
 
-#include <memory>
-#include <optional>
-
-#include "optimization/design/design_problem.hpp"
 #include "optimization/design/margin_problem.hpp"
 #include "optimization/design/peak_problem.hpp"
 
@@ -60,7 +56,6 @@ class PricedDesign {
   PricedDesign(const ProblemFile& problem, const Eigen::VectorXd& x);
 
   const Eigen::VectorXd& x() const { return x_; }
-  bool has_prices() const { return prices_ != nullptr; }
 
   /// RowPrices::lagrangian(); none without prices, where the problem cannot be simulated, or where
   /// steps that follow the local error leave no windows to compare.

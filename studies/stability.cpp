@@ -2,12 +2,9 @@
 
 #include "core/base/eager_matrices.hpp"
 #include "core/base/stop.hpp"
-#include "core/base/stopwatch.hpp"
-#include "core/response/analysis.hpp"
 #include "core/response/effect_measurement.hpp"
 #include "core/response/monitors.hpp"
 #include "core/scene/load_cases.hpp"
-#include "core/scene/problem_reader.hpp"
 #include "core/trust/checks.hpp"
 #include "optimization/problem.hpp"
 
@@ -78,12 +75,6 @@ const std::vector<ComparedFormulation>& compared_formulations() {
       {"index-1", formulation("index-1")},
       {"index-1 with Baumgarte", formulation("index-1", {"/simulation/baumgarte=100"})},
       {"index-1 with projection", formulation("index-1", {"/simulation/projection=true"})},
-  };
-  return all;
-}
-
-const std::vector<ComparedFormulation>& compared_schemes() {
-  static const std::vector<ComparedFormulation> all = {
       {"index-3, Newmark", formulation("index-3", {"/simulation/scheme=newmark"})},
       {"index-3, implicit Euler", formulation("index-3", {"/simulation/scheme=implicit-euler"})},
   };
@@ -99,16 +90,14 @@ std::vector<StabilityRun> stability_study(const std::vector<std::filesystem::pat
   for (const auto& file : files) read_with(file, reading, compared_formulations().front());
   std::vector<StabilityRun> runs;
   for (const auto& file : files) {
-    for (const auto* compared : {&compared_formulations(), &compared_schemes()}) {
-      for (const ComparedFormulation& formulation : *compared) {
-        try {
-          runs.push_back(try_to_measure(file, reading, formulation));
-        } catch (const Stopped&) {
-          if (runs.empty()) throw;
-          return runs;
-        }
-        if (observer) observer(runs.back());
+    for (const ComparedFormulation& formulation : compared_formulations()) {
+      try {
+        runs.push_back(try_to_measure(file, reading, formulation));
+      } catch (const Stopped&) {
+        if (runs.empty()) throw;
+        return runs;
       }
+      if (observer) observer(runs.back());
     }
   }
   return runs;

@@ -31,17 +31,14 @@ struct ComparedFormulation {
 };
 
 /// The formulations that are compared: all that /simulation/formulation of a file may name, index 1
-/// as it is, with Baumgarte's terms (100 1/s) and with projection.
+/// as it is, with Baumgarte's terms (100 1/s) and with projection. Then index 3 with other schemes
+/// than that of the file: Newmark's with its spectral radius, and implicit Euler.
 const std::vector<ComparedFormulation>& compared_formulations();
-
-/// The schemes that are compared with that of the file: Newmark's with its spectral radius, and
-/// implicit Euler, both with index 3.
-const std::vector<ComparedFormulation>& compared_schemes();
 
 /// Sees each run as it is done.
 using StabilityObserver = std::function<void(const StabilityRun&)>;
 
-/// Simulates the start design of each file with each formulation and scheme; everything else is as
+/// Simulates the start design of each file with each of them; everything else is as
 /// the file says.
 /// @param overrides  of all files, as in read_problem()
 /// @param load_case  the only one of each file that is meant; none: files have no load cases

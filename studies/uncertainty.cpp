@@ -1,7 +1,6 @@
 #include "studies/uncertainty.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -11,11 +10,9 @@
 #include "core/base/stop.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/scene/packed_problem.hpp"
-#include "core/scene/problem_file.hpp"
 #include "core/trust/checks.hpp"
 #include "optimization/design/design_case.hpp"
 #include "optimization/verdict.hpp"
-#include "sensitivity/gradients.hpp"
 #include "sensitivity/method_choice.hpp"
 #include "studies/missing_settings.hpp"
 #include "studies/noise.hpp"
@@ -214,19 +211,9 @@ class Study {
     const auto values = response_values(*analysis_);
     const Eigen::MatrixXd all =
         sampled_gradients(*analysis_, values, choose_method(*analysis_, values).method);
-    const Eigen::MatrixXd gradients = all(Eigen::all, columns_);
-    const Eigen::VectorXd widths =
-        of_parameters(settings_.parameters, &UncertainParameter::half_width);
-    for (Eigen::Index i = 0; i < gradients.rows(); ++i) {
-      const Eigen::VectorXd parts = gradients.row(i).transpose().cwiseProduct(deviations_);
-      UncertainResponse response;
-      response.value = analysis_->reductions[i].value;
-      response.gradient = gradients.row(i);
-      response.deviation = parts.norm();
-      response.bound = gradients.row(i).cwiseAbs() * widths;
-      response.shares = parts.cwiseAbs2();
-      if (response.deviation > 0.0) response.shares /= parts.squaredNorm();
-      study_.responses.push_back(std::move(response));
+    for (Eigen::Index i = 0; i < all.rows(); ++i) {
+      study_.responses.push_back(
+          first_order(settings_, analysis_->reductions[i].value, all.row(i)));
     }
     linearize_limits();
     linearize_histories();
@@ -362,6 +349,23 @@ class Study {
 };
 
 }  // namespace
+
+UncertainResponse first_order(const UncertaintySettings& settings, double value,
+                              const Eigen::VectorXd& gradient) {
+  const std::vector<UncertainParameter>& parameters = settings.parameters;
+  UncertainResponse response;
+  response.value = value;
+  response.gradient = of_parameters(
+      parameters, [&](const UncertainParameter& one) { return gradient(one.variable); });
+  const Eigen::VectorXd parts = response.gradient.cwiseProduct(
+      of_parameters(parameters, &UncertainParameter::standard_deviation));
+  response.deviation = parts.norm();
+  response.bound =
+      response.gradient.cwiseAbs().dot(of_parameters(parameters, &UncertainParameter::half_width));
+  response.shares = parts.cwiseAbs2();
+  if (response.deviation > 0.0) response.shares /= parts.squaredNorm();
+  return response;
+}
 
 std::unique_ptr<TaskWork> make_sample_work(const std::string& content) {
   return make_stored_work<SampleData>(content);

@@ -1,14 +1,6 @@
 #pragma once
 
-#include <functional>
-#include <memory>
-#include <optional>
-#include <string>
-
-#include <Eigen/Core>
-
 #include "core/base/error_bar.hpp"
-#include "core/scene/problem_file.hpp"
 #include "core/trust/finding.hpp"
 #include "optimization/evaluation_store.hpp"
 
@@ -30,6 +22,10 @@ struct UncertainResponse {
   Eigen::VectorXd shares;    ///< (g_i σ_i)²/σ² of each parameter; zero if σ is
   std::optional<Sampled> sampled;
 };
+
+/// @param gradient  by all variables of the problem
+UncertainResponse first_order(const UncertaintySettings& settings, double value,
+                              const Eigen::VectorXd& gradient);
 
 /// The history of a signal at the place where its response is taken, with its deviation at every
 /// instant.

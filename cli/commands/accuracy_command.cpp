@@ -1,10 +1,5 @@
 #include "cli/commands/commands.hpp"
-#include "cli/input/run_setting.hpp"
-#include "cli/reports/accuracy_charts.hpp"
-#include "cli/reports/accuracy_document.hpp"
 #include "cli/reports/accuracy_report.hpp"
-#include "core/base/stop.hpp"
-#include "studies/accuracy_optimum.hpp"
 #include "studies/accuracy_run.hpp"
 
 namespace pleuel {

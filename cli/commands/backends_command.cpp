@@ -1,7 +1,5 @@
-#include <map>
 
 #include "cli/commands/commands.hpp"
-#include "cli/text/table.hpp"
 #include "optimization/backends.hpp"
 
 namespace pleuel {

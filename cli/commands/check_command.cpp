@@ -1,14 +1,8 @@
 #include "cli/commands/commands.hpp"
-#include "cli/input/problem_input.hpp"
-#include "cli/input/run_setting.hpp"
 #include "cli/reports/derivative_report.hpp"
 #include "cli/reports/effects_report.hpp"
-#include "cli/reports/limits_report.hpp"
 #include "cli/reports/scene_report.hpp"
-#include "core/base/stop.hpp"
-#include "core/model/model.hpp"
 #include "core/scene/body_rules.hpp"
-#include "core/trust/checks.hpp"
 #include "sensitivity/gradients.hpp"
 #include "sensitivity/initial_sensitivity.hpp"
 
@@ -17,14 +11,14 @@ namespace pleuel {
 namespace {
 
 struct Examination {
-  std::unique_ptr<Analysis> analysis;
+  std::shared_ptr<Analysis> analysis;
   DegreesOfFreedom freedoms;
   double simulation_seconds = 0.0, gradient_seconds = 0.0;
   Ties ties;
   std::vector<EffectInfluence> influences;
-  std::optional<DesignInfluence> influence;  ///< likewise
-  DerivativeChecks derivatives;              ///< empty without variables
-  bool is_interrupted = false;               ///< before the derivatives were verified
+  std::shared_ptr<const DesignInfluence> influence;  ///< likewise
+  DerivativeChecks derivatives;                      ///< empty without variables
+  bool is_interrupted = false;                       ///< before the derivatives were verified
   std::vector<std::string> warnings;
   int consequences = 0;  ///< so many warnings are not told, since they follow from others
 };
@@ -44,7 +38,7 @@ Examination examine(const ProblemFile& problem, const Eigen::VectorXd& x,
   const Model& model = findings.analysis->model;
   findings.freedoms = rigid_degrees_of_freedom(model.mechanism, initial);
   findings.freedoms.blocked = blocked_drives(model.mechanism, initial, drive_rows(model));
-  findings.ties = find_ties(*findings.analysis, problem.variables);
+  findings.ties = make_ties(*findings.analysis, find_kinks(*findings.analysis, problem.variables));
   const std::vector<Finding> of_checks = check_run(problem, x, *findings.analysis);
   warn(texts_of(of_checks));
   if (!arguments.wants_all_warnings) findings.consequences = count_consequences(of_checks);
@@ -54,7 +48,8 @@ Examination examine(const ProblemFile& problem, const Eigen::VectorXd& x,
         problem, x, arguments.wants_effects ? InfluenceTimes::measured : InfluenceTimes::none);
     if (problem.variables.empty() || problem.responses.empty()) return findings;
     const Stopwatch gradient;
-    findings.influence = DesignInfluence{direct_gradients(*findings.analysis)};
+    findings.influence =
+        std::make_shared<DesignInfluence>(DesignInfluence{direct_gradients(*findings.analysis)});
     findings.gradient_seconds = gradient.seconds();
     const auto see_differences = [&](int simulations) {
       const std::string line =
@@ -161,11 +156,8 @@ Outcome run_check(const Arguments& arguments) {
                   make_text(problem, findings, arguments.wants_effects)};
   if (!record) return outcome;
   record->finish(outcome, [&] {
-    return run_picture(problem, {{input.design_name,
-                                  input.design,
-                                  findings.analysis.get(),
-                                  {},
-                                  findings.influence ? &*findings.influence : nullptr}});
+    return run_picture(
+        problem, {{input.design_name, input.design, findings.analysis, {}, findings.influence}});
   });
   return outcome;
 }

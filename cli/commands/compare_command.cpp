@@ -1,21 +1,12 @@
-#include <cmath>
-#include <map>
 
 #include "cli/commands/commands.hpp"
-#include "cli/commands/older_picture.hpp"
 #include "cli/files/report_page.hpp"
 #include "cli/files/run_folder.hpp"
-#include "core/scene/problem_reader.hpp"
-#include "core/scene/shown_unit.hpp"
 
 /// What differs between two runs, in what went in and in what came out.
 namespace pleuel {
 
 namespace {
-
-Json at_or_null(const Json& document, const Json::json_pointer& place) {
-  return document.contains(place) ? document.at(place) : Json();
-}
 
 /// [{"place", "first", "second"}], null where it is missing: single values wherever both have them;
 /// what only one has, as a whole. The order of keys is no difference.
@@ -26,9 +17,8 @@ void add_differences(const Json& first, const Json& second, const std::string& p
     Json all = first;
     all.update(second);
     for (const auto& [key, unused] : all.items()) {
-      const Json::json_pointer pointer = Json::json_pointer() / key;
-      add_differences(at_or_null(first, pointer), at_or_null(second, pointer),
-                      place + pointer.to_string(), differences);
+      add_differences(first.value(key, Json()), second.value(key, Json()),
+                      place + (Json::json_pointer() / key).to_string(), differences);
     }
     return;
   }
@@ -81,15 +71,12 @@ std::string inputs_text(const Json& differences) {
 /// In which units the first run, or else the second, was asked for its numbers, by groups.
 using Units = std::map<std::string, NamedUnits>;
 
-/// A file that cannot be read any more, as where its catalogue is gone, has no units.
-void add_units(const OlderRun& run, Units& units) try {
-  const Json input = run.card.value("input", Json::object());
-  const ProblemFile problem =
-      read_problem_text(run.card.at("problem").dump(), input.value("file", ""), {}).complete();
-  units["variables"].merge(units_of_variables(problem));
-  units["responses"].merge(units_of_responses(problem));
-  units["constraints"].merge(units_of_limits(problem));
-} catch (const std::exception&) {
+void add_units(const OlderRun& run, Units& units) {
+  const std::optional<ProblemFile> problem = problem_on_card(run.folder);
+  if (!problem) return;
+  units["variables"].merge(units_of_variables(*problem));
+  units["responses"].merge(units_of_responses(*problem));
+  units["constraints"].merge(units_of_limits(*problem));
 }
 
 /// Of a number that both results have, or one of them.

@@ -1,18 +1,8 @@
-#include "cli/commands/each_case.hpp"
-
-#include <algorithm>
 #include <array>
 
-#include <fmt/format.h>
-
-#include "cli/input/problem_input.hpp"
+#include "cli/commands/commands.hpp"
 #include "cli/reports/case_report.hpp"
-#include "cli/reports/limits_report.hpp"
-#include "cli/text/console.hpp"
-#include "cli/text/wrapped_text.hpp"
-#include "core/base/error.hpp"
 #include "core/base/plain_file_name.hpp"
-#include "core/base/stop.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/problem_reader.hpp"
 #include "core/scene/reading/document_reader.hpp"
@@ -28,11 +18,7 @@ constexpr std::array commands = {"simulate", "check",    "gradient",
 std::vector<std::string> case_names(const Arguments& arguments) {
   const Json document = overridden_document(
       {read_text_file(arguments.file), arguments.file.string(), arguments.overrides});
-  std::vector<std::string> names;
-  for (const CaseChanges& one : cases_of(document, arguments.file.string())) {
-    names.push_back(one.name);
-  }
-  return names;
+  return list_of(cases_of(document, arguments.file.string()), &CaseChanges::name);
 }
 
 /// Tells errors of the input by the case that they are of; those of the file are of all.

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "cli/commands/commands.hpp"
-#include "cli/files/older_run.hpp"
 #include "cli/files/vtk_series.hpp"
 #include "core/base/plain_file_name.hpp"
 
@@ -81,21 +80,14 @@ void add_gradients(const NumberedEvaluation& one, const Names& names, CsvFile& c
   }
 }
 
-/// What was written.
-struct Exported {
-  Json files = Json::array();
-  std::string text;
-  WriteFailures failures;
-};
-
-void export_evaluations(const fs::path& file, const fs::path& target, Exported& exported) {
+void export_evaluations(const fs::path& file, const fs::path& target, Outcome& outcome) {
   int count = 0;
   try {
     const RunDatabase database(file);
     Names names = names_in(database);
     name_limits_of_front(database, names);
-    CsvFile evaluations({target / "evaluations.csv", &exported.failures}, titles_of(names));
-    CsvFile gradients({target / "evaluation_gradients.csv", &exported.failures},
+    CsvFile evaluations({target / "evaluations.csv", &outcome.unwritten}, titles_of(names));
+    CsvFile gradients({target / "evaluation_gradients.csv", &outcome.unwritten},
                       {"evaluation", "of", "variable", "derivative"});
     database.read_evaluations([&](const NumberedEvaluation& one) {
       evaluations.add(row_of(one, names));
@@ -106,9 +98,9 @@ void export_evaluations(const fs::path& file, const fs::path& target, Exported& 
     throw InputError(fmt::format("{}: {}", file.string(), error.what()));
   }
   for (const char* name : {"evaluations.csv", "evaluation_gradients.csv"}) {
-    exported.files.push_back((target / name).string());
+    outcome.document["files"].push_back((target / name).string());
   }
-  exported.text +=
+  outcome.text +=
       fmt::format("{} evaluations written to {}: evaluations.csv, evaluation_gradients.csv\n",
                   count, target.string());
 }
@@ -119,7 +111,7 @@ std::string series_name(const std::string& design, const std::string& load_case)
 }
 
 /// Of an optimization, which has a design at its start and at its end: of the load case that decides.
-void export_motion(const OlderRun& run, const fs::path& target, Exported& exported) {
+void export_motion(const OlderRun& run, const fs::path& target, Outcome& outcome) {
   constexpr int most_instants = 120;
   if (run.command() != "optimize" || !run.result.is_object()) {
     throw InputError(fmt::format("--vtk: {} is not the folder of an optimization with a result",
@@ -133,10 +125,10 @@ void export_motion(const OlderRun& run, const fs::path& target, Exported& export
     const std::string shown = series_name(name, problem.load_case);
     const auto analysis = analyze(problem, *x, values_only);
     const int instants = write_vtk_series(target / "vtk", shown, problem, *x, *analysis,
-                                          most_instants, exported.failures);
+                                          most_instants, outcome.unwritten);
     const fs::path series = target / "vtk" / (shown + ".pvd");
-    exported.files.push_back(series.string());
-    exported.text += fmt::format(
+    outcome.document["files"].push_back(series.string());
+    outcome.text += fmt::format(
         "{} instants{} written to {}\n", instants,
         problem.load_case.empty() ? "" : fmt::format(" of the case \"{}\"", problem.load_case),
         series.string());
@@ -154,10 +146,10 @@ Outcome run_export(const Arguments& arguments) {
   }
   const fs::path target = arguments.output.value_or(run.folder);
   fs::create_directories(target);
-  Exported exported;
-  export_evaluations(file, target, exported);
-  if (arguments.wants_vtk) export_motion(run, target, exported);
-  return {ExitCode::done, {{"files", exported.files}}, exported.text, exported.failures.files()};
+  Outcome outcome;
+  export_evaluations(file, target, outcome);
+  if (arguments.wants_vtk) export_motion(run, target, outcome);
+  return outcome;
 }
 
 }  // namespace pleuel

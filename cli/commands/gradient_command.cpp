@@ -1,15 +1,8 @@
-#include <cmath>
-#include <map>
 
 #include "cli/commands/commands.hpp"
 #include "cli/reports/derivative_report.hpp"
-#include "cli/reports/limits_report.hpp"
 #include "cli/reports/time_text.hpp"
-#include "cli/text/table.hpp"
-#include "core/scene/shown_unit.hpp"
-#include "core/trust/checks.hpp"
 #include "sensitivity/initial_sensitivity.hpp"
-#include "sensitivity/kinks.hpp"
 #include "sensitivity/method_choice.hpp"
 #include "studies/method_comparison.hpp"
 
@@ -51,7 +44,7 @@ double simulations_of(GradientMethod method, Eigen::Index variables, int threads
 }
 
 struct MethodFindings {
-  std::unique_ptr<Analysis> analysis;
+  std::shared_ptr<Analysis> analysis;
   double simulation_seconds = 0.0;
   std::optional<MethodChoice> choice;  ///< if it was left to the program
   std::vector<MethodResult> results;
@@ -218,15 +211,15 @@ std::string seconds_text(const std::vector<MethodResult>& results, double simula
 
 /// Into the run folder.
 void write_run(RunRecord& record, const Arguments& arguments, const ProblemInput& input,
-               Analysis& analysis, Outcome& outcome) {
+               const std::shared_ptr<Analysis>& analysis, Outcome& outcome) {
   record.begin_phase("histories");
   record.write_result(outcome.document);
-  write_trajectory(record.result("trajectory.csv"), analysis);
+  write_trajectory(record.result("trajectory.csv"), *analysis);
   if (arguments.wants_histories) {
-    write_history_gradients(record.result("gradients.csv"), input.problem, analysis);
+    write_history_gradients(record.result("gradients.csv"), input.problem, *analysis);
   }
   record.finish(outcome, [&] {
-    return run_picture(input.problem, {{input.design_name, input.design, &analysis}});
+    return run_picture(input.problem, {{input.design_name, input.design, analysis}});
   });
 }
 
@@ -286,8 +279,8 @@ Outcome run_gradient(const Arguments& arguments) {
   }
   const bool is_checked = arguments.scrutiny != Scrutiny::none;
   if (is_checked) progress.show_share("checking the numbers", 0.0);
-  findings.ties = findings.kinks ? make_ties(*findings.analysis, *findings.kinks)
-                                 : find_ties(*findings.analysis, problem.variables);
+  if (!findings.kinks) findings.kinks = find_kinks(*findings.analysis, problem.variables);
+  findings.ties = make_ties(*findings.analysis, *findings.kinks);
   const Analysis& analysis = *findings.analysis;
   const Monitors monitors = is_checked ? monitor(analysis.model, analysis.trajectory) : Monitors{};
   TrustedRun judged{problem, input.design, analysis, monitors, arguments.scrutiny};
@@ -299,7 +292,7 @@ Outcome run_gradient(const Arguments& arguments) {
   if (!arguments.wants_all_warnings) findings.consequences = count_consequences(trust.findings);
   findings.errors = std::move(trust.errors);
   Outcome outcome = make_outcome(arguments, input, findings);
-  if (record) write_run(*record, arguments, input, *findings.analysis, outcome);
+  if (record) write_run(*record, arguments, input, findings.analysis, outcome);
   return outcome;
 }
 

@@ -1,13 +1,9 @@
 #include "cli/commands/commands.hpp"
-#include "cli/input/problem_input.hpp"
-#include "cli/reports/warnings.hpp"
-#include "cli/text/table.hpp"
 #include "core/model/divided_beams.hpp"
 #include "core/model/motion_plane.hpp"
 #include "core/response/analysis.hpp"
 #include "core/response/body_export.hpp"
 #include "core/scene/body_constants.hpp"
-#include "core/scene/shown_unit.hpp"
 
 namespace pleuel {
 
@@ -95,10 +91,8 @@ Outcome write_one(const fs::path& path, const ProblemFile& problem,
                     "--body, or a folder",
                     path.string(), files.size()));
   }
-  WriteFailures failures;
-  write_file({path, &failures}, write_invariants(files.front()));
   Outcome outcome = report(problem, files, {path});
-  outcome.unwritten = failures.files();
+  write_file({path, &outcome.unwritten}, write_invariants(files.front()));
   return outcome;
 }
 

@@ -1,7 +1,6 @@
 #include "cli/commands/commands.hpp"
 #include "cli/files/command_text.hpp"
 #include "cli/files/starters.hpp"
-#include "cli/text/table.hpp"
 #include "core/scene/reading/suggestion.hpp"
 
 namespace pleuel {
@@ -22,12 +21,11 @@ Outcome list_starters(const Arguments& arguments) {
 }
 
 Starter find_starter(const std::string& kind) {
-  std::vector<std::string> known;
-  for (const Starter& starter : starters()) {
-    if (starter.kind == kind) return starter;
-    known.push_back(starter.kind);
-  }
-  throw InputError(fmt::format("there is no kind of problem \"{}\"{}", kind, hint(kind, known)));
+  const std::vector<Starter> all = starters();
+  const auto found = std::ranges::find(all, kind, &Starter::kind);
+  if (found != all.end()) return *found;
+  throw InputError(fmt::format("there is no kind of problem \"{}\"{}", kind,
+                               hint(kind, list_of(all, &Starter::kind))));
 }
 
 /// An older schema, or another file of that name, is the user's.

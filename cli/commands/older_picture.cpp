@@ -1,56 +1,34 @@
-#include "cli/commands/older_picture.hpp"
 
-#include <optional>
-
-#include "cli/files/csv_file.hpp"
-#include "cli/files/run_picture.hpp"
-#include "cli/input/problem_input.hpp"
+#include "cli/commands/commands.hpp"
 #include "cli/reports/case_report.hpp"
-#include "cli/reports/optimum_report.hpp"
+#include "cli/reports/optimum_document.hpp"
 
 namespace pleuel {
 
 namespace {
 
-/// Simulated, if that is possible.
-struct Redone {
-  std::string name;
-  Eigen::VectorXd x;
-  std::unique_ptr<Analysis> analysis;
-  fs::path trajectory{};  ///< with the bands of its histories; empty: there is none
-  std::optional<DesignInfluence> influence{};
-};
-
-Json picture_of(const ProblemFile& problem, const std::vector<Redone>& designs, Notes& notes,
-                std::size_t pictures = 1) {
-  std::vector<ShownDesign> shown;
-  for (const Redone& design : designs) {
-    shown.push_back({design.name, design.x, design.analysis.get()});
-    if (!design.trajectory.empty()) {
-      TrajectoryBands file = read_bands(design.trajectory, *design.analysis);
-      shown.back().bands = std::move(file.bands);
-      if (!file.fault.empty()) notes.push_back("histories have no error bands: " + file.fault);
-    }
-    if (design.influence) shown.back().influence = &*design.influence;
-  }
-  return run_picture(problem, shown, pictures);
+/// Those of the histories that the run has written.
+void take_bands(const fs::path& trajectory, ShownDesign& design, Notes& notes) {
+  TrajectoryBands file = read_bands(trajectory, *design.analysis);
+  design.bands = std::move(file.bands);
+  if (!file.fault.empty()) notes.push_back("histories have no error bands: " + file.fault);
 }
 
 Json optimum_picture(const OlderRun& run, const ProblemFile& problem, std::size_t pictures,
                      Notes& notes) {
-  std::vector<Redone> designs;
+  std::vector<ShownDesign> designs;
   const auto add = [&](const std::string& name, const char* key, const char* trajectory) {
     const auto x = design_in(run.result, problem, key);
     if (!x) return;
-    designs.push_back({name, *x, analyze(problem, *x),
-                       run.folder / name_of_case_file(trajectory, problem)});
+    designs.push_back({name, *x, analyze(problem, *x)});
+    take_bands(run.folder / name_of_case_file(trajectory, problem), designs.back(), notes);
   };
   add("start", "start", "trajectory-start");
   add(name_of_end(run.result.at("status")), "value", "trajectory-optimum");
   if (!designs.empty()) {
     designs.back().influence = design_influence(problem, *designs.back().analysis);
   }
-  return picture_of(problem, designs, notes, pictures);
+  return run_picture(problem, designs, pictures);
 }
 
 /// Of all load cases, of which the page shows one first.
@@ -86,22 +64,17 @@ Json single_picture(const OlderRun& run, Notes& notes) {
   const ProblemFile problem = problem_of(run);
   const std::string command = run.command();
   const bool has_other_design = run.card.at("input").contains("design");
-  Redone design{has_other_design ? "design" : "start", start_design(problem), nullptr};
+  ShownDesign design{has_other_design ? "design" : "start", start_design(problem)};
   if (const auto simulated = design_in(run.result, problem, "value")) {
     design.x = *simulated;
   } else if (has_other_design) {
     design.x = read_design(run.card["input"]["design"].get<std::string>(), problem);
   }
-  if (command == "simulate" || command == "gradient") {
-    design.trajectory = run.folder / "trajectory.csv";
-  }
-  if (!design.trajectory.empty() || command == "check") {
-    design.analysis = analyze(problem, design.x);
-  }
+  const bool has_trajectory = command == "simulate" || command == "gradient";
+  if (has_trajectory || command == "check") design.analysis = analyze(problem, design.x);
+  if (has_trajectory) take_bands(run.folder / "trajectory.csv", design, notes);
   if (command == "check") design.influence = design_influence(problem, *design.analysis);
-  std::vector<Redone> designs;
-  designs.push_back(std::move(design));
-  return picture_of(problem, designs, notes);
+  return run_picture(problem, {design});
 }
 
 }  // namespace

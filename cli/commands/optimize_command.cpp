@@ -1,40 +1,21 @@
-#include <algorithm>
-#include <cmath>
 #include <limits>
-#include <memory>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "cli/commands/commands.hpp"
-#include "cli/files/csv_file.hpp"
-#include "cli/files/failed_design.hpp"
-#include "cli/files/run_picture.hpp"
-#include "cli/files/run_record.hpp"
-#include "cli/input/run_setting.hpp"
+#include "cli/files/command_text.hpp"
 #include "cli/reports/case_report.hpp"
 #include "cli/reports/effects_report.hpp"
 #include "cli/reports/iteration_lines.hpp"
-#include "cli/reports/limits_report.hpp"
 #include "cli/reports/optimum_document.hpp"
-#include "cli/reports/optimum_report.hpp"
+#include "cli/reports/scene_report.hpp"
 #include "cli/reports/setting_report.hpp"
 #include "cli/reports/starts_report.hpp"
-#include "cli/text/wrapped_text.hpp"
-#include "core/base/error.hpp"
-#include "core/base/number_text.hpp"
-#include "core/base/stop.hpp"
 #include "core/response/value_over_cases.hpp"
 #include "core/scene/body_rules.hpp"
 #include "core/scene/load_cases.hpp"
-#include "core/scene/shown_unit.hpp"
+#include "core/scene/reading/override.hpp"
 #include "core/trust/check_list.hpp"
-#include "core/trust/checks.hpp"
 #include "core/trust/refined_runs.hpp"
-#include "optimization/design/multi_start.hpp"
 #include "optimization/design/number_judgement.hpp"
-#include "optimization/design/staged_solve.hpp"
-#include "optimization/result.hpp"
 #include "picture/companions.hpp"
 
 namespace pleuel {
@@ -51,9 +32,7 @@ struct Examined {
 /// Both designs as one load case simulates them.
 struct CaseDesigns {
   const ProblemFile* problem;
-  std::unique_ptr<Analysis> start, end;
-  std::vector<Eigen::VectorXd> bands;  ///< of histories at the end
-  std::optional<DesignInfluence> influence;
+  ShownDesign start, end;
 };
 
 std::vector<Eigen::VectorXd> bands_of_case(const ProblemFile& joined, const Result& result,
@@ -68,17 +47,15 @@ std::vector<Eigen::VectorXd> bands_of_case(const ProblemFile& joined, const Resu
 
 std::vector<CaseDesigns> simulate_designs(RunRecord& record, const Optimum& optimum) {
   std::vector<CaseDesigns> all;
+  const Eigen::VectorXd &start = first_design(optimum.result.history).x, &end = optimum.result.x;
   for (const ProblemFile* problem : simulated_problems(optimum.problem)) {
-    CaseDesigns one{problem,
-                    analyze(*problem, first_design(optimum.result.history).x, values_only),
-                    {},
-                    {},
-                    {}};
-    one.bands = bands_of_case(optimum.problem, optimum.result, all.size());
-    write_trajectory(record.result(name_of_case_file("trajectory-start", *problem)), *one.start);
-    one.end = analyze(*problem, optimum.result.x);
-    write_trajectory(record.result(name_of_case_file("trajectory-optimum", *problem)), *one.end,
-                     one.bands);
+    CaseDesigns one{problem, {"start", start, analyze(*problem, start, values_only)}, {}};
+    write_trajectory(record.result(name_of_case_file("trajectory-start", *problem)),
+                     *one.start.analysis);
+    one.end = {name_of_end(to_string(optimum.result.status)), end, analyze(*problem, end),
+               bands_of_case(optimum.problem, optimum.result, all.size())};
+    write_trajectory(record.result(name_of_case_file("trajectory-optimum", *problem)),
+                     *one.end.analysis, one.end.bands);
     all.push_back(std::move(one));
   }
   return all;
@@ -86,10 +63,9 @@ std::vector<CaseDesigns> simulate_designs(RunRecord& record, const Optimum& opti
 
 /// Of all cases, in the order of the joined problem.
 Eigen::VectorXd joined_values(const ProblemFile& joined, const std::vector<CaseDesigns>& designs,
-                              const Eigen::VectorXd& x,
-                              const std::function<Eigen::VectorXd(const CaseDesigns&)>& values_in) {
+                              ShownDesign CaseDesigns::*which) {
   std::vector<Eigen::VectorXd> values;
-  for (const CaseDesigns& one : designs) values.push_back(values_in(one));
+  for (const CaseDesigns& one : designs) values.push_back(values_of(*(one.*which).analysis));
   if (!joined.has_cases()) return values.front();
   const ValueInCase value_of = [&](std::size_t response) {
     const auto [load_case, index] = joined.case_responses[response];
@@ -98,7 +74,7 @@ Eigen::VectorXd joined_values(const ProblemFile& joined, const std::vector<CaseD
   Eigen::VectorXd all(std::ssize(joined.responses));
   for (std::size_t i = 0; i < joined.responses.size(); ++i) {
     try {
-      all(i) = value_over_cases(joined, i, x, value_of);
+      all(i) = value_over_cases(joined, i, (designs.front().*which).x, value_of);
     } catch (const SimulationError&) {  // of one that is only looked at
       all(i) = std::numeric_limits<double>::quiet_NaN();
     }
@@ -117,43 +93,29 @@ void add_monitors(Monitors& all, const Monitors& one) {
   all.most_bent = one.most_bent;
 }
 
-/// By those of single cases. @returns NaN where there is none
-template <class GradientInCase>
-Eigen::VectorXd gradient_over_cases(const Optimum& optimum, std::size_t response,
-                                    const GradientInCase& gradient_in_case) {
-  const ValueInCase value_of = [&](std::size_t part) { return optimum.responses(part); };
-  try {
-    const LinearizedResponse linear =
-        linearized_over_cases(optimum.problem, response, optimum.result.x, value_of);
-    Eigen::VectorXd gradient = linear.design;
-    for (const WeightedResponse& part : linear.parts) {
-      gradient += part.weight * gradient_in_case(part.response);
-    }
-    return gradient;
-  } catch (const SimulationError&) {
-    return Eigen::VectorXd::Constant(optimum.result.x.size(),
-                                     std::numeric_limits<double>::quiet_NaN());
-  }
-}
-
-/// Gradients of the responses of all cases; none if those of a case are not known.
-std::optional<DesignInfluence> joined_influence(const Optimum& optimum,
-                                                const std::vector<CaseDesigns>& designs) {
+/// Of the responses of all cases, NaN of those that have none; empty if those of a case are not known.
+Eigen::MatrixXd joined_gradients(const Optimum& optimum, const std::vector<CaseDesigns>& designs) {
   const ProblemFile& joined = optimum.problem;
-  if (!joined.has_cases()) return designs.front().influence;
   for (const CaseDesigns& one : designs) {
-    if (!one.influence) return std::nullopt;
+    if (!one.end.influence) return {};
   }
-  DesignInfluence all;
-  all.gradients.resize(std::ssize(joined.responses), std::ssize(joined.variables));
-  const auto gradient_in_case = [&](std::size_t response) -> Eigen::VectorXd {
-    const auto [load_case, index] = joined.case_responses[response];
-    return designs[load_case].influence->gradients.row(index);
-  };
+  if (!joined.has_cases()) return designs.front().end.influence->gradients;
+  const ValueInCase value_of = [&](std::size_t part) { return optimum.responses(part); };
+  Eigen::MatrixXd all =
+      Eigen::MatrixXd::Constant(std::ssize(joined.responses), std::ssize(joined.variables),
+                                std::numeric_limits<double>::quiet_NaN());
   for (std::size_t i = 0; i < joined.responses.size(); ++i) {
-    all.gradients.row(i) = is_over_cases(joined, i)
-                               ? gradient_over_cases(optimum, i, gradient_in_case)
-                               : gradient_in_case(i);
+    try {
+      const LinearizedResponse linear =
+          linearized_over_cases(joined, i, optimum.result.x, value_of);
+      Eigen::RowVectorXd gradient = linear.design;
+      for (const WeightedResponse& part : linear.parts) {
+        const auto [load_case, index] = joined.case_responses[part.response];
+        gradient += part.weight * designs[load_case].end.influence->gradients.row(index);
+      }
+      all.row(i) = gradient;
+    } catch (const SimulationError&) {
+    }
   }
   return all;
 }
@@ -161,14 +123,6 @@ std::optional<DesignInfluence> joined_influence(const Optimum& optimum,
 const char* word_of(ResponseType type) {
   if (type == ResponseType::drive_torque) return "torque";
   return type == ResponseType::drive_force ? "force" : "power";
-}
-
-/// " (−57.1 %)"; nothing where there was nothing before.
-std::string change_text(double before, double after) {
-  if (before == 0.0) return "";
-  const double percents = 100.0 * (after / before - 1.0);
-  if (std::abs(percents) < 0.05) return " (the same)";
-  return fmt::format(" ({}{:.1f} %)", percents < 0.0 ? "−" : "+", std::abs(percents));
 }
 
 /// "Drive bearing: torque 464.28 → 199.13 N m (−57.1 %), power 92856 → 39826 W (−57.1 %)", a line
@@ -184,7 +138,8 @@ std::string drives_text(const ProblemFile& problem, const Analysis& start,
     const double from = before.all[i].value, to = after.all[i].value;
     const bool is_power = settings.type == ResponseType::drive_power;
     line += fmt::format("{} {} → {} {}{}", word_of(settings.type), significant(unit.shown(from)),
-                        significant(unit.shown(to)), unit.name, change_text(from, to));
+                        significant(unit.shown(to)), unit.name,
+                        from == 0.0 ? "" : fmt::format(" ({})", signed_percent(to / from - 1.0)));
     if (!is_power) {
       line += ", ";
       continue;
@@ -195,49 +150,35 @@ std::string drives_text(const ProblemFile& problem, const Analysis& start,
   return text;
 }
 
-/// What each case says of the design; several are told apart by their names.
+/// What each case says of the design; several are told apart by their names. The findings are known:
+/// they are part of the verdict.
 Examined examine_cases(Optimum& optimum, std::vector<CaseDesigns>& designs) {
   Examined examined;
-  std::vector<std::vector<Finding>> findings;
   for (CaseDesigns& one : designs) {
-    one.influence = design_influence(*one.problem, *one.end);
-    const Monitors monitors = monitor(one.end->model, one.end->trajectory);
+    Analysis& end = *one.end.analysis;
+    one.end.influence = design_influence(*one.problem, end);
+    const Monitors monitors = monitor(end.model, end.trajectory);
     if (&one == &designs.front()) optimum.monitors = monitors;
     add_monitors(optimum.monitors, monitors);
-    // Of an answer with gradients the findings are known: they are part of its verdict.
-    if (!optimum.result.evaluation.has_gradients()) {
-      findings.push_back(check_run(TrustedRun{*one.problem, optimum.result.x, *one.end, monitors}));
-    }
     const std::string& load_case = one.problem->load_case;
-    for (Json& effect : effects_document(*one.problem, one.end->model, optimum.influences)) {
+    for (Json& effect : effects_document(*one.problem, end.model, optimum.influences)) {
       if (!load_case.empty()) effect["case"] = load_case;
       examined.effects.push_back(std::move(effect));
     }
-    const std::string drives = drives_text(*one.problem, *one.start, *one.end);
+    const std::string drives = drives_text(*one.problem, *one.start.analysis, end);
     if (!drives.empty() && !load_case.empty()) {
       examined.drives += fmt::format("Case \"{}\":\n", load_case);
     }
     examined.drives += drives;
-  }
-  if (!optimum.result.evaluation.has_gradients()) {
-    const std::vector<Finding> joined = joined_findings(optimum.problem, findings);
-    optimum.warnings = texts_of(joined);
-    optimum.consequences = count_consequences(joined);
   }
   return examined;
 }
 
 /// Of all cases; that which decides is shown first.
 Json picture_of(const Optimum& optimum, const std::vector<CaseDesigns>& designs) {
-  const Eigen::VectorXd& start = first_design(optimum.result.history).x;
-  const std::string end = name_of_end(to_string(optimum.result.status));
   std::vector<Json> cases;
   for (const CaseDesigns& one : designs) {
-    cases.push_back(run_picture(*one.problem,
-                                {{"start", start, one.start.get()},
-                                 {end, optimum.result.x, one.end.get(), one.bands,
-                                  one.influence ? &*one.influence : nullptr}},
-                                designs.size()));
+    cases.push_back(run_picture(*one.problem, {one.start, one.end}, designs.size()));
   }
   if (!optimum.problem.has_cases()) return cases.front();
   return picture_of_cases(optimum.problem, std::move(cases),
@@ -247,15 +188,11 @@ Json picture_of(const Optimum& optimum, const std::vector<CaseDesigns>& designs)
 /// Simulates both for their trajectory files and for what is reported of them.
 Examined examine_designs(RunRecord& record, Optimum& optimum) {
   std::vector<CaseDesigns> designs = simulate_designs(record, optimum);
-  const EvaluationRecord& first = first_design(optimum.result.history);
-  optimum.start_responses =
-      joined_values(optimum.problem, designs, first.x,
-                    [](const CaseDesigns& one) { return values_of(*one.start); });
-  optimum.responses = joined_values(optimum.problem, designs, optimum.result.x,
-                                    [](const CaseDesigns& one) { return values_of(*one.end); });
+  optimum.start_responses = joined_values(optimum.problem, designs, &CaseDesigns::start);
+  optimum.responses = joined_values(optimum.problem, designs, &CaseDesigns::end);
   record.begin_phase("influence");
   Examined examined = examine_cases(optimum, designs);
-  optimum.influence = joined_influence(optimum, designs);
+  optimum.gradients = joined_gradients(optimum, designs);
   record.show_picture([&] { return picture_of(optimum, designs); });
   record.begin_phase("trajectories");
   return examined;
@@ -296,6 +233,57 @@ ExitCode exit_code(const Optimum& optimum) {
   if (optimum.result.status == Status::interrupted) return ExitCode::not_verified;
   if (!optimum.has_design()) return ExitCode::simulation_failed;
   return optimum.result.status == Status::verified ? ExitCode::done : ExitCode::not_verified;
+}
+
+// What is left of a design that could not be evaluated, so that it can be looked at.
+
+constexpr const char* dossier_name = "failed_design.json";
+
+/// For the folder in which the optimization was called. Where gradients were asked for, they are
+/// what may have failed.
+std::string command_again(const RunRecord& record, const Arguments& arguments,
+                          const ProblemFile& problem, const EvaluationRecord& failed) {
+  const bool takes_gradients =
+      failed.request != Request::values ||
+      std::ranges::any_of(problem.constraints, [](const ConstraintSettings& constraint) {
+        return constraint.deviations > 0.0;
+      });
+  std::string text =
+      command_on(takes_gradients ? "gradient" : "simulate", arguments, arguments.file);
+  // By its pointer: the value of a variable that is called by its name would take the place of that in
+  // the file.
+  for (const std::string& assignment : arguments.overrides) {
+    text += " --set " +
+            shell_word(assigned_pointer(assignment) + assignment.substr(assignment.find('=')));
+  }
+  if (arguments.allows_programs) text += " --allow-programs";
+  if (takes_gradients) {
+    for (const std::string& method : arguments.methods) text += " --method " + method;
+  }
+  return text + " --design " + shell_word((record.folder() / dossier_name).string());
+}
+
+/// Writes failed_design.json: design, failure, and the command that evaluates that design again.
+void write_failed_design(RunRecord& record, const Arguments& arguments, const ProblemFile& problem,
+                         const EvaluationRecord& failed) {
+  record.write(dossier_name, {{"evaluation", failed.evaluation},
+                              {"request", to_string(failed.request)},
+                              {"failure", failed.failure},
+                              {"command", command_again(record, arguments, problem, failed)},
+                              {"variables", variables_document(problem, failed.x)}});
+}
+
+/// Says where the last failed design is and how to run it; empty if none failed.
+std::string failed_design_text(const RunRecord& record, const Arguments& arguments,
+                               const ProblemFile& problem, const History& history) {
+  const auto last =
+      std::find_if(history.rbegin(), history.rend(), std::mem_fn(&EvaluationRecord::has_failed));
+  if (last == history.rend()) return "";
+  const std::string sentence = fmt::format(
+      "{} of {} evaluations failed; the last such design is in {}, and this runs it again:\n",
+      count_failures(history), history.size(), (record.folder() / dossier_name).string());
+  return wrapped(sentence, "  ") +
+         fmt::format("  {}\n", command_again(record, arguments, problem, *last));
 }
 
 /// A missing unit is told when the first design is known, not after a search for nothing.

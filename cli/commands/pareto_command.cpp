@@ -1,12 +1,8 @@
 #include "cli/commands/commands.hpp"
-#include "cli/input/run_setting.hpp"
-#include "cli/reports/limits_report.hpp"
 #include "cli/reports/starts_report.hpp"
 #include "core/scene/case_goals.hpp"
 #include "core/scene/load_cases.hpp"
-#include "core/scene/shown_unit.hpp"
 #include "studies/missing_settings.hpp"
-#include "studies/pareto.hpp"
 #include "studies/pareto_point.hpp"
 
 namespace pleuel {

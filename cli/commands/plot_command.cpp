@@ -1,6 +1,5 @@
 #include <array>
 #include <cctype>
-#include <cmath>
 #include <functional>
 #include <set>
 
@@ -9,16 +8,13 @@
 #include <unistd.h>
 
 #include "cli/commands/commands.hpp"
-#include "cli/files/older_run.hpp"
 #include "cli/files/output_file.hpp"
 #include "cli/files/run_folder.hpp"
-#include "cli/reports/optimum_report.hpp"
+#include "cli/reports/optimum_document.hpp"
 #include "cli/text/csv_table.hpp"
 #include "cli/text/history_chart.hpp"
 #include "core/base/find_named.hpp"
-#include "core/scene/problem_reader.hpp"
 #include "core/scene/reading/suggestion.hpp"
-#include "core/scene/shown_unit.hpp"
 
 /// Histories of a run as a drawing, and in the terminal.
 namespace pleuel {
@@ -69,21 +65,6 @@ std::vector<RunHistories> read_histories(const fs::path& folder) {
     }
   }
   return histories;
-}
-
-/// The problem of the run card, for units and limits; nothing where it cannot be read.
-std::optional<ProblemFile> problem_of_card(const fs::path& folder) {
-  const Json card = document_in(folder / card_name);
-  if (!card.contains("problem")) return std::nullopt;
-  try {
-    ProblemFile problem = read_problem_text(card["problem"].dump(),
-                                            card.at("input").at("file").get<std::string>(), {})
-                              .complete();
-    // Names of histories are those of a case.
-    return problem.has_cases() ? problem.cases.front() : problem;
-  } catch (const std::exception&) {
-    return std::nullopt;
-  }
 }
 
 std::vector<std::string> known_names(const std::vector<RunHistories>& histories) {
@@ -189,7 +170,9 @@ Outcome run_plot(const Arguments& arguments) {
   const std::vector<RunHistories> histories = read_histories(folder);
   const std::vector<std::string> known = known_names(histories);
   if (arguments.names.empty()) return list_of(folder, known);
-  const std::optional<ProblemFile> problem = problem_of_card(folder);
+  std::optional<ProblemFile> problem = problem_on_card(folder);
+  // Names of histories are those of a case.
+  if (problem && problem->has_cases()) problem = ProblemFile(problem->cases.front());
   Outcome outcome;
   std::vector<HistoryChart> charts;
   for (const std::string& name : arguments.names) {
@@ -205,13 +188,11 @@ Outcome run_plot(const Arguments& arguments) {
   }
   const fs::path drawing = drawing_path(arguments);
   if (arguments.output) require_free(drawing, arguments);
-  WriteFailures failures;
   outcome.document = {{"histories", arguments.names}};
-  if (write_file({drawing, &failures}, to_svg(charts))) {
+  if (write_file({drawing, &outcome.unwritten}, to_svg(charts))) {
     outcome.document["drawing"] = drawing.string();
     outcome.text += fmt::format("Drawn in {}\n", drawing.string());
   }
-  outcome.unwritten = failures.files();
   return outcome;
 }
 

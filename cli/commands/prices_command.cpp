@@ -1,13 +1,7 @@
-#include <array>
-#include <cmath>
 #include <set>
 
 #include "cli/commands/commands.hpp"
-#include "cli/input/run_setting.hpp"
 #include "cli/reports/iteration_lines.hpp"
-#include "cli/reports/limits_report.hpp"
-#include "cli/text/table.hpp"
-#include "core/trust/checks.hpp"
 #include "optimization/design/design_solve.hpp"
 #include "optimization/design/size_choice.hpp"
 #include "studies/number_prices.hpp"

@@ -2,8 +2,6 @@
 
 #include "cli/commands/commands.hpp"
 #include "cli/files/output_file.hpp"
-#include "cli/text/table.hpp"
-#include "core/scene/body_constants.hpp"
 #include "reduction/reduce.hpp"
 
 namespace pleuel {
@@ -81,11 +79,10 @@ Outcome run_reduce(const Arguments& arguments) {
   require_free(path, arguments);
   const ReductionModel model = read_reduction_model(arguments.file.string());
   const ReducedBody body = reduce(model);
-  WriteFailures failures;
+  Outcome outcome{ExitCode::done, body_document(body, model, path), result_text(body, model, path)};
   make_folder_of(path);
-  write_file({path, &failures}, write_invariants(body.file));
-  return {ExitCode::done, body_document(body, model, path), result_text(body, model, path),
-          failures.files()};
+  write_file({path, &outcome.unwritten}, write_invariants(body.file));
+  return outcome;
 }
 
 }  // namespace pleuel

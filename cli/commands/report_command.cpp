@@ -1,5 +1,4 @@
 #include "cli/commands/commands.hpp"
-#include "cli/commands/older_picture.hpp"
 #include "cli/files/report_page.hpp"
 #include "cli/files/run_folder.hpp"
 
@@ -8,20 +7,8 @@ namespace pleuel {
 
 namespace {
 
-Json read_document(const fs::path& path) {
-  if (!fs::is_regular_file(path)) {
-    throw InputError(
-        fmt::format("{}: there is no such file: not the folder of a finished run", path.string()));
-  }
-  Json document = document_in(path);
-  if (document.is_null()) throw InputError(path.string() + ": is not a JSON document");
-  return document;
-}
-
-/// @returns what the user is told
-std::string make_report(const fs::path& folder, WriteFailures& failures) {
-  const OlderRun run{folder, read_document(folder / card_name),
-                     read_document(folder / "result.json")};
+void make_report(const fs::path& folder, Outcome& outcome) {
+  const OlderRun run = read_older_run(folder);
   if (const std::string damage = damage_of(run); !damage.empty()) throw InputError(damage);
   Json picture;
   Notes notes;
@@ -33,13 +20,12 @@ std::string make_report(const fs::path& folder, WriteFailures& failures) {
   if (!run.card.value("finished", true)) {
     notes.push_back("the run did not come to its end: what it had written is shown");
   }
-  std::string text;
-  if (write_page({folder / report_name, &failures},
-                 report_data(run.card, run.result, picture, folder))) {
-    text = fmt::format("Report: {}\n", (folder / report_name).string());
+  const std::string page = (folder / report_name).string();
+  if (write_page({page, &outcome.unwritten}, report_data(run.card, run.result, picture, folder))) {
+    outcome.text += fmt::format("Report: {}\n", page);
+    outcome.document["reports"].push_back(page);
   }
-  for (const std::string& note : notes) text += wrapped("Note: " + note + "\n", "  ");
-  return text;
+  for (const std::string& note : notes) outcome.text += wrapped("Note: " + note + "\n", "  ");
 }
 
 }  // namespace
@@ -48,16 +34,7 @@ Outcome run_report(const Arguments& arguments) {
   if (!find_report_template()) throw InputError(no_template);
   Outcome outcome;
   outcome.document = {{"reports", Json::array()}};
-  WriteFailures failures;
-  for (const fs::path& folder : arguments.files) {
-    outcome.text += make_report(folder, failures);
-    const std::string report = (folder / report_name).string();
-    const auto& failed = failures.files();
-    if (std::ranges::find(failed, report) == failed.end()) {
-      outcome.document["reports"].push_back(report);
-    }
-  }
-  outcome.unwritten = failures.files();
+  for (const fs::path& folder : arguments.files) make_report(folder, outcome);
   return outcome;
 }
 

@@ -1,6 +1,4 @@
 #include "cli/commands/commands.hpp"
-#include "cli/files/older_run.hpp"
-#include "cli/text/table.hpp"
 
 /// A table of the runs in a folder.
 namespace pleuel {

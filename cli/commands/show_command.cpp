@@ -1,18 +1,13 @@
-#include <cmath>
-#include <memory>
 
 #include "cli/commands/commands.hpp"
 #include "cli/files/report_page.hpp"
-#include "cli/files/run_record.hpp"
 #include "cli/reports/effects_report.hpp"
 #include "cli/reports/scene_report.hpp"
 #include "core/mobility/lock.hpp"
-#include "core/model/model.hpp"
 #include "core/response/monitors.hpp"
 #include "core/scene/body_rules.hpp"
 #include "core/start/initial_state.hpp"
 #include "core/trust/check_list.hpp"
-#include "core/trust/checks.hpp"
 #include "picture/motion.hpp"
 
 /// The mechanism as the file places it, before anything is simulated.
@@ -173,9 +168,7 @@ Shown describe(const ProblemFile& problem, const Eigen::VectorXd& x) {
 }
 
 Json picture_of(const ProblemInput& input, const Motion& motion) {
-  ShownDesign design{input.design_name, input.design};
-  if (motion.time.size() > 0) design.rigid = &motion;
-  return run_picture(input.problem, {design});
+  return run_picture(input.problem, {{input.design_name, input.design, {}, {}, {}, motion}});
 }
 
 /// Into a run folder, as of other commands.

@@ -1,12 +1,9 @@
 #include "cli/commands/commands.hpp"
 #include "cli/reports/effects_report.hpp"
-#include "cli/reports/limits_report.hpp"
 #include "cli/reports/scene_report.hpp"
 #include "cli/reports/setting_report.hpp"
-#include "core/base/stop.hpp"
 #include "core/integration/period_map.hpp"
 #include "core/trust/check_list.hpp"
-#include "core/trust/checks.hpp"
 
 namespace pleuel {
 
@@ -153,7 +150,7 @@ Outcome run_simulate(const Arguments& arguments) {
   RunRecord record(arguments, input, Json::object());
   record.begin_phase("simulate");
   const Stopwatch stopwatch;
-  const auto analysis = analyze_or_doubt(input);
+  const std::shared_ptr<Analysis> analysis = analyze_or_doubt(input);
   const double seconds = stopwatch.seconds();
   record.begin_phase("monitor");
   Simulated run{*analysis, monitor(analysis->model, analysis->trajectory), seconds};
@@ -180,8 +177,7 @@ Outcome run_simulate(const Arguments& arguments) {
   record.write_result(outcome.document);
   write_trajectory(record.result("trajectory.csv"), *analysis, run.bands);
   record.finish(outcome, [&] {
-    return run_picture(input.problem,
-                       {{input.design_name, input.design, analysis.get(), run.bands}});
+    return run_picture(input.problem, {{input.design_name, input.design, analysis, run.bands}});
   });
   return outcome;
 }

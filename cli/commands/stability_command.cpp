@@ -1,5 +1,4 @@
 #include "cli/commands/commands.hpp"
-#include "core/trust/checks.hpp"
 #include "studies/stability.hpp"
 
 namespace pleuel {
@@ -35,12 +34,8 @@ Json stability_entry(const StabilityRun& run) {
 }
 
 Json make_document(const std::vector<StabilityRun>& runs, bool is_whole) {
-  Json document = {{"status", study_status(is_whole)}, {"formulations", Json::array()}};
-  for (const auto* compared : {&compared_formulations(), &compared_schemes()}) {
-    for (const ComparedFormulation& formulation : *compared) {
-      document["formulations"].push_back(formulation.name);
-    }
-  }
+  Json document = {{"status", study_status(is_whole)}};
+  document["formulations"] = list_of(compared_formulations(), &ComparedFormulation::name);
   document["runs"] = list_of(runs, stability_entry);
   return document;
 }
@@ -117,8 +112,7 @@ Outcome run_stability(const Arguments& arguments) {
     before.add(texts_of(check_before(input.problem)), input.problem.name);
   }
   show(stderr, warnings_text(before.sentences()));
-  const std::size_t all =
-      inputs.size() * (compared_formulations().size() + compared_schemes().size());
+  const std::size_t all = inputs.size() * compared_formulations().size();
   const std::vector<StabilityRun> runs = run_all(arguments, all, [&](const StabilityRun& run) {
     if (!csv)
       csv.emplace(record.result("stability.csv"),

@@ -1,13 +1,8 @@
-#include <cmath>
-#include <map>
 #include <utility>
 
 #include "cli/commands/commands.hpp"
-#include "cli/text/wrapped_text.hpp"
-#include "core/scene/shown_unit.hpp"
-#include "core/trust/checks.hpp"
+#include "cli/reports/case_report.hpp"
 #include "studies/missing_settings.hpp"
-#include "studies/uncertainty.hpp"
 
 namespace pleuel {
 
@@ -28,16 +23,8 @@ Json response_document(const ProblemFile& problem, const UncertaintyStudy& study
                        std::size_t index) {
   const UncertainResponse& response = study.responses[index];
   const std::string unit = unit_of(problem.responses[index]).si;
-  std::vector<DesignVariable> parameters;
-  for (const UncertainParameter& parameter : problem.uncertainty->parameters) {
-    parameters.push_back(problem.variables[parameter.variable]);
-  }
-  Json document = {{"value", response.value},
-                   {"unit", unit},
-                   {"deviation", response.deviation},
-                   {"bounds", {response.value - response.bound, response.value + response.bound}},
-                   {"shares", by_name(parameters, response.shares)},
-                   {"gradients", by_name(parameters, response.gradient)}};
+  Json document = {{"value", response.value}, {"unit", unit}};
+  document.update(uncertain_document(problem, response));
   if (!study.errors.empty()) document["error"] = error_document(error_of(study.errors, index));
   if (response.sampled) document["sampled"] = sampled_document(*response.sampled);
   return document;

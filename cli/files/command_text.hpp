@@ -14,10 +14,4 @@ std::string typed_command(const Arguments& arguments);
 std::string command_on(const std::string& command, const Arguments& arguments,
                        const fs::path& file);
 
-/// The line for a shell that runs a command on the same input at the design of a file. Where the
-/// command takes gradients, they are those of the arguments.
-/// @param command  "simulate", "gradient" or "optimize"
-std::string command_at(const std::string& command, const Arguments& arguments,
-                       const fs::path& design);
-
 }  // namespace pleuel

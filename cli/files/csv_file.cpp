@@ -26,6 +26,15 @@ std::string cell_of(const Json& value) {
   return value.is_number_float() ? fmt::format("{}", value.get<double>()) : value.dump();
 }
 
+CsvFile::Row titles_of(const Problem& problem) {
+  CsvFile::Row titles = {"evaluation", "iteration",     "seconds", "purpose",
+                         "request",    "max_violation", "step",    "objective"};
+  for (const Constraint& one : problem.constraints()) titles.push_back("constraint:" + one.name);
+  for (const Variable& one : problem.variables()) titles.push_back("variable:" + one.name);
+  titles.insert(titles.end(), {"time_step", "elements", "failure"});
+  return titles;
+}
+
 }  // namespace
 
 void CsvFile::add(const Row& cells) {
@@ -60,19 +69,6 @@ void write_histories(const ResultFile& file, const Eigen::VectorXd& time,
     csv.add(row);
   }
 }
-
-namespace {
-
-CsvFile::Row titles_of(const Problem& problem) {
-  CsvFile::Row titles = {"evaluation", "iteration",     "seconds", "purpose",
-                         "request",    "max_violation", "step",    "objective"};
-  for (const Constraint& one : problem.constraints()) titles.push_back("constraint:" + one.name);
-  for (const Variable& one : problem.variables()) titles.push_back("variable:" + one.name);
-  titles.insert(titles.end(), {"time_step", "elements", "failure"});
-  return titles;
-}
-
-}  // namespace
 
 std::string to_string(Request request) {
   return request == Request::values ? "values" : "gradients";

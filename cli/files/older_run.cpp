@@ -2,9 +2,7 @@
 
 #include <ctime>
 #include <fstream>
-#include <map>
 #include <utility>
-#include <vector>
 
 #include <fcntl.h>
 #include <fmt/chrono.h>
@@ -33,14 +31,55 @@ bool is_at_work(const fs::path& folder) {
   return !is_free;
 }
 
-}  // namespace
-
+/// The JSON object in a file; null if there is none that can be read.
 Json document_in(const fs::path& file) {
   if (!fs::is_regular_file(file)) return nullptr;
   std::ifstream stream(file);
   Json document = Json::parse(stream, nullptr, /*allow_exceptions=*/false);
   return document.is_object() ? document : Json();
 }
+
+using Type = Json::value_t;
+using Needed = std::vector<std::pair<const char*, Type>>;
+
+/// What a result has that is whole.
+Needed needed_in(const std::string& command) {
+  static const std::map<std::string, Needed> needed = {
+      {"accuracy", {{"runs", Type::array}}},
+      {"check", {{"responses", Type::object}}},
+      {"gradient", {{"responses", Type::object}}},
+      {"optimize",
+       {{"status", Type::string},
+        {"objective", Type::object},
+        {"variables", Type::object},
+        {"constraints", Type::object}}},
+      {"pareto", {{"points", Type::array}}},
+      {"prices", {{"prices", Type::object}}},
+      {"simulate", {{"responses", Type::object}}},
+      {"stability", {{"runs", Type::array}}},
+      {"uncertainty", {{"responses", Type::object}}},
+  };
+  const auto found = needed.find(command);
+  return found == needed.end() ? Needed() : found->second;
+}
+
+/// The effects of the model that the result is of: where an optimization has ended, more of them may
+/// matter than where it began.
+/// @returns whether the result names them
+bool take_effects(const Json& result, ProblemFile& problem) {
+  if (problem.has_cases() || !result.contains("effects")) return false;
+  EffectDecisions decisions;
+  for (const Json& effect : result["effects"]) {
+    if (!effect.contains("body") || effect.value("case", "") != problem.load_case) continue;
+    const std::pair key(effect["body"].get<std::string>(), effect.at("name").get<std::string>());
+    decisions.measured[key].is_needed = effect.at("built").get<bool>();
+  }
+  if (decisions.measured.empty()) return false;
+  problem.effects.decisions = std::move(decisions);
+  return true;
+}
+
+}  // namespace
 
 std::string OlderRun::problem() const {
   const Json inputs = card.value("inputs", Json::array({card.value("input", Json())}));
@@ -89,37 +128,6 @@ std::optional<OlderRun> find_older_run(const fs::path& folder) {
   return run;
 }
 
-namespace {
-
-/// What a result has that is whole.
-struct Needed {
-  const char* key;
-  Json::value_t type;
-};
-
-std::vector<Needed> needed_in(const std::string& command) {
-  using Type = Json::value_t;
-  static const std::map<std::string, std::vector<Needed>> needed = {
-      {"accuracy", {{"runs", Type::array}}},
-      {"check", {{"responses", Type::object}}},
-      {"gradient", {{"responses", Type::object}}},
-      {"optimize",
-       {{"status", Type::string},
-        {"objective", Type::object},
-        {"variables", Type::object},
-        {"constraints", Type::object}}},
-      {"pareto", {{"points", Type::array}}},
-      {"prices", {{"prices", Type::object}}},
-      {"simulate", {{"responses", Type::object}}},
-      {"stability", {{"runs", Type::array}}},
-      {"uncertainty", {{"responses", Type::object}}},
-  };
-  const auto found = needed.find(command);
-  return found == needed.end() ? std::vector<Needed>() : found->second;
-}
-
-}  // namespace
-
 std::string damage_of(const OlderRun& run) {
   const auto damaged = [&](const char* file, const std::string& what) {
     return fmt::format("{}: is damaged: {}", (run.folder / file).string(), what);
@@ -127,12 +135,13 @@ std::string damage_of(const OlderRun& run) {
   const std::string command = text_at(run.card, "/command");
   if (command.empty()) return damaged(card_name, "it names no command");
   if (!run.result.is_object()) {
-    return fmt::format("{}: there is none that can be read", (run.folder / result_name).string());
+    return fmt::format("{}: is missing, or is no JSON document",
+                       (run.folder / result_name).string());
   }
-  for (const Needed& one : needed_in(command)) {
-    if (run.result.value(one.key, Json()).type() != one.type) {
+  for (const auto& [key, type] : needed_in(command)) {
+    if (run.result.value(key, Json()).type() != type) {
       return damaged(result_name,
-                     fmt::format("a run of `pleuel {}` has \"{}\" there", command, one.key));
+                     fmt::format("a run of `pleuel {}` has \"{}\" there", command, key));
     }
   }
   if (command != "optimize" || !run.objective()) return "";
@@ -156,25 +165,12 @@ OlderRun read_older_run(const fs::path& folder) {
   return std::move(*run);
 }
 
-namespace {
-
-/// The effects of the model that the result is of: where an optimization has ended, more of them may
-/// matter than where it began.
-/// @returns whether the result names them
-bool take_effects(const Json& result, ProblemFile& problem) {
-  if (problem.has_cases() || !result.contains("effects")) return false;
-  EffectDecisions decisions;
-  for (const Json& effect : result["effects"]) {
-    if (!effect.contains("body") || effect.value("case", "") != problem.load_case) continue;
-    const std::pair key(effect["body"].get<std::string>(), effect.at("name").get<std::string>());
-    decisions.measured[key].is_needed = effect.at("built").get<bool>();
-  }
-  if (decisions.measured.empty()) return false;
-  problem.effects.decisions = std::move(decisions);
-  return true;
+std::optional<ProblemFile> problem_on_card(const fs::path& folder) try {
+  const Json card = document_in(folder / card_name);
+  return read_problem_text(card.at("problem").dump(), card.at("input").at("file"), {}).complete();
+} catch (const std::exception&) {
+  return std::nullopt;
 }
-
-}  // namespace
 
 ProblemFile problem_of(const OlderRun& run) {
   return problem_of(run, run.shown_case());

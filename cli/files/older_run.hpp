@@ -8,9 +8,6 @@ namespace pleuel {
 
 inline constexpr const char* card_name = "run_card.json";
 
-/// The JSON object in a file; null if there is none that can be read.
-Json document_in(const fs::path& file);
-
 /// What the folder of a run says of it.
 struct OlderRun {
   fs::path folder;
@@ -45,6 +42,10 @@ std::optional<OlderRun> find_older_run(const fs::path& folder);
 OlderRun read_older_run(const fs::path& folder);
 
 // What an earlier run simulated, from its documents.
+
+/// The problem of the run card in a folder, for units and limits. None where it cannot be read any more, as
+/// where its catalogue is gone.
+std::optional<ProblemFile> problem_on_card(const fs::path& folder);
 
 /// The problem as it ran: with the steps and elements that were chosen for an accuracy, and the
 /// effects that were built at the end.

@@ -16,11 +16,10 @@ namespace pleuel {
 
 namespace fs = std::filesystem;
 
-void WriteFailures::note(const fs::path& path, const std::string& reason) {
-  if (std::ranges::find(files_, path.string()) != files_.end()) return;
-  if (files_.empty()) reason_ = reason;
-  files_.push_back(path.string());
-  if (is_silent_) return;
+void ResultFile::note(const std::string& reason) const {
+  if (unwritten == nullptr) return;
+  if (std::ranges::find(*unwritten, path.string()) != unwritten->end()) return;
+  unwritten->push_back(path.string());
   show(stderr, fmt::format("pleuel: {} cannot be written: {}\n", path.string(), reason));
 }
 
@@ -45,7 +44,7 @@ OutputFile::~OutputFile() {
 }
 
 void OutputFile::write(const std::string& text) {
-  if (has_failed_) return;
+  if (!failure_.empty()) return;
   const off_t begin = ::lseek(descriptor_, 0, SEEK_CUR);
   for (std::size_t done = 0; done < text.size();) {
     const ssize_t count = ::write(descriptor_, text.data() + done, text.size() - done);
@@ -61,15 +60,15 @@ void OutputFile::write(const std::string& text) {
   }
 }
 
-bool OutputFile::close() {
+const std::string& OutputFile::close() {
   if (descriptor_ != -1 && ::close(descriptor_) == -1) fail(errno);
   descriptor_ = -1;
-  return !has_failed_;
+  return failure_;
 }
 
 void OutputFile::fail(int error) {
-  has_failed_ = true;
-  file_.failures->note(file_.path, std::strerror(error));
+  failure_ = std::strerror(error);
+  file_.note(failure_);
 }
 
 bool write_file(const ResultFile& file, const std::string& text) {
@@ -78,13 +77,16 @@ bool write_file(const ResultFile& file, const std::string& text) {
   std::error_code error;
   OutputFile output(file, draft);
   output.write(text);
-  if (output.close()) {
+  std::string failure = output.close();
+  if (failure.empty()) {
     fs::rename(draft, file.path, error);
     if (!error) return true;
-    file.failures->note(file.path, error.message());
+    failure = error.message();
+    file.note(failure);
   }
   fs::remove(draft, error);
-  return false;
+  if (file.unwritten != nullptr) return false;
+  throw InputError(fmt::format("{}: cannot be written: {}", file.path.string(), failure));
 }
 
 }  // namespace pleuel

@@ -6,35 +6,19 @@
 
 namespace pleuel {
 
-/// Results that could not be written: a run goes on without them, and says so.
-class WriteFailures {
- public:
-  /// Also tells standard error, the first time for each file, unless silenced.
-  void note(const std::filesystem::path& path, const std::string& reason);
-
-  /// The files.
-  const std::vector<std::string>& files() const { return files_; }
-
-  /// Of the first one.
-  const std::string& reason() const { return reason_; }
-
-  /// For those who tell it themselves.
-  void silence() { is_silent_ = true; }
-
- private:
-  std::vector<std::string> files_;
-  std::string reason_;
-  bool is_silent_ = false;
-};
-
 /// Makes the folder that a file is to be written to, where it is not there.
 /// @throws InputError if it cannot be made
 void make_folder_of(const std::filesystem::path& file);
 
-/// Where a result is to be written, and who is to hear if it cannot be.
+/// Where a result is to be written.
 struct ResultFile {
   std::filesystem::path path;
-  WriteFailures* failures;
+  /// Results that could not be written: a run goes on without them, and says so. Null: nobody can go
+  /// on without this one.
+  std::vector<std::string>* unwritten;
+
+  /// That it could not be written. Also tells standard error, the first time for each file.
+  void note(const std::string& reason) const;
 };
 
 /// A new file, in place of one of this name. It is made anew: neither a link nor another name of
@@ -52,20 +36,21 @@ class OutputFile {
   /// All of it or nothing: a part that went in is cut off again.
   void write(const std::string& text);
 
-  /// @returns whether all could be written
-  bool close();
+  /// @returns why not all could be written; empty: it could
+  const std::string& close();
 
  private:
   void fail(int error);
 
   ResultFile file_;
   int descriptor_;
-  bool has_failed_ = false;
+  std::string failure_;
 };
 
 /// Writes a whole file: first beside it, then renamed. Readers see the old or the new one, never
 /// half of one.
 /// @returns whether it could be written
+/// @throws InputError if it could not, and nobody goes on without it
 bool write_file(const ResultFile& file, const std::string& text);
 
 }  // namespace pleuel

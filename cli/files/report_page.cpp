@@ -98,12 +98,10 @@ bool write_page(const ResultFile& file, const Json& data) {
 
 void draw_page(const fs::path& page, const Json& data, Outcome& outcome) {
   make_folder_of(page);
-  WriteFailures failures;
-  if (write_page({page, &failures}, data)) {
+  if (write_page({page, &outcome.unwritten}, data)) {
     outcome.document["page"] = page.string();
     outcome.text += fmt::format("Drawn in {}\n", page.string());
   }
-  outcome.unwritten = failures.files();
 }
 
 }  // namespace pleuel

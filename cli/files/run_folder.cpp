@@ -70,26 +70,19 @@ bool has_begun_only(const fs::path& folder) {
   throw InputError(fmt::format("-o {}: {}", folder.string(), reason));
 }
 
-}  // namespace
-
-fs::path free_folder(const fs::path& folder) {
-  // A path that ends with a slash names the folder, not something in it.
-  const std::string name =
-      (folder.has_filename() ? folder : folder.parent_path()).lexically_normal().string();
-  fs::path free = name;
+/// The first of NAME, NAME-2, NAME-3 … with this ending that is not there.
+fs::path free_path(const std::string& name, const std::string& ending) {
+  fs::path free = name + ending;
   for (int number = 2; fs::exists(fs::symlink_status(free)); ++number) {
-    free = fmt::format("{}-{}", name, number);
+    free = fmt::format("{}-{}{}", name, number, ending);
   }
   return free;
 }
 
+}  // namespace
+
 fs::path free_page(const std::string& name) {
-  const fs::path runs = "runs";
-  fs::path page = runs / (name + ".html");
-  for (int number = 2; fs::exists(page); ++number) {
-    page = runs / fmt::format("{}-{}.html", name, number);
-  }
-  return page;
+  return free_path("runs/" + name, ".html");
 }
 
 void require_free(const fs::path& file, const Arguments& arguments) {
@@ -105,9 +98,10 @@ void require_free(const fs::path& file, const Arguments& arguments) {
 }
 
 RunFolder::RunFolder(const Arguments& arguments)
-    : path_(arguments.output                            ? *arguments.output
-            : arguments.overwrites || arguments.resumes ? usual_folder(arguments)
-                                                        : free_folder(usual_folder(arguments))),
+    : path_(arguments.output ? *arguments.output
+            : arguments.overwrites || arguments.resumes
+                ? usual_folder(arguments)
+                : free_path(usual_folder(arguments).string(), "")),
       keeps_record_(arguments.resumes) {
   if (fs::exists(path_) && !fs::is_directory(path_)) refuse(path_, "is a file, not a folder");
   make();

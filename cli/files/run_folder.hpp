@@ -4,9 +4,6 @@
 
 namespace pleuel {
 
-/// The first of FOLDER, FOLDER-2, FOLDER-3 … that is not there.
-fs::path free_folder(const fs::path& folder);
-
 /// The first of runs/NAME.html, NAME-2.html … that is not there.
 fs::path free_page(const std::string& name);
 

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "cli/files/csv_file.hpp"
-#include "cli/files/scene_picture.hpp"
-#include "cli/reports/document_table.hpp"
 #include "cli/reports/limits_report.hpp"
 #include "cli/reports/scene_report.hpp"
+#include "core/base/error.hpp"
 #include "core/model/imported_constants.hpp"
 #include "core/response/history_reduction.hpp"
 #include "core/response/peak_place.hpp"
@@ -16,10 +14,24 @@
 #include "core/scene/response_parts.hpp"
 #include "picture/companions.hpp"
 #include "picture/thinned.hpp"
+#include "sensitivity/method_choice.hpp"
 
 namespace pleuel {
 
 namespace {
+
+/// Direct differentiation takes as much time as some simulations for so many variables.
+constexpr std::size_t most_variables = 24;
+constexpr double most_numbers = 1e7;  ///< derivatives at instants: 80 MB
+
+bool is_cheap(const ProblemFile& problem, const Analysis& analysis) {
+  double histories = 0.0;
+  for (const Response& response : analysis.responses) histories += response.history() ? 1.0 : 0.0;
+  const auto variables = static_cast<double>(problem.variables.size());
+  const auto instants = static_cast<double>(analysis.trajectory.time.size());
+  return problem.variables.size() <= most_variables &&
+         histories * variables * instants <= most_numbers;
+}
 
 constexpr int most_frames = 720;        ///< of a moving picture
 constexpr std::size_t most_slopes = 6;  ///< of a response: by the variables that matter most
@@ -202,7 +214,7 @@ Json design_document(const ProblemFile& problem, const ShownDesign& design, std:
   Json document = {{"name", design.name}};
   document["variables"] = std::vector<double>(design.x.begin(), design.x.end());
   document["geometry"] = geometry_picture(problem, design.x);
-  if (design.rigid != nullptr) document["motion"] = motion_document(*design.rigid);
+  if (design.rigid.time.size() > 0) document["motion"] = motion_document(design.rigid);
   if (design.analysis == nullptr) return document;
   const Analysis& analysis = *design.analysis;
   add_surfaces(problem.scene, design.x, document["geometry"]["bodies"]);
@@ -220,6 +232,23 @@ Json design_document(const ProblemFile& problem, const ShownDesign& design, std:
 }
 
 }  // namespace
+
+std::shared_ptr<const DesignInfluence> design_influence(const ProblemFile& problem,
+                                                        Analysis& analysis) {
+  if (problem.variables.empty() || analysis.responses.empty()) return nullptr;
+  try {
+    if (is_cheap(problem, analysis)) {
+      ResponseDerivatives all = response_derivatives(analysis);
+      return std::make_shared<DesignInfluence>(
+          DesignInfluence{std::move(all.values), std::move(all.histories)});
+    }
+    const std::vector<SampledValue> values = response_values(analysis);
+    return std::make_shared<DesignInfluence>(DesignInfluence{
+        sampled_gradients(analysis, values, choose_method(analysis, values).method)});
+  } catch (const SimulationError&) {
+    return nullptr;
+  }
+}
 
 Json run_picture(const ProblemFile& problem, const std::vector<ShownDesign>& designs,
                  std::size_t pictures) {
@@ -251,12 +280,9 @@ Json run_picture(const ProblemFile& problem, const std::vector<ShownDesign>& des
 
 Json rigid_picture(const ProblemFile& problem,
                    const std::vector<std::pair<std::string, Eigen::VectorXd>>& designs) {
-  std::vector<Motion> motions;
-  for (const auto& [name, x] : designs) motions.push_back(rigid_motion(problem, x));
   std::vector<ShownDesign> shown;
-  for (std::size_t i = 0; i < designs.size(); ++i) {
-    shown.push_back({designs[i].first, designs[i].second});
-    if (motions[i].time.size() > 0) shown.back().rigid = &motions[i];
+  for (const auto& [name, x] : designs) {
+    shown.push_back({name, x, {}, {}, {}, rigid_motion(problem, x)});
   }
   return run_picture(problem, shown);
 }

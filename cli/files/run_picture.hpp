@@ -2,21 +2,34 @@
 
 #include <utility>
 
-#include "cli/reports/design_influence.hpp"
+#include "cli/text/json.hpp"
 #include "picture/motion.hpp"
+#include "sensitivity/gradients.hpp"
 
 /// What the report shows of simulated designs (docs/report.md) [SI].
 namespace pleuel {
+
+struct DesignInfluence {
+  Eigen::MatrixXd gradients;  ///< responses × variables [SI]
+  /// Empty where they would take too much time or memory.
+  std::vector<HistoryGradients> histories{};
+};
+
+/// Of a simulation that is there already: no other one is made. With few variables by one run of
+/// direct differentiation, which gives the histories, too; with many by the cheaper exact method.
+/// Null without variables, and where the gradients cannot be computed.
+std::shared_ptr<const DesignInfluence> design_influence(const ProblemFile& problem,
+                                                        Analysis& analysis);
 
 /// A design that is shown.
 struct ShownDesign {
   std::string name;  ///< "start", "optimum"; for people, too
   Eigen::VectorXd x;
-  const Analysis* analysis = nullptr;  ///< null: geometry only
+  std::shared_ptr<Analysis> analysis{};  ///< null: geometry only
   /// Of the histories (core/trust/error_bars.hpp); empty where none is known.
   std::vector<Eigen::VectorXd> bands{};
-  const DesignInfluence* influence = nullptr;  ///< of the variables; null: not known
-  const Motion* rigid = nullptr;  ///< without an analysis: how drives move it; null: it stands
+  std::shared_ptr<const DesignInfluence> influence{};  ///< of the variables; null: not known
+  Motion rigid{};  ///< without an analysis: how drives move it; empty: it stands
 };
 
 /// The mechanism of a problem at some designs: its geometry and, of simulated ones, motion, stress,
@@ -34,5 +47,15 @@ Json rigid_picture(const ProblemFile& problem,
 /// under "other_cases" in the order of the file, and under "units" those of the responses and limits
 /// of all cases, by their names in result.json.
 Json picture_of_cases(const ProblemFile& joined, std::vector<Json> cases, std::size_t shown);
+
+// What is drawn of a scene.
+
+/// What does not depend on the design: names, kinds, who is joined to whom, gravity, plane of
+/// motion.
+Json scene_picture(const ProblemFile& problem);
+
+/// What does: bodies with their axes and the outlines of their sections, places of joints and loads
+/// on the bodies, drives and loads over time.
+Json geometry_picture(const ProblemFile& problem, const Eigen::VectorXd& x);
 
 }  // namespace pleuel

@@ -72,7 +72,7 @@ ResultFile RunRecord::result(const fs::path& name) {
     fs::create_directory(folder() / name.parent_path(), error);
   }
   if (std::ranges::find(results_, name) == results_.end()) results_.push_back(name);
-  return {folder() / name, &failures_};
+  return {folder() / name, &unwritten_};
 }
 
 void RunRecord::write(const std::string& name, const Json& document) {
@@ -87,7 +87,7 @@ std::string RunRecord::files_text() const {
   std::vector<std::string> names;
   for (const fs::path& name : results_) {
     const bool is_lost =
-        std::ranges::find(failures_.files(), (folder() / name).string()) != failures_.files().end();
+        std::ranges::find(unwritten_, (folder() / name).string()) != unwritten_.end();
     if (!is_lost) names.push_back(name.string());
   }
   return wrapped(fmt::format("Written to {}: {}\n", folder().string(), fmt::join(names, ", ")),
@@ -103,11 +103,11 @@ void RunRecord::finish(Outcome& outcome, const std::function<Json()>& make_pictu
   write_report(outcome);
   phases_["total"] = total_.seconds();
   card_["finished"] = true;
-  outcome.unwritten = failures_.files();
+  outcome.unwritten = unwritten_;
   card_["exit_code"] = outcome.final_code();
   card_["seconds"] = phases_;
   write(card_name, card_);
-  outcome.unwritten = failures_.files();
+  outcome.unwritten = unwritten_;
 }
 
 void RunRecord::show_picture(const std::function<Json()>& make_picture) {

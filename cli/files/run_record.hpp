@@ -56,7 +56,7 @@ class RunRecord {
   void replace_older_run();
 
   RunFolder folder_;
-  WriteFailures failures_;
+  std::vector<std::string> unwritten_;
   std::vector<fs::path> results_;  ///< names, in the order in which they were begun
   Json card_;
   Json phases_ = Json::object();

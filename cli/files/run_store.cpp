@@ -125,7 +125,7 @@ void RunStore::attempt(const Action& action) {
     is_begun_ = true;
   } catch (const DatabaseError& error) {
     has_failed_ = true;
-    file.failures->note(file.path, error.what());
+    file.note(error.what());
     if (is_begun_) stop();
   }
 }

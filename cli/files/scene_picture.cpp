@@ -1,12 +1,12 @@
-#include "cli/files/scene_picture.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "cli/files/run_picture.hpp"
 #include "cli/reports/scene_report.hpp"
+#include "cli/text/wrapped_text.hpp"
 #include "core/base/number_text.hpp"
 #include "core/model/motion_plane.hpp"
 #include "core/scene/grammar/tables.hpp"
@@ -35,10 +35,8 @@ class SizeTexts : public Keys {
   explicit SizeTexts(const Values& design) : design_(design) {}
 
   void number(const Key& key, Number& size, const Measure&, std::string_view) override {
-    std::string name(key.word);
-    std::ranges::replace(name, '_', ' ');
-    text += fmt::format(", {} {} {}", name, significant(unit_.shown(resolve(size, design_)), 4),
-                        unit_.name);
+    text += fmt::format(", {} {} {}", words_of(std::string(key.word)),
+                        significant(unit_.shown(resolve(size, design_)), 4), unit_.name);
   }
 
   std::string text;

@@ -1,11 +1,8 @@
 #include "cli/files/starters.hpp"
 
-#include <fmt/format.h>
-
 #include "cli/files/output_file.hpp"
 #include "cli/files/run_folder.hpp"
 #include "cli/given_files.hpp"
-#include "core/base/error.hpp"
 #include "core/scene/reading/json_text.hpp"
 #include "core/scene/reading/syntax_error.hpp"
 
@@ -32,10 +29,7 @@ void write_given_file(const fs::path& path, const std::string& text, const Argum
   if (is_there && !arguments.overwrites) return;
   require_free(path, arguments);
   make_folder_of(path);
-  WriteFailures failures;
-  failures.silence();
-  if (write_file({path, &failures}, text)) return;
-  throw InputError(fmt::format("{}: cannot be written: {}", path.string(), failures.reason()));
+  write_file({path, nullptr}, text);
 }
 
 }  // namespace pleuel

@@ -110,16 +110,16 @@ Grid grid_at(const ProblemFile& problem, const Design<double>& design, const Mot
 
 int write_vtk_series(const std::filesystem::path& folder, const std::string& name,
                      const ProblemFile& problem, const Eigen::VectorXd& x, const Analysis& analysis,
-                     int most, WriteFailures& failures) {
+                     int most, std::vector<std::string>& unwritten) {
   const Motion motion = sample_motion(problem.scene, analysis, frames_of_motion(analysis, most));
   const Design<double> design(x.begin(), x.end());
   std::string entries;
   for (Eigen::Index i = 0; i < motion.time.size(); ++i) {
     const std::string file = fmt::format("{}-{:04}.vtu", name, i);
-    write_file({folder / file, &failures}, grid_at(problem, design, motion, i).text());
+    write_file({folder / file, &unwritten}, grid_at(problem, design, motion, i).text());
     entries += fmt::format("<DataSet timestep=\"{}\" file=\"{}\"/>\n", motion.time(i), file);
   }
-  write_file({folder / (name + ".pvd"), &failures},
+  write_file({folder / (name + ".pvd"), &unwritten},
              fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" "
                          "version=\"0.1\">\n<Collection>\n{}</Collection>\n</VTKFile>\n",
                          entries));

@@ -12,6 +12,6 @@ namespace pleuel {
 /// @returns     how many instants were written
 int write_vtk_series(const std::filesystem::path& folder, const std::string& name,
                      const ProblemFile& problem, const Eigen::VectorXd& x, const Analysis& analysis,
-                     int most, WriteFailures& failures);
+                     int most, std::vector<std::string>& unwritten);
 
 }  // namespace pleuel

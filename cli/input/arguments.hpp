@@ -57,4 +57,8 @@ struct Arguments {
   std::FILE* progress() const { return wants_json ? stderr : stdout; }
 };
 
+/// @returns nothing if help or the version was asked for and printed
+/// @throws InputError for anything that is not a command line of pleuel
+std::optional<Arguments> parse_arguments(int argc, const char* const* argv);
+
 }  // namespace pleuel

@@ -1,5 +1,3 @@
-#include "cli/input/parse_arguments.hpp"
-
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>

@@ -1,7 +1,6 @@
 #include "cli/input/problem_input.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,7 +10,6 @@
 #include "core/response/effect_measurement.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/reading/document_reader.hpp"
-#include "core/scene/reading/json_node.hpp"
 #include "core/scene/reading/override.hpp"
 #include "core/scene/reading/syntax_error.hpp"
 #include "core/scene/shown_unit.hpp"
@@ -21,8 +19,7 @@ namespace pleuel {
 namespace {
 
 void check_names(const JsonNode& variables, const ProblemFile& problem) {
-  std::vector<std::string> known;
-  for (const DesignVariable& variable : problem.variables) known.push_back(variable.name);
+  const std::vector<std::string> known = list_of(problem.variables, &DesignVariable::name);
   for (const auto& [name, member] : variables.members()) {
     if (std::ranges::find(known, name) != known.end()) continue;
     fail_unknown_name(variables, "design variable", name, known);

@@ -1,12 +1,7 @@
 #pragma once
 
-#include <filesystem>
-
-#include <Eigen/Core>
-
 #include "cli/input/arguments.hpp"
 #include "cli/text/json.hpp"
-#include "core/scene/problem_file.hpp"
 #include "core/scene/problem_numbers.hpp"
 #include "core/trust/setting_choice.hpp"
 

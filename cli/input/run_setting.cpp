@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -60,24 +59,23 @@ struct Assignment {
 
 using Assignments = std::vector<Assignment>;
 
-/// What was chosen for a problem, or for one of its load cases, but for what the command line gives.
-/// @returns nothing if the problem has no place for something of it
-std::optional<Assignments> assignments_of(const Json& chosen, const Json& problem,
-                                          const std::string& load_case,
-                                          const std::vector<std::string>& given) {
-  Assignments all;
+/// Adds what was chosen for a problem, or for one of its load cases, but for what the command line gives.
+/// @returns whether the problem has a place for all of it
+bool add_assignments(const Json& chosen, const Json& problem, const std::string& load_case,
+                     const std::vector<std::string>& given, Assignments& all) {
+  if (!chosen.contains("overrides")) return false;
   for (const auto& [text, value] : chosen.at("overrides").items()) {
     const Json::json_pointer place(text);
     // The lengths of segments may go by their elements, and masses with them.
     const bool is_of_segment = text.find("/segments/") != std::string::npos;
-    if (!has_place(problem, place) || (is_of_segment && !load_case.empty())) return std::nullopt;
+    if (!has_place(problem, place) || (is_of_segment && !load_case.empty())) return false;
     const std::string whole = load_case.empty() ? text : place_in_case(load_case, place);
     if (is_given(text, given) || is_given(whole, given)) continue;
     all.push_back({fmt::format("{}={}", whole, value.dump()),
                    fmt::format("{}={}{}", text, value.dump(),
                                load_case.empty() ? "" : " in case " + load_case)});
   }
-  return all;
+  return true;
 }
 
 /// What a run has chosen for one load case: an optimization for all of them, or for this one alone.
@@ -91,40 +89,30 @@ Json chosen_in_case(const Json& setting, const std::string& load_case, const Arg
 /// @returns nothing if the problem is not that of the run
 std::optional<Assignments> assignments_of_run(const Json& setting, const Json& problem,
                                               const Arguments& arguments) {
-  if (!problem.contains("cases") || problem.at("cases").empty()) {
-    if (!setting.contains("overrides")) return std::nullopt;
-    return assignments_of(setting, problem, "", arguments.overrides);
-  }
   Assignments all;
-  for (const auto& [name, changes] : problem.at("cases").items()) {
+  const Json cases = problem.value("cases", Json::object());
+  bool fits = !cases.empty() || add_assignments(setting, problem, "", arguments.overrides, all);
+  for (const auto& [name, changes] : cases.items()) {
     if (arguments.load_case && name != *arguments.load_case) continue;
-    const Json chosen = chosen_in_case(setting, name, arguments);
-    if (!changes.is_object() || !chosen.contains("overrides")) return std::nullopt;
-    const auto of_case = assignments_of(chosen, problem, name, arguments.overrides);
-    if (!of_case) return std::nullopt;
-    all.insert(all.end(), of_case->begin(), of_case->end());
+    fits = fits && changes.is_object() &&
+           add_assignments(chosen_in_case(setting, name, arguments), problem, name,
+                           arguments.overrides, all);
   }
-  return all;
+  return fits ? std::optional(all) : std::nullopt;
 }
 
-struct FoundSetting {
-  bool fits = true;  ///< otherwise the run is of another mechanism
-  Assignments assignments;
-};
-
-/// Nothing where no accuracy was asked of the run, or where one is asked for now.
-FoundSetting setting_of_run(const Arguments& arguments) {
+/// Empty where no accuracy was asked of the run, or where one is asked for now; nothing if the run is
+/// of another mechanism.
+std::optional<Assignments> setting_of_run(const Arguments& arguments) {
   const fs::path& design = *arguments.design;
   const Json result = document_of(fs::is_directory(design) ? design / "result.json" : design);
-  if (!result.contains("setting") || !was_chosen(result)) return {};
+  if (!result.contains("setting") || !was_chosen(result)) return Assignments();
   Json problem = document_of(arguments.file);
   for (const std::string& assignment : arguments.overrides) {
     apply_override(problem, assignment, arguments.file.string());
   }
-  if (problem.contains(Json::json_pointer("/accuracy/target"))) return {};
-  const auto found = assignments_of_run(result.at("setting"), problem, arguments);
-  if (!found) return {false, {}};
-  return {true, *found};
+  if (problem.contains(Json::json_pointer("/accuracy/target"))) return Assignments();
+  return assignments_of_run(result.at("setting"), problem, arguments);
 }
 
 }  // namespace
@@ -132,7 +120,7 @@ FoundSetting setting_of_run(const Arguments& arguments) {
 void take_setting_of_run(Arguments& arguments) {
   const bool looks_at_it = std::ranges::find(commands, arguments.command) != commands.end();
   if (!looks_at_it || !arguments.design) return;
-  FoundSetting found;
+  std::optional<Assignments> found;
   try {
     found = setting_of_run(arguments);
   } catch (const InputError&) {
@@ -141,14 +129,14 @@ void take_setting_of_run(Arguments& arguments) {
     return;  // a damaged document
   }
   const std::string run = arguments.design->string();
-  if (!found.fits) {
+  if (!found) {
     show(stderr, wrapped(fmt::format("{}: note: simulated with the steps and elements of the file, "
                                      "since those of this optimum do not fit it\n",
                                      run)));
   }
-  if (found.assignments.empty()) return;
+  if (!found || found->empty()) return;
   std::vector<std::string> shown, overrides;
-  for (const Assignment& one : found.assignments) {
+  for (const Assignment& one : *found) {
     shown.push_back(one.shown);
     overrides.push_back(one.text);
   }

@@ -1,11 +1,10 @@
-#include "cli/reports/accuracy_charts.hpp"
-
 #include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "cli/reports/accuracy_report.hpp"
+#include "cli/text/wrapped_text.hpp"
 #include "core/base/number_text.hpp"
 #include "core/scene/shown_unit.hpp"
 
@@ -69,10 +68,8 @@ std::vector<ChartSeries> series_of(const AccuracyStudy& study, const Measure& me
     series.points.back().label = step_text(run.settings);
   }
   for (const VariedRun& one : study.knobs) {
-    std::string name = one.variation.knob;
-    std::ranges::replace(name, '_', ' ');
-    series_named(name, all).points.push_back(
-        point_of(study, one.run, measure, variation_text(one.variation)));
+    series_named(words_of(one.variation.knob), all)
+        .points.push_back(point_of(study, one.run, measure, variation_text(one.variation)));
   }
   return all;
 }

@@ -1,7 +1,6 @@
-#include "cli/reports/accuracy_document.hpp"
-
 #include <variant>
 
+#include "cli/reports/accuracy_report.hpp"
 #include "cli/reports/outcome.hpp"
 #include "cli/reports/setting_report.hpp"
 #include "cli/reports/time_text.hpp"
@@ -14,10 +13,6 @@ namespace {
 
 Json of_responses(const ProblemFile& problem, const Eigen::VectorXd& numbers) {
   return by_name(problem.responses, numbers);
-}
-
-Json number_or_null(const std::optional<double>& number) {
-  return number ? Json(*number) : Json(nullptr);
 }
 
 /// What is known of a run that succeeded.

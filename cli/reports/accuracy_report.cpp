@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cli/reports/accuracy_document.hpp"
 #include "cli/reports/outcome.hpp"
 #include "cli/reports/time_text.hpp"
 #include "cli/reports/warnings.hpp"
@@ -140,11 +139,6 @@ std::string worst_change(const ProblemFile& problem, const AccuracyStudy& study,
 double objective_size(const ProblemFile& problem, const AccuracyStudy& study) {
   const auto index = index_of_named(problem.responses, problem.objective->response);
   return index ? std::abs(study.reference.values(*index)) : 0.0;
-}
-
-std::string words_of(std::string name) {
-  std::ranges::replace(name, '_', ' ');
-  return name;
 }
 
 /// What leaving out an effect, or including it, changes: of the optimum, or of the worst response.

@@ -5,7 +5,6 @@
 #include <limits>
 #include <map>
 #include <numeric>
-#include <optional>
 
 #include <fmt/format.h>
 
@@ -18,7 +17,6 @@
 #include "core/scene/case_goals.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/shown_unit.hpp"
-#include "optimization/result.hpp"
 
 namespace pleuel {
 
@@ -95,12 +93,10 @@ std::vector<Eigen::VectorXd> measures_of_cases(const ProblemFile& problem, const
 /// Leaves those whose number is the largest, within what round-off makes of equal ones.
 void keep_largest(const Eigen::VectorXd& numbers, std::vector<std::size_t>& cases) {
   if (numbers.size() == 0) return;
-  const auto number_of = [&](std::size_t c) { return numbers(c); };
-  double largest = -std::numeric_limits<double>::infinity();
-  for (const std::size_t c : cases) largest = std::max(largest, number_of(c));
+  const double largest = numbers(cases).maxCoeff();
   if (!std::isfinite(largest)) return;
   const double least = largest - least_share * std::abs(largest);
-  std::erase_if(cases, [&](std::size_t c) { return number_of(c) < least; });
+  std::erase_if(cases, [&](std::size_t c) { return numbers(c) < least; });
 }
 
 /// Of equal ones that of the first limit in conflict, where limits are; else the first.
@@ -113,6 +109,41 @@ std::size_t first_in_conflict(const ProblemFile& problem, const std::vector<std:
     if (std::ranges::find(cases, here) != cases.end()) return here;
   }
   return cases.front();
+}
+
+/// What the document of its case says of a response of one case.
+const Json& entry_of(const ProblemFile& joined, const Json& cases, std::size_t response) {
+  const OfCase of_case = case_of_response(joined, response);
+  const ProblemFile& one = joined.cases[of_case.load_case];
+  return cases.at(one.load_case).at("responses").at(one.responses[of_case.index].name);
+}
+
+/// The derivatives that stand there in the entries of all parts; none if one of them has none.
+std::optional<Eigen::VectorXd> gradient_at(const ProblemFile& joined, const Json& cases,
+                                           const LinearizedResponse& linear,
+                                           const Json::json_pointer& place) {
+  Eigen::VectorXd gradient = linear.design;
+  for (const WeightedResponse& part : linear.parts) {
+    const Json slopes = entry_of(joined, cases, part.response).value(place, Json());
+    if (!slopes.is_object()) return std::nullopt;
+    for (Eigen::Index j = 0; j < gradient.size(); ++j) {
+      gradient(j) += part.weight * slopes.value(joined.variables[j].name, 0.0);
+    }
+  }
+  return gradient;
+}
+
+/// By each method that the gradients of all parts were computed by.
+void add_gradients(const ProblemFile& joined, const Json& cases, const LinearizedResponse& linear,
+                   Json& entry) {
+  if (linear.parts.empty()) return;
+  const Json& first = entry_of(joined, cases, linear.parts.front().response);
+  const Json methods = first.value("gradients", Json::object());
+  for (const auto& [method, unused] : methods.items()) {
+    const auto gradient =
+        gradient_at(joined, cases, linear, Json::json_pointer("/gradients") / method);
+    if (gradient) entry["gradients"][method] = by_name(joined.variables, *gradient);
+  }
 }
 
 }  // namespace
@@ -179,69 +210,16 @@ std::string name_of_case_file(const std::string& stem, const ProblemFile& load_c
   return fmt::format("{}{}.csv", stem, name.empty() ? "" : "-" + plain_file_name(name));
 }
 
-namespace {
-
-/// What the document of its case says of a response of one case.
-const Json& entry_of(const ProblemFile& joined, const Json& cases, std::size_t response) {
-  const OfCase of_case = case_of_response(joined, response);
-  const ProblemFile& one = joined.cases[of_case.load_case];
-  return cases.at(one.load_case).at("responses").at(one.responses[of_case.index].name);
-}
-
-/// The derivatives that stand there in the entries of all parts; none if one of them has none.
-std::optional<Eigen::VectorXd> gradient_at(const ProblemFile& joined, const Json& cases,
-                                           const LinearizedResponse& linear,
-                                           const Json::json_pointer& place) {
-  Eigen::VectorXd gradient = linear.design;
-  for (const WeightedResponse& part : linear.parts) {
-    const Json slopes = entry_of(joined, cases, part.response).value(place, Json());
-    if (!slopes.is_object()) return std::nullopt;
-    for (Eigen::Index j = 0; j < gradient.size(); ++j) {
-      gradient(j) += part.weight * slopes.value(joined.variables[j].name, 0.0);
-    }
+Json uncertain_document(const ProblemFile& problem, const UncertainResponse& response) {
+  std::vector<DesignVariable> parameters;
+  for (const UncertainParameter& parameter : problem.uncertainty->parameters) {
+    parameters.push_back(problem.variables[parameter.variable]);
   }
-  return gradient;
+  return {{"deviation", response.deviation},
+          {"bounds", {response.value - response.bound, response.value + response.bound}},
+          {"shares", by_name(parameters, response.shares)},
+          {"gradients", by_name(parameters, response.gradient)}};
 }
-
-/// By each method that the gradients of all parts were computed by.
-void add_gradients(const ProblemFile& joined, const Json& cases, const LinearizedResponse& linear,
-                   Json& entry) {
-  if (linear.parts.empty()) return;
-  const Json& first = entry_of(joined, cases, linear.parts.front().response);
-  const Json methods = first.value("gradients", Json::object());
-  for (const auto& [method, unused] : methods.items()) {
-    const auto gradient =
-        gradient_at(joined, cases, linear, Json::json_pointer("/gradients") / method);
-    if (gradient) entry["gradients"][method] = by_name(joined.variables, *gradient);
-  }
-}
-
-/// First order, as of one case (studies/uncertainty.hpp): the parameters are the same in all of them.
-void add_uncertainty(const ProblemFile& joined, const Json& cases, const LinearizedResponse& linear,
-                     Json& entry) {
-  const Eigen::VectorXd gradient =
-      gradient_at(joined, cases, linear, Json::json_pointer("/gradients")).value();
-  double variance = 0.0, bound = 0.0;
-  Json shares = Json::object();
-  for (const UncertainParameter& parameter : joined.uncertainty->parameters) {
-    const std::string& name = joined.variables[parameter.variable].name;
-    const double slope = gradient(parameter.variable);
-    const double deviation = slope * parameter.standard_deviation();
-    entry["gradients"][name] = slope;
-    shares[name] = deviation * deviation;
-    variance += deviation * deviation;
-    bound += std::abs(slope) * parameter.half_width();
-  }
-  for (Json& share : shares) {
-    if (variance > 0.0) share = share.get<double>() / variance;
-  }
-  const double value = entry.at("value").get<double>();
-  entry["deviation"] = std::sqrt(variance);
-  entry["bounds"] = {value - bound, value + bound};
-  entry["shares"] = shares;
-}
-
-}  // namespace
 
 Json over_cases_document(const ProblemFile& joined, const Eigen::VectorXd& x, const Json& cases) {
   const ValueInCase value_of = [&](std::size_t response) {
@@ -257,7 +235,9 @@ Json over_cases_document(const ProblemFile& joined, const Eigen::VectorXd& x, co
       entry["value"] = value_over_cases(joined, i, x, value_of);
       const LinearizedResponse linear = linearized_over_cases(joined, i, x, value_of);
       if (cases.front().contains("parameters")) {  // of `uncertainty`
-        add_uncertainty(joined, cases, linear, entry);
+        const auto gradient = gradient_at(joined, cases, linear, Json::json_pointer("/gradients"));
+        entry.update(uncertain_document(
+            joined, first_order(*joined.uncertainty, entry["value"], gradient.value())));
       } else {
         add_gradients(joined, cases, linear, entry);
       }

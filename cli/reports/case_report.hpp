@@ -1,10 +1,9 @@
 #pragma once
 
-#include <cstddef>
-
 #include "cli/text/json.hpp"
 #include "core/scene/problem_file.hpp"
 #include "optimization/result.hpp"
+#include "studies/uncertainty.hpp"
 
 /// What is said of load cases at an optimum: which of them decide.
 namespace pleuel {
@@ -35,6 +34,9 @@ std::string objective_in_cases(const ProblemFile& problem, const Result& result)
 std::string name_of_case_file(const std::string& stem, const ProblemFile& load_case);
 
 // Responses and limits that are made from several load cases, of one design.
+
+/// {"deviation", "bounds", "shares", "gradients"} of one that scatters, to first order [SI].
+Json uncertain_document(const ProblemFile& problem, const UncertainResponse& response);
 
 /// From the documents of the cases, as `simulate`, `gradient` or `uncertainty` gives them:
 /// {"responses": {NAME: {"value", "unit", "gradients"}}, "constraints": {NAME: {"value", …}}}, the

@@ -120,21 +120,6 @@ double optimizer_magnitude(const ProblemFile& problem, const std::string& respon
   return size;
 }
 
-}  // namespace
-
-Json directions_document(const ProblemFile& problem,
-                         const std::vector<CheckedDirection>& directions) {
-  return list_of(directions, [&](const CheckedDirection& direction) {
-    Json changes = Json::object();
-    for (const Eigen::Index j : direction.variables) {
-      changes[problem.variables[j].name] = direction.change(j);
-    }
-    return changes;
-  });
-}
-
-namespace {
-
 /// Each variable is in one of the directions.
 Json variables_document(const ProblemFile& problem, const std::vector<CheckedDirection>& directions,
                         const DerivativeCheck& check) {
@@ -149,7 +134,37 @@ Json variables_document(const ProblemFile& problem, const std::vector<CheckedDir
   return document;
 }
 
+/// All inertia of a body as a change: what a factor on its density does.
+BodyConstants inertia_of(const BodyConstants& constants) {
+  BodyConstants inertia = zero_constants(constants);
+  inertia.mass = constants.mass;
+  inertia.first_moment = constants.first_moment;
+  inertia.second_moment = constants.second_moment;
+  inertia.shape = constants.shape;
+  inertia.mixed = constants.mixed;
+  inertia.moments = constants.moments;
+  inertia.mass_matrix = constants.mass_matrix;
+  return inertia;
+}
+
+BodyConstants with_only(const BodyConstants& constants, SparseMatrix BodyConstants::*matrix) {
+  BodyConstants change = zero_constants(constants);
+  change.*matrix = constants.*matrix;
+  return change;
+}
+
 }  // namespace
+
+Json directions_document(const ProblemFile& problem,
+                         const std::vector<CheckedDirection>& directions) {
+  return list_of(directions, [&](const CheckedDirection& direction) {
+    Json changes = Json::object();
+    for (const Eigen::Index j : direction.variables) {
+      changes[problem.variables[j].name] = direction.change(j);
+    }
+    return changes;
+  });
+}
 
 Json derivative_document(const ProblemFile& problem,
                          const std::vector<CheckedDirection>& directions,
@@ -211,29 +226,6 @@ std::vector<std::string> noise_warnings(const ProblemFile& problem, const Analys
   }
   return warnings;
 }
-
-namespace {
-
-/// All inertia of a body as a change: what a factor on its density does.
-BodyConstants inertia_of(const BodyConstants& constants) {
-  BodyConstants inertia = zero_constants(constants);
-  inertia.mass = constants.mass;
-  inertia.first_moment = constants.first_moment;
-  inertia.second_moment = constants.second_moment;
-  inertia.shape = constants.shape;
-  inertia.mixed = constants.mixed;
-  inertia.moments = constants.moments;
-  inertia.mass_matrix = constants.mass_matrix;
-  return inertia;
-}
-
-BodyConstants with_only(const BodyConstants& constants, SparseMatrix BodyConstants::*matrix) {
-  BodyConstants change = zero_constants(constants);
-  change.*matrix = constants.*matrix;
-  return change;
-}
-
-}  // namespace
 
 Json constant_gradients_document(const ProblemFile& problem, const std::string& body,
                                  const ConstantGradients& gradients) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdio>
-#include <optional>
 
 #include "core/scene/shown_unit.hpp"
 #include "optimization/result.hpp"

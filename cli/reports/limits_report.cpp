@@ -1,7 +1,6 @@
 #include "cli/reports/limits_report.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -91,18 +90,6 @@ double shown_margin(const Json& limit) {
   return std::abs(margin) < 1e-5 * std::abs(bound) ? 0.0 : margin;
 }
 
-}  // namespace
-
-std::vector<std::string> broken_limits(const Json& limits) {
-  std::vector<std::string> broken;
-  for (const auto& [name, limit] : limits.items()) {
-    if (!limit["kept"].get<bool>()) broken.push_back(name);
-  }
-  return broken;
-}
-
-namespace {
-
 std::string sum_text(const Json& limits) {
   const std::vector<std::string> broken = broken_limits(limits);
   const std::size_t all = limits.size();
@@ -114,7 +101,36 @@ std::string sum_text(const Json& limits) {
                  "  ");
 }
 
+const char* cause_text(FrontGap::Cause cause) {
+  static constexpr std::array<const char*, 4> names = {"open", "jump", "failure", "narrow"};
+  return names[static_cast<std::size_t>(cause)];
+}
+
+/// Of a gap that more points do not close.
+const char* reason(FrontGap::Cause cause) {
+  if (cause == FrontGap::Cause::jump) return "the front jumps: searches found no design there";
+  if (cause == FrontGap::Cause::narrow) {
+    return "nothing was looked for: limits there are too near to each other, and the objective "
+           "cannot be limited in their place";
+  }
+  return "searches failed, or came to designs that others dominate";
+}
+
+std::string describe(const Tie& tie, const Response& response) {
+  const PeakTie& peaks = tie.peaks;
+  return fmt::format("{}: peaks within {:.2g} %, {}; gradients differ by {:.3g} %", response.name,
+                     100 * peaks.gap, describe_tie(peaks, response), 100 * *tie.kink);
+}
+
 }  // namespace
+
+std::vector<std::string> broken_limits(const Json& limits) {
+  std::vector<std::string> broken;
+  for (const auto& [name, limit] : limits.items()) {
+    if (!limit["kept"].get<bool>()) broken.push_back(name);
+  }
+  return broken;
+}
 
 Json responses_document(const ProblemFile& problem, const Analysis& analysis,
                         const ErrorBars& errors) {
@@ -250,25 +266,6 @@ std::string limits_text(const ProblemFile& problem, const Json& limits) {
   return "\n" + table.text() + "\n" + sum_text(limits);
 }
 
-namespace {
-
-const char* cause_text(FrontGap::Cause cause) {
-  static constexpr std::array<const char*, 4> names = {"open", "jump", "failure", "narrow"};
-  return names[static_cast<std::size_t>(cause)];
-}
-
-/// Of a gap that more points do not close.
-const char* reason(FrontGap::Cause cause) {
-  if (cause == FrontGap::Cause::jump) return "the front jumps: searches found no design there";
-  if (cause == FrontGap::Cause::narrow) {
-    return "nothing was looked for: limits there are too near to each other, and the objective "
-           "cannot be limited in their place";
-  }
-  return "searches failed, or came to designs that others dominate";
-}
-
-}  // namespace
-
 std::string gaps_message(const ProblemFile& problem, const ParetoFront& front,
                          const std::string& limited) {
   const double asked = problem.pareto->gap;
@@ -298,8 +295,7 @@ std::string gaps_message(const ProblemFile& problem, const ParetoFront& front,
 }
 
 Json gaps_document(const ProblemFile& problem, const ParetoFront& front) {
-  Json document = {{"asked", problem.pareto->gap}, {"largest", nullptr}};
-  if (front.gaps.largest) document["largest"] = *front.gaps.largest;
+  Json document = {{"asked", problem.pareto->gap}, {"largest", number_or_null(front.gaps.largest)}};
   const auto limited = [&](std::size_t i) {
     const ParetoPoint& point = front.points[i];
     return point.has_design() && point.keeps_limits() ? Json(point.limited_value) : Json(nullptr);
@@ -311,20 +307,6 @@ Json gaps_document(const ProblemFile& problem, const ParetoFront& front) {
                 {"cause", cause_text(gap.cause)}};
   });
   return document;
-}
-
-namespace {
-
-std::string describe(const Tie& tie, const Response& response) {
-  const PeakTie& peaks = tie.peaks;
-  return fmt::format("{}: peaks within {:.2g} %, {}; gradients differ by {:.3g} %", response.name,
-                     100 * peaks.gap, describe_tie(peaks, response), 100 * *tie.kink);
-}
-
-}  // namespace
-
-Ties find_ties(Analysis& analysis, const std::vector<DesignVariable>& variables) {
-  return make_ties(analysis, find_kinks(analysis, variables));
 }
 
 Ties make_ties(const Analysis& analysis, const std::vector<Kink>& kinks) {

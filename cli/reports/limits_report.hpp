@@ -87,9 +87,7 @@ struct Tie {
 /// The tie of each response, if it has one; a kink before a harmless one.
 using Ties = std::vector<std::optional<Tie>>;
 
-/// Costs one run of direct differentiation if there is any tie.
-Ties find_ties(Analysis& analysis, const std::vector<DesignVariable>& variables);
-/// The same with kinks that are known.
+/// @param kinks  of find_kinks()
 Ties make_ties(const Analysis& analysis, const std::vector<Kink>& kinks);
 
 /// {"times": [s, s], "places": ["…", "…"], "gap", "is_kink"}

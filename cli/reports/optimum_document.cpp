@@ -9,8 +9,6 @@
 #include "cli/reports/scene_report.hpp"
 #include "core/base/number_text.hpp"
 #include "core/scene/case_goals.hpp"
-#include "core/scene/shown_unit.hpp"
-#include "optimization/result.hpp"
 
 namespace pleuel {
 
@@ -75,9 +73,9 @@ Json responses_document(const Optimum& optimum) {
                                {"start", optimum.start_responses(i)}};
     const ErrorBars& errors = optimum.result.response_errors;
     if (!errors.empty()) document[response.name]["error"] = error_document(error_of(errors, i));
-    if (optimum.influence) {
+    if (optimum.gradients.size() > 0) {
       document[response.name]["gradients"] =
-          by_name(optimum.problem.variables, optimum.influence->gradients.row(i));
+          by_name(optimum.problem.variables, optimum.gradients.row(i));
     }
   }
   return document;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "cli/reports/design_influence.hpp"
+#include "cli/text/json.hpp"
 #include "core/response/effect_measurement.hpp"
 #include "core/response/monitors.hpp"
 #include "core/scene/shown_unit.hpp"
@@ -23,8 +23,8 @@ struct Optimum {
   std::optional<GradientChoice> method;  ///< of the gradients; none if there was none
   /// Of the last design, by runs of twice the step; empty: not measured.
   std::vector<EffectInfluence> influences{};
-  std::optional<DesignInfluence> influence{};  ///< of the variables; none: not known
-  const SizeChoiceReport* sizes = nullptr;     ///< where some are chosen from lists
+  Eigen::MatrixXd gradients{};              ///< responses × variables [SI]; empty: not known
+  const SizeChoiceReport* sizes = nullptr;  ///< where some are chosen from lists
 
   bool has_design() const { return result.evaluation.has_gradients(); }
 
@@ -44,5 +44,14 @@ std::string neighbours_text(const Optimum& optimum);
 
 /// The document of `optimize`; see docs/reference/commands.md.
 Json optimum_document(const Optimum& optimum);
+
+/// What the last design of a run is called: "optimum", or "end" where nothing is proven of it.
+/// @param status  as in result.json
+std::string name_of_end(const std::string& status);
+
+/// The result of `optimize` for people: verdict, objective, dimensions, limits, what speaks against it.
+/// @param document    the same as optimum_document() has it
+/// @param is_verbose  with the audit and the prices of limits
+std::string optimum_report(const Optimum& optimum, const Json& document, bool is_verbose);
 
 }  // namespace pleuel

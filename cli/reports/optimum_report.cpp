@@ -1,19 +1,16 @@
-#include "cli/reports/optimum_report.hpp"
-
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "cli/reports/case_report.hpp"
-#include "cli/reports/document_table.hpp"
 #include "cli/reports/limits_report.hpp"
+#include "cli/reports/optimum_document.hpp"
 #include "cli/reports/scene_report.hpp"
 #include "cli/reports/starts_report.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/find_named.hpp"
 #include "core/base/number_text.hpp"
 #include "core/scene/case_goals.hpp"
-#include "optimization/result.hpp"
 
 namespace pleuel {
 
@@ -65,10 +62,9 @@ std::string objective_text(const Optimum& optimum) {
 
 std::string bound_mark(const DesignVariable& variable, double value) {
   if (const auto choice = size_text(variable, value)) return *choice;
-  const ReachedBound reached = reached_bound(variable, value);
-  if (reached == ReachedBound::none) return "";
-  if (reached == ReachedBound::both) return "fixed";
-  return fmt::format("at its {} bound", to_string(reached));
+  const std::string reached = reached_bound(variable, value);
+  if (reached == "both") return "fixed";
+  return reached.empty() ? "" : fmt::format("at its {} bound", reached);
 }
 
 /// Whether neither the objective nor a limit depends on a variable at the last design.

@@ -60,17 +60,70 @@ int drives(const Model& model) {
       model.joints, [](const JointModel& joint) { return joint.drive_row >= 0; }));
 }
 
-}  // namespace
-
-ReachedBound reached_bound(const DesignVariable& variable, double value) {
-  if (variable.lower == variable.upper) return ReachedBound::both;
-  if (is_at(variable.lower, variable, value)) return ReachedBound::lower;
-  return is_at(variable.upper, variable, value) ? ReachedBound::upper : ReachedBound::none;
+std::string both(const std::array<std::string, 2>& bodies) {
+  return bodies[0] + " – " + bodies[1];
 }
 
-const char* to_string(ReachedBound reached) {
-  static constexpr std::array<const char*, 4> names = {"", "lower", "upper", "both"};
-  return names[static_cast<std::size_t>(reached)];
+std::string joined(std::vector<std::string> parts) {
+  std::erase(parts, "");
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string constant_text(const char* name, double value, const char* unit) {
+  return value == 0.0 ? "" : fmt::format("{} {} {}", name, significant(value, 4), unit);
+}
+
+std::string resistance_text(const std::optional<TimeFunction>& resistance) {
+  if (!resistance) return "";
+  if (std::holds_alternative<FrictionLaw>(*resistance)) return "friction";
+  if (std::holds_alternative<ClearanceLaw>(*resistance)) return "clearance";
+  return "resistance";
+}
+
+/// A row of the table of what acts.
+class ActionRow {
+ public:
+  ActionRow(const ProblemFile& problem, const Design<double>& design)
+      : end_time_(problem.simulation.end_time), design_(design) {}
+
+  std::vector<std::string> operator()(const PointLoad& load) const {
+    return {load.is_force() ? "force" : "torque", load.body, value_text(load, load.unit())};
+  }
+  std::vector<std::string> operator()(const SpringDamper& load) const {
+    return {"spring", both(load.bodies), spring_text(load, design_)};
+  }
+  std::vector<std::string> operator()(const JointForce& load) const {
+    const bool turns = load.coordinate == DrivenCoordinate::angle;
+    std::string motor;
+    if (load.control) motor = "motor that follows a motion";
+    if (load.motor && depends_on_state(*load.motor)) {
+      motor = fmt::format("motor over {}", turns ? "angle or speed" : "displacement or speed");
+    } else if (load.motor) {
+      motor = "motor " + range_text(points(*load.motor), turns ? "N m" : "N");
+    }
+    return {"in the joint", load.joint, joined({spring_text(load, design_), motor})};
+  }
+
+ private:
+  std::string value_text(const PointLoad& load, const char* unit) const {
+    if (!load.over) return range_text(points(load.value), unit);
+    const bool turns = load.over->coordinate == DrivenCoordinate::angle;
+    return fmt::format("over the {} of {}", turns ? "angle" : "displacement", load.over->joint);
+  }
+  LawPoints points(const TimeFunction& function) const {
+    return law_points(function, end_time_, design_, LawOf::load);
+  }
+
+  double end_time_;
+  const Design<double>& design_;
+};
+
+}  // namespace
+
+std::string reached_bound(const DesignVariable& variable, double value) {
+  if (variable.lower == variable.upper) return "both";
+  if (is_at(variable.lower, variable, value)) return "lower";
+  return is_at(variable.upper, variable, value) ? "upper" : "";
 }
 
 Json bodies_document(const Model& model) {
@@ -173,8 +226,8 @@ Json variables_document(const ProblemFile& problem, const Eigen::VectorXd& x) {
     Json& entry = document[variable.name];
     entry["value"] = x(i);
     if (const auto choice = size_text(variable, x(i))) entry["choice"] = *choice;
-    const ReachedBound reached = reached_bound(variable, x(i));
-    if (reached != ReachedBound::none) entry["at_bound"] = to_string(reached);
+    const std::string reached = reached_bound(variable, x(i));
+    if (!reached.empty()) entry["at_bound"] = reached;
   }
   return document;
 }
@@ -186,79 +239,6 @@ std::string variables_text(const ProblemFile& problem) {
                    shown_column("lower", "/lower", units), shown_column("upper", "/upper", units),
                    unit_column(units)})
       .text();
-}
-
-namespace {
-
-std::string both(const std::array<std::string, 2>& bodies) {
-  return bodies[0] + " – " + bodies[1];
-}
-
-std::string joined(std::vector<std::string> parts) {
-  std::string text;
-  for (const std::string& part : parts) {
-    if (!part.empty()) text += (text.empty() ? "" : ", ") + part;
-  }
-  return text;
-}
-
-std::string constant_text(const char* name, double value, const char* unit) {
-  return value == 0.0 ? "" : fmt::format("{} {} {}", name, significant(value, 4), unit);
-}
-
-std::string resistance_text(const std::optional<TimeFunction>& resistance) {
-  if (!resistance) return "";
-  if (std::holds_alternative<FrictionLaw>(*resistance)) return "friction";
-  if (std::holds_alternative<ClearanceLaw>(*resistance)) return "clearance";
-  return "resistance";
-}
-
-/// A row of the table of what acts.
-class ActionRow {
- public:
-  ActionRow(const ProblemFile& problem, const Design<double>& design)
-      : end_time_(problem.simulation.end_time), design_(design) {}
-
-  std::vector<std::string> operator()(const PointLoad& load) const {
-    return {load.is_force() ? "force" : "torque", load.body, value_text(load, load.unit())};
-  }
-  std::vector<std::string> operator()(const SpringDamper& load) const {
-    return {"spring", both(load.bodies), spring_text(load, design_)};
-  }
-  std::vector<std::string> operator()(const JointForce& load) const {
-    const bool turns = load.coordinate == DrivenCoordinate::angle;
-    std::string motor;
-    if (load.control) motor = "motor that follows a motion";
-    if (load.motor && depends_on_state(*load.motor)) {
-      motor = fmt::format("motor over {}", turns ? "angle or speed" : "displacement or speed");
-    } else if (load.motor) {
-      motor = "motor " + range_text(points(*load.motor), turns ? "N m" : "N");
-    }
-    return {"in the joint", load.joint, joined({spring_text(load, design_), motor})};
-  }
-
- private:
-  std::string value_text(const PointLoad& load, const char* unit) const {
-    if (!load.over) return range_text(points(load.value), unit);
-    const bool turns = load.over->coordinate == DrivenCoordinate::angle;
-    return fmt::format("over the {} of {}", turns ? "angle" : "displacement", load.over->joint);
-  }
-  LawPoints points(const TimeFunction& function) const {
-    return law_points(function, end_time_, design_, LawOf::load);
-  }
-
-  double end_time_;
-  const Design<double>& design_;
-};
-
-}  // namespace
-
-double LawPoints::lowest() const {
-  return *std::ranges::min_element(values);
-}
-
-double LawPoints::highest() const {
-  return *std::ranges::max_element(values);
 }
 
 LawPoints law_points(const TimeFunction& function, double end_time, const Design<double>& design,
@@ -283,7 +263,8 @@ LawPoints law_points(const TimeFunction& function, double end_time, const Design
 std::string range_text(const LawPoints& points, const std::string& si) {
   ShownUnit unit = engineering_unit(si);
   if (si == "rad") unit = {si, "°", std::numbers::pi / 180.0};
-  const double low = unit.shown(points.lowest()), high = unit.shown(points.highest());
+  const auto [least, most] = std::ranges::minmax(points.values);
+  const double low = unit.shown(least), high = unit.shown(most);
   const double size = std::max(std::abs(low), std::abs(high));
   if (high - low <= 1e-9 * size) return fmt::format("{} {}", significant(high, 4), unit.name);
   const auto text = [&](double value) {

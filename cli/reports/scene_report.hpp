@@ -18,14 +18,9 @@ std::string bodies_text(const Model& model);
 Json freedoms_document(const DegreesOfFreedom& freedoms, const Model& model);
 std::string freedoms_text(const DegreesOfFreedom& freedoms, const Model& model);
 
-enum class ReachedBound { none, lower, upper, both };
-
 /// The bound at which a variable is, to a millionth of its range, or, where a bound is far away, of
-/// that bound and the start; both where they are equal.
-ReachedBound reached_bound(const DesignVariable& variable, double value);
-
-/// "lower", "upper", "both", or "" where it is at none.
-const char* to_string(ReachedBound reached);
+/// that bound and the start: "lower", "upper", "both" where they are equal, or "" where it is at none.
+std::string reached_bound(const DesignVariable& variable, double value);
 
 /// Says how far assembly moved the mechanism from where the file places it; empty if it did not.
 std::string assembly_text(const Analysis& analysis);
@@ -41,9 +36,6 @@ std::string variables_text(const ProblemFile& problem);
 /// A function of time as points of a curve [SI].
 struct LawPoints {
   std::vector<double> times, values;
-
-  double lowest() const;
-  double highest() const;
 };
 
 /// From the start to the end, with the kinks and jumps of a table.

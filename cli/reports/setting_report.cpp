@@ -13,10 +13,6 @@ namespace pleuel {
 
 namespace {
 
-Json number_or_null(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
 Json tried_document(const TriedSetting& tried) {
   return {{"step", tried.step},
           {"elements", tried.elements},
@@ -35,6 +31,12 @@ std::string wanted_text(double share) {
 std::string error_text(const TriedSetting& setting) {
   return std::isfinite(setting.error) ? significant(100.0 * setting.error, 2) + " %"
                                       : std::string("not resolved");
+}
+
+/// Of several load cases one each, in their order.
+Json settings_document(const std::vector<TriedSetting>& settings) {
+  if (settings.size() == 1) return tried_document(settings.front());
+  return {{"cases", list_of(settings, tried_document)}};
 }
 
 }  // namespace
@@ -98,16 +100,6 @@ std::string setting_text(const ProblemFile& problem, const SettingChoice& choice
       fmt::format("No setting that was tried is known to keep {}; the best of {}, {}, {}.{}\n",
                   target, choice.tried.size(), setting, left, reason));
 }
-
-namespace {
-
-/// Of several load cases one each, in their order.
-Json settings_document(const std::vector<TriedSetting>& settings) {
-  if (settings.size() == 1) return tried_document(settings.front());
-  return {{"cases", list_of(settings, tried_document)}};
-}
-
-}  // namespace
 
 Json stages_document(const std::vector<Stage>& stages) {
   return list_of(stages, [](const Stage& stage) {

@@ -18,6 +18,16 @@ std::string indices_text(const std::vector<std::size_t>& starts) {
   return fmt::format("{}", fmt::join(numbers, ", "));
 }
 
+/// "25 mm", or between which sections: "IPE 80 + 0.31".
+std::string relaxed_text(const DesignVariable& variable, const ShownUnit& unit, double value) {
+  if (!is_section(variable)) {
+    return significant(unit.shown(value)) + unit.suffix();
+  }
+  const double whole = std::floor(value);
+  const std::string name = variable.choices[static_cast<std::size_t>(whole)].text;
+  return value == whole ? name : fmt::format("{} + {:.2f}", name, value - whole);
+}
+
 }  // namespace
 
 std::string starts_text(const ProblemFile& problem, const MultiStart& all) {
@@ -62,20 +72,6 @@ Json starts_document(const ProblemFile& problem, const MultiStart& all) {
   };
   return {{"optima", list_of(all.optima, optimum_entry)}, {"runs", list_of(all.runs, run_entry)}};
 }
-
-namespace {
-
-/// "25 mm", or between which sections: "IPE 80 + 0.31".
-std::string relaxed_text(const DesignVariable& variable, const ShownUnit& unit, double value) {
-  if (!is_section(variable)) {
-    return significant(unit.shown(value)) + unit.suffix();
-  }
-  const double whole = std::floor(value);
-  const std::string name = variable.choices[static_cast<std::size_t>(whole)].text;
-  return value == whole ? name : fmt::format("{} + {:.2f}", name, value - whole);
-}
-
-}  // namespace
 
 std::optional<std::string> size_text(const DesignVariable& variable, double value) {
   for (const SizeChoice& choice : variable.choices) {

@@ -2,7 +2,6 @@
 
 #include "cli/text/json.hpp"
 #include "optimization/design/multi_start.hpp"
-#include "optimization/design/size_choice.hpp"
 
 namespace pleuel {
 

@@ -24,7 +24,7 @@ std::string time_change_text(const ComparedTime& time) {
 
 Json time_change_document(const ComparedTime& time) {
   return {{"change", time.change},
-          {"spread", std::isfinite(time.spread) ? Json(time.spread) : Json(nullptr)},
+          {"spread", number_or_null(time.spread)},
           {"is_measurable", time.is_measurable()}};
 }
 

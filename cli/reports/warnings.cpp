@@ -60,9 +60,7 @@ std::string left_out_text(const Json& error, const ShownUnit& unit) {
   for (const auto& [name, effect] : left_out.items()) {
     const double change = effect.get<double>();
     if (!(std::abs(change) > number_at(error, "/total").value_or(HUGE_VAL))) continue;
-    std::string words = name;
-    std::ranges::replace(words, '_', ' ');
-    text += fmt::format("; with {} {}", words, signed_significant(unit.shown(change), 2));
+    text += fmt::format("; with {} {}", words_of(name), signed_significant(unit.shown(change), 2));
   }
   return text;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <string>
@@ -36,6 +37,11 @@ Json named_entries(const Things& things, const EntryOf& entry_of) {
   Json entries = Json::object();
   for (const auto& thing : things) entries[thing.name] = std::invoke(entry_of, thing);
   return entries;
+}
+
+/// Null where there is none, or none that is finite.
+inline Json number_or_null(const std::optional<double>& number) {
+  return number && std::isfinite(*number) ? Json(*number) : Json(nullptr);
 }
 
 /// An indented document that ends with a newline; numbers read back exactly.

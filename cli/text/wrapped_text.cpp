@@ -47,6 +47,11 @@ std::size_t characters(const std::string& text) {
       text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
+std::string words_of(std::string key) {
+  std::ranges::replace(key, '_', ' ');
+  return key;
+}
+
 std::string shortened(std::string text, std::size_t most) {
   if (characters(text) <= most) return text;
   while (characters(text) >= most) text.pop_back();

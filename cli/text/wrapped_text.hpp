@@ -8,6 +8,9 @@ namespace pleuel {
 /// Number of characters of a UTF-8 text.
 std::size_t characters(const std::string& text);
 
+/// "geometric stiffening" of a key "geometric_stiffening".
+std::string words_of(std::string key);
+
 /// The text, or so many characters of it with "…" as the last one.
 std::string shortened(std::string text, std::size_t most);
 

@@ -533,7 +533,7 @@ TEST_F(Report, HoldsNamesThatLookLikeTags) {
 
 TEST_F(Report, OfAnUnknownFolderIsRefused) {
   const ProgramRun run = exits(2, folder_.run({"report", "nothing"}));
-  EXPECT_THAT(run.err, HasSubstr("nothing/run_card.json: there is no such file"));
+  EXPECT_THAT(run.err, HasSubstr("nothing: there is no such run folder"));
 }
 
 TEST_F(Report, OfTooLongANameIsASentence) {
