@@ -5,6 +5,7 @@
 #include "core/base/error.hpp"
 #include "core/scene/material_library.hpp"
 #include "core/scene/reading/document_reader.hpp"
+#include "core/scene/reading/sample_design.hpp"
 #include "core/scene/scene_rules.hpp"
 #include "core/scene/visit_numbers.hpp"
 
@@ -54,8 +55,7 @@ Json document_of(const ProblemText& text, const UnitSystem& units) {
 
 /// @throws InputError if a number would move a point along an elastic beam
 void check_places(const ProblemFile& problem, const std::vector<NumberGroup>& groups) {
-  Design<double> start;
-  for (const DesignVariable& variable : problem.variables) start.push_back(variable.start);
+  const Design<double> start = start_values(problem.variables);
   const std::size_t first = problem.variables.size() - groups.size();
   for (std::size_t i = 0; i < groups.size(); ++i) {
     const auto moved = find_point_moved_along(problem.scene, start, first + i);

@@ -13,6 +13,7 @@
 #include "core/scene/reading/mistakes.hpp"
 #include "core/scene/reading/override.hpp"
 #include "core/scene/reading/response_reader.hpp"
+#include "core/scene/reading/sample_design.hpp"
 #include "core/scene/reading/scene_check.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 #include "core/scene/reading/settings_reader.hpp"
@@ -68,8 +69,7 @@ void read_settings(const JsonNode& root, NumberReader& numbers, ProblemFile& pro
 
 void check_scattering_places(const JsonNode& root, const ProblemFile& problem) {
   if (!problem.uncertainty) return;
-  Design<double> start;
-  for (const DesignVariable& variable : problem.variables) start.push_back(variable.start);
+  const Design<double> start = start_values(problem.variables);
   for (const UncertainParameter& parameter : problem.uncertainty->parameters) {
     const auto moved =
         find_point_moved_along(problem.scene, start, parameter.variable, parameter.half_width());

@@ -37,8 +37,7 @@ constexpr int most_starts = 10000;
 /// The start of the variables, with those that the node names at other values.
 std::vector<double> read_start(const JsonNode& node, const std::vector<DesignVariable>& variables,
                                const NumberReader& numbers) {
-  std::vector<double> start;
-  for (const DesignVariable& variable : variables) start.push_back(variable.start);
+  std::vector<double> start = start_values(variables);
   for (const auto& [name, value] : node.members()) {
     const std::size_t i = numbers.variable(value, name);
     const Quantity quantity = *numbers.quantity_of(static_cast<int>(i));
@@ -142,11 +141,10 @@ UncertainParameter read_parameter(const std::string& name, const JsonNode& node,
 /// The numbers of the scene that depend on the parameter must make sense in all of its range.
 void check_range(const JsonNode& node, const UncertainParameter& parameter,
                  const std::vector<DesignVariable>& variables, const NumberReader& numbers) {
-  const Design<double> start = sample_designs(variables).front().design;
   for (const VariableUse& use : numbers.uses()) {
     if (!use.number.depends_on(parameter.variable)) continue;
     for (const double sign : {-1.0, 1.0}) {
-      Design<double> design = start;
+      Design<double> design = start_values(variables);
       design[parameter.variable] += sign * sample_extent(parameter);
       const double value = resolve(use.number, design);
       if (is_within(use.range, value)) continue;
