@@ -279,13 +279,13 @@ const ut_system* database() {
 
 }  // namespace
 
-double UnitSystem::scale(const std::string& unit, const Quantity& quantity) const {
+double unit_scale(const std::string& unit, const Quantity& quantity) {
   const std::string name = trim(unit);
   if (const auto common = find_common_scale(name, quantity.unit)) return *common;
   return scale_by_database(name, quantity);
 }
 
-double UnitSystem::scale_by_database(const std::string& unit, const Quantity& quantity) const {
+double scale_by_database(const std::string& unit, const Quantity& quantity) {
   const std::string name = trim(unit);
   refuse_misread(name);
   const UnitHandle from = has_stray_number(name) ? nullptr : parse_unit(database(), name);
@@ -301,12 +301,12 @@ double UnitSystem::scale_by_database(const std::string& unit, const Quantity& qu
   return cycles * proportional_factor(name, from.get(), to.get());
 }
 
-MeasuredUnit UnitSystem::measure(const std::string& unit) const {
+MeasuredUnit measure_unit(const std::string& unit) {
   const auto common = find_common_measure(trim(unit));
   return common ? *common : measure_by_database(unit);
 }
 
-MeasuredUnit UnitSystem::measure_by_database(const std::string& unit) const {
+MeasuredUnit measure_by_database(const std::string& unit) {
   const std::string name = trim(unit);
   refuse_misread(name);
   const UnitHandle handle = has_stray_number(name) ? nullptr : parse_unit(database(), name);
@@ -321,11 +321,11 @@ MeasuredUnit UnitSystem::measure_by_database(const std::string& unit) const {
   return taker.found;
 }
 
-double UnitSystem::read(const std::string& text, const Quantity& quantity) const {
+double read_quantity(const std::string& text, const Quantity& quantity) {
   const WrittenQuantity written = split_quantity(text);
   if (written.unit.empty() && quantity == quantities::pure_number) return written.value;
   if (written.unit.empty()) throw UnitError("a number in quotes needs its unit");
-  const double value = written.value * scale(written.unit, quantity);
+  const double value = written.value * unit_scale(written.unit, quantity);
   if (!std::isfinite(value) || (value == 0.0 && written.value != 0.0)) {
     throw UnitError("it is out of the range of numbers");
   }

@@ -16,13 +16,13 @@ namespace fs = std::filesystem;
 constexpr const char* catalogue_key = "catalogue";
 
 /// The sections of the file, as they are written.
-Json read_catalogue(const fs::path& path, const UnitSystem& units) {
+Json read_catalogue(const fs::path& path) {
   const std::string file = path.string();
   Json document = parse_json(read_text_file(path), file);
   const JsonNode root(document, file, "", "the catalogue");
   root.allow_keys({"description", "sections"});
   if (const auto description = root.find("description")) description->text();
-  NumberReader numbers(units, {});
+  NumberReader numbers({});
   for (const auto& [name, section] : root.at("sections").members()) {
     for (const auto& [key, value] : section.members()) {
       if (value.value().is_object()) value.fail("cannot be bound to a design variable");
@@ -33,10 +33,10 @@ Json read_catalogue(const fs::path& path, const UnitSystem& units) {
 }
 
 /// The sections that a scene can name; none if it has no catalogue.
-Json find_catalogue(const JsonNode& scene, const UnitSystem& units) {
+Json find_catalogue(const JsonNode& scene) {
   const std::optional<JsonNode> name = scene.find(catalogue_key);
   if (!name) return Json::object();
-  return read_catalogue(name->named_file(), units);
+  return read_catalogue(name->named_file());
 }
 
 /// Looks as far as the document is built as it should be: what is not is for the readers to
@@ -76,11 +76,11 @@ class ReferenceSearch {
 
 }  // namespace
 
-void expand_catalogue(Json& document, const std::string& file, const UnitSystem& units) {
+void expand_catalogue(Json& document, const std::string& file) {
   if (!document.is_object() || !document.contains("scene")) return;
   Json& scene = document["scene"];
   if (!scene.is_object()) return;
-  const Json catalogue = find_catalogue(JsonNode(scene, file, "/scene"), units);
+  const Json catalogue = find_catalogue(JsonNode(scene, file, "/scene"));
   std::vector<std::string> names;
   for (const auto& [name, section] : catalogue.items()) names.push_back(name);
   for (const auto& [section, pointer] : ReferenceSearch().find(scene, catalogue_key)) {
@@ -91,8 +91,7 @@ void expand_catalogue(Json& document, const std::string& file, const UnitSystem&
     }
     *section = catalogue.at(read_known_name(node.at(catalogue_key), "section", names));
   }
-  expand_section_choices(document, ReferenceSearch().find(scene, "variable"), file, catalogue,
-                         units);
+  expand_section_choices(document, ReferenceSearch().find(scene, "variable"), file, catalogue);
 }
 
 std::vector<std::string> section_variables(const Json& document) {

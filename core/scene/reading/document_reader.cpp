@@ -107,9 +107,9 @@ std::vector<CaseChanges> cases_of(const Json& document, const std::string& file)
   return read_cases(JsonNode(document, file));
 }
 
-Json whole_document(const ProblemText& text, const UnitSystem& units) {
+Json whole_document(const ProblemText& text) {
   Json document = overridden_document(text);
-  expand_catalogue(document, text.file, units);
+  expand_catalogue(document, text.file);
   return document;
 }
 

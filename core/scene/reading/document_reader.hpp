@@ -22,7 +22,7 @@ std::vector<CaseChanges> cases_of(const Json& document, const std::string& file)
 
 /// The document that a problem is read from: with all overrides, and sections of the catalogue
 /// written out. @throws InputError
-Json whole_document(const ProblemText& text, const UnitSystem& units);
+Json whole_document(const ProblemText& text);
 
 /// @param numbers  that knows variable_names()
 /// @throws InputError

@@ -35,7 +35,7 @@ std::size_t ExpressionBuilder::column_of(std::size_t position) const {
 int ExpressionBuilder::add_quantity(std::size_t position, double value, const std::string& unit) {
   MeasuredUnit measured;
   try {
-    if (!unit.empty()) measured = units_.measure(without_blanks_at_powers(unit));
+    if (!unit.empty()) measured = measure_unit(without_blanks_at_powers(unit));
   } catch (const UnitError& error) {
     const bool is_product = find(unit) != nullptr || unit == "pi";
     fail(position, is_product ? std::string("a product needs its *") : error.what());
@@ -85,7 +85,7 @@ const Symbol* ExpressionBuilder::find(const std::string& name) const {
 
 bool ExpressionBuilder::is_unit(const std::string& name) const {
   try {
-    units_.measure(name);
+    measure_unit(name);
     return true;
   } catch (const UnitError&) {
     return false;
@@ -94,7 +94,7 @@ bool ExpressionBuilder::is_unit(const std::string& name) const {
 
 ReadExpression ExpressionBuilder::take() {
   expression_.text = std::string(text_);
-  const auto quantity = find_quantity(facts_.back().dimension, units_);
+  const auto quantity = find_quantity(facts_.back().dimension);
   expression_.quantity = quantity ? quantity->name : "a quantity";
   expression_.unit = quantity ? std::string(quantity->unit) : base_units(facts_.back().dimension);
   return {std::make_shared<const Expression>(std::move(expression_)), facts_.back().dimension,

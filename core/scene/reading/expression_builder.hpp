@@ -60,9 +60,8 @@ struct ReadExpression {
 class ExpressionBuilder {
  public:
   /// All must outlive this.
-  ExpressionBuilder(std::string_view text, const std::vector<Symbol>& symbols,
-                    const UnitSystem& units)
-      : text_(text), symbols_(symbols), units_(units) {}
+  ExpressionBuilder(std::string_view text, const std::vector<Symbol>& symbols)
+      : text_(text), symbols_(symbols) {}
 
   /// @throws ExpressionError at the column of the position, always
   [[noreturn]] void fail(std::size_t position, const std::string& why) const {
@@ -97,7 +96,7 @@ class ExpressionBuilder {
 
   std::size_t column_of(std::size_t position) const;
   const StepFacts& fact(int step) const { return facts_[step]; }
-  std::string described(int step) const { return describe(fact(step).dimension, units_); }
+  std::string described(int step) const { return describe(fact(step).dimension); }
 
   int add(const ExpressionStep& step, const StepFacts& facts);
   int add_constant(double value, const Dimension& dimension);
@@ -120,7 +119,6 @@ class ExpressionBuilder {
 
   std::string_view text_;
   const std::vector<Symbol>& symbols_;
-  const UnitSystem& units_;
   Expression expression_;
   std::vector<StepFacts> facts_;  ///< one a step
 };

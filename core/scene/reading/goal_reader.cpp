@@ -66,14 +66,13 @@ void read_limits(const JsonNode& node, const Quantity& quantity, const NumberRea
 }
 
 /// People see a response in the unit of its first limit, unless it says its own.
-void show_as_limited(const JsonNode& node, ResponseSettings& response,
-                     const NumberReader& numbers) {
+void show_as_limited(const JsonNode& node, ResponseSettings& response) {
   for (const char* key : {"upper", "lower"}) {
     const std::optional<JsonNode> limit = node.find(key);
     if (!limit || !response.unit.empty()) continue;
     response.unit = written_unit({*limit});
     if (response.unit.empty()) continue;
-    response.unit_scale = numbers.scale(response.unit, quantity_of(response));
+    response.unit_scale = unit_scale(response.unit, quantity_of(response));
   }
 }
 
@@ -127,12 +126,10 @@ const ConstraintSettings& read_varied_constraint(const JsonNode& node, const Pro
   return constraint;
 }
 
-Quantity quantity_of(const ConstraintSettings& constraint, const ProblemFile& problem,
-                     const NumberReader& numbers) {
+Quantity quantity_of(const ConstraintSettings& constraint, const ProblemFile& problem) {
   const ResponseSettings* response = find_named(problem.responses, constraint.response);
-  if (response) return quantity_of(*response);
-  const auto known = problem.variables[constraint.linear.front().first].quantity;
-  return problem.has_cases() && known ? *known : quantity_of(constraint.linear, numbers);
+  return response ? quantity_of(*response)
+                  : problem.variables[constraint.linear.front().first].quantity;
 }
 
 }  // namespace
@@ -156,7 +153,7 @@ ConstraintSettings read_constraint(const std::string& name, const JsonNode& node
   ResponseSettings& response = read_response_or_formula(node.at("response"), responses, numbers);
   constraint.response = response.name;
   read_limits(node, quantity_of(response), numbers, constraint);
-  show_as_limited(node, response, numbers);
+  show_as_limited(node, response);
   return constraint;
 }
 
@@ -321,7 +318,7 @@ ParetoSettings read_pareto(const JsonNode& node, const ProblemFile& problem,
   ParetoSettings pareto;
   const ConstraintSettings& constraint =
       read_varied_constraint(node.at("constraint"), problem, numbers, pareto.constraint);
-  const Quantity quantity = quantity_of(constraint, problem, numbers);
+  const Quantity quantity = quantity_of(constraint, problem);
   pareto.from = numbers.fixed(node.at("from"), quantity);
   pareto.to = numbers.fixed(node.at("to"), quantity);
   if (pareto.from == pareto.to) node.at("to").fail_with_value("must differ from \"from\"");

@@ -41,7 +41,7 @@ std::string unit_of_text(const std::string& text) {
   const std::string unit(std::find_if(rest, end, [](char c) { return c != ' '; }), end);
   if (unit.empty()) return "";
   try {
-    UnitSystem().measure(unit);
+    measure_unit(unit);
     return unit;
   } catch (const UnitError&) {
     return "";
@@ -175,7 +175,7 @@ void require_unit(const Json& document, const std::string& assignment, const std
   }
   const std::string unit = written.is_string() ? unit_of_text(written) : "";
   if (unit.empty()) return;
-  const double number = value.get<double>(), in_unit = number / UnitSystem().measure(unit).scale;
+  const double number = value.get<double>(), in_unit = number / measure_unit(unit).scale;
   const std::string of_si =
       in_unit == number
           ? ""

@@ -102,14 +102,13 @@ bool is_frequency(const ResponseSettings& response) {
 }
 
 /// Of responses that are read: an expression without formula is not.
-std::vector<Symbol> symbols_of(const std::vector<ResponseSettings>& responses,
-                               const NumberReader& numbers) {
+std::vector<Symbol> symbols_of(const std::vector<ResponseSettings>& responses) {
   std::vector<Symbol> symbols;
   for (std::size_t i = 0; i < responses.size(); ++i) {
     const bool is_read = responses[i].type != ResponseType::expression || responses[i].expression;
     if (!is_read) continue;
-    symbols.push_back({responses[i].name, numbers.dimension_of(quantity_of(responses[i])),
-                       std::nullopt, ExpressionArgument{Kind::response, i}});
+    symbols.push_back({responses[i].name, dimension_of(quantity_of(responses[i])), std::nullopt,
+                       ExpressionArgument{Kind::response, i}});
   }
   return symbols;
 }
@@ -126,7 +125,7 @@ void name_frequency(Expression& expression, const std::vector<ResponseSettings>&
 
 ResponseSettings make_response(const std::string& name, const JsonNode& value,
                                const std::vector<ResponseSettings>& known, NumberReader& numbers) {
-  Expression expression = *numbers.formula(value, symbols_of(known, numbers)).expression;
+  Expression expression = *numbers.formula(value, symbols_of(known)).expression;
   name_frequency(expression, known);
   if (expression.arguments.empty()) {
     value.fail_with_value("must depend on a response or on a design variable");
@@ -275,7 +274,7 @@ ResponseSettings read_expression_response(const std::string& name, const JsonNod
   if (const auto unit = node.find("unit")) {
     response.unit = unit->text();
     try {
-      response.unit_scale = numbers.scale(response.unit, quantity_of(response));
+      response.unit_scale = unit_scale(response.unit, quantity_of(response));
     } catch (const UnitError& error) {
       unit->fail_with_value(fmt::format("must be a unit of {}, which the formula is",
                                         describe(quantity_of(response))),

@@ -40,10 +40,9 @@ std::vector<double> read_start(const JsonNode& node, const std::vector<DesignVar
   std::vector<double> start = start_values(variables);
   for (const auto& [name, value] : node.members()) {
     const std::size_t i = numbers.variable(value, name);
-    const Quantity quantity = *numbers.quantity_of(static_cast<int>(i));
-    start[i] = numbers.fixed(value, quantity);
+    start[i] = numbers.fixed(value, variables[i].quantity);
     if (start[i] < variables[i].lower || start[i] > variables[i].upper) {
-      value.fail_with_value("must lie within the bounds of " + bounds_text(variables[i], quantity));
+      value.fail_with_value("must lie within the bounds of " + bounds_text(variables[i]));
     }
   }
   return start;

@@ -111,10 +111,15 @@ Head head_of(const std::string& cell) {
   return {cell, ""};
 }
 
+/// {"file": "gas_force.csv", "columns": ["angle", "force"], "units": ["deg", "N"]}: a text file
+/// from the folder of the problem file on. Cells are separated by commas, semicolons, tabs or blanks;
+/// decimals have a point; lines that begin with # are left out. Columns have names, which are those
+/// of the first line, or numbers from 1. Units stand in the first line, "angle [deg]", or in "units".
+/// @param node  has the keys "file" and "columns"
+/// @throws InputError with the number of the line
 class TableFile {
  public:
-  TableFile(const JsonNode& node, const UnitSystem& units)
-      : name_(node.at("file")), columns_(node.at("columns")), units_(units) {
+  explicit TableFile(const JsonNode& node) : name_(node.at("file")), columns_(node.at("columns")) {
     if (const auto given = node.find("units")) units_node_.emplace(*given);
     std::string text = read_text_file(name_.named_file());
     if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
@@ -201,7 +206,7 @@ class TableFile {
                       name_.text(), is_head ? heads_[place].name : "value", quantity.unit));
     }
     try {
-      const double scale = units_.scale(unit, quantity);
+      const double scale = unit_scale(unit, quantity);
       check_unit_of_file(at, place, scale, quantity);
       return scale;
     } catch (const UnitError& error) {
@@ -216,7 +221,7 @@ class TableFile {
     if (!units_node_ || place >= heads_.size() || heads_[place].unit.empty()) return;
     const Head& head = heads_[place];
     try {
-      if (units_.scale(head.unit, quantity) == scale) return;
+      if (unit_scale(head.unit, quantity) == scale) return;
     } catch (const UnitError&) {  // a remark in brackets
       return;
     }
@@ -239,21 +244,9 @@ class TableFile {
 
   JsonNode name_, columns_;
   std::optional<JsonNode> units_node_;
-  const UnitSystem& units_;
   std::vector<Row> rows_;
   std::vector<Head> heads_;  ///< none: the file begins with numbers
 };
-
-/// Reads {"file": "gas_force.csv", "columns": ["angle", "force"], "units": ["deg", "N"]}: a text file
-/// from the folder of the problem file on. Cells are separated by commas, semicolons, tabs or blanks;
-/// decimals have a point; lines that begin with # are left out. Columns have names, which are those
-/// of the first line, or numbers from 1. Units stand in the first line, "angle [deg]", or in "units".
-/// @param node  has the keys "file" and "columns"
-/// @throws InputError with the number of the line
-TableColumns read_table_file(const JsonNode& node, const std::array<Quantity, 2>& quantities,
-                             const UnitSystem& units) {
-  return TableFile(node, units).read(quantities);
-}
 
 /// What a table is a function of, and the key of its list.
 struct TableArgument {
@@ -309,8 +302,7 @@ void read_points(const LawSource& source, const TableArgument& argument, NumberR
     }
     return;
   }
-  TableColumns columns =
-      read_table_file(source.node, {argument.quantity, source.value}, numbers.units());
+  TableColumns columns = TableFile(source.node).read({argument.quantity, source.value});
   table.times = std::move(columns.arguments);
   table.values.assign(columns.values.begin(), columns.values.end());
 }
