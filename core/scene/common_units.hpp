@@ -12,6 +12,7 @@ namespace pleuel {
 struct CommonUnit {
   std::string_view unit, si;
   double scale;
+  Dimension dimension = {};  ///< of an SI unit
 };
 
 /// Units that most files have. Their conversions need no database, which takes some milliseconds to
