@@ -87,9 +87,7 @@ ReadExpression NumberReader::formula(const JsonNode& node, const std::vector<Sym
   std::vector<Symbol> all = symbols_;
   all.insert(all.end(), more.begin(), more.end());
   for (const std::string& name : left_out_) {
-    const bool is_known =
-        std::ranges::any_of(all, [&](const Symbol& one) { return one.name == name; });
-    if (!is_known) all.push_back({name, {}});
+    if (!find_named(all, name)) all.push_back({name, {}});
   }
   ReadExpression read = read_formula(node, all);
   for (const ExpressionArgument& argument : read.expression->arguments) {
@@ -123,12 +121,10 @@ double NumberReader::constant_formula(const JsonNode& node, const Quantity& quan
   return *read.constant;
 }
 
-/// A plain 0 is as well no length, no mass, …
 void NumberReader::check_quantity(const JsonNode& node, const ReadExpression& read,
                                   const Quantity& quantity) const {
-  const bool is_zero = read.constant && *read.constant == 0.0 && read.dimension.is_number();
   const Dimension asked = dimension_of(quantity);
-  if (is_zero || asked == read.dimension) return;
+  if (read.is_zero() || asked == read.dimension) return;
   std::string more = fmt::format(", which is {}", describe(read.dimension));
   if (asked / Dimension::angle() == read.dimension) {
     more +=

@@ -11,22 +11,16 @@ namespace pleuel {
 namespace {
 
 /// A constant, or the dimension of a bound of a variable.
-struct WrittenValue {
-  double value = 0.0;
-  Dimension dimension;
-  bool counts_cycles = false;  ///< made from Hz
-};
-
-WrittenValue read_text(const JsonNode& node, const std::vector<Symbol>& symbols) {
+KnownNumber read_text(const JsonNode& node, const std::vector<Symbol>& symbols) {
   if (is_formula(node)) {
     const ReadExpression read = read_formula(node, symbols);
     if (!read.constant) node.fail_with_value("must not depend on design variables");
-    return {*read.constant, read.dimension, read.counts_cycles};
+    return read;
   }
   const WrittenQuantity written = split_quantity(node.value().get<std::string>());
-  if (written.unit.empty()) return {written.value, {}};
+  if (written.unit.empty()) return {{}, written.value};
   const MeasuredUnit unit = measure_unit(written.unit);
-  return {written.value * unit.scale, unit.dimension, is_of_cycles(written.unit)};
+  return {unit.dimension, written.value * unit.scale, is_of_cycles(written.unit)};
 }
 
 Symbol read_constant(const std::string& name, const JsonNode& node,
@@ -36,8 +30,8 @@ Symbol read_constant(const std::string& name, const JsonNode& node,
     node.fail_with_value("must be a number, a text with unit, or a formula \"= …\"");
   }
   try {
-    const WrittenValue written = read_text(node, symbols);
-    return {name, written.dimension, written.value, std::nullopt, written.counts_cycles};
+    const KnownNumber written = read_text(node, symbols);
+    return {name, written.dimension, written.constant, std::nullopt, written.counts_cycles};
   } catch (const UnitError& error) {
     node.fail_with_value("must be a number, a text with unit, or a formula \"= …\"",
                          fmt::format(": {}{}", error.what(),
@@ -70,10 +64,9 @@ Dimension dimension_of_variable(const JsonNode& node, const std::vector<Symbol>&
 }  // namespace
 
 std::string formula_hint(const std::string& text, const std::vector<Symbol>& symbols) {
-  const bool is_name =
-      std::ranges::any_of(symbols, [&](const Symbol& symbol) { return symbol.name == text; });
   const std::size_t sign = std::min({text.find_first_of("*("), text.find(" + "), text.find(" - ")});
-  if (is_name) return fmt::format("; a formula begins with \"=\": \"= {}\"", text);
+  if (find_named(symbols, text))
+    return fmt::format("; a formula begins with \"=\": \"= {}\"", text);
   if (sign == std::string::npos) return "";
   return fmt::format(
       "; with the sign at column {} it looks like a formula, which begins with \"=\": "
