@@ -16,6 +16,7 @@
 #include "core/scene/common_units.hpp"
 #include "core/scene/dimension.hpp"
 #include "core/scene/reading/suggestion.hpp"
+#include "core/scene/reading/unit_scanner.hpp"
 
 namespace pleuel {
 namespace {
@@ -56,18 +57,7 @@ void add_bytes(ut_system* system) {
   add_symbol(system, "GiB", "1073741824 B");
 }
 
-bool is_digit(char c) {
-  return std::isdigit(static_cast<unsigned char>(c)) != 0;
-}
-bool is_space(char c) {
-  return std::isspace(static_cast<unsigned char>(c)) != 0;
-}
-
-std::string trim(std::string_view text) {
-  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
-  return std::string(text);
-}
+constexpr std::string_view blanks = " \t\n\v\f\r";
 
 /// Whether the digit at `position` belongs to an exponent (m2, m^2, m-2, m^-2) or is the 1 of
 /// "1/s".
@@ -86,9 +76,9 @@ bool is_exponent(const std::string& unit, std::size_t position) {
 /// slips of the pen, as in "1 000 mm" or "120 mm 30".
 bool has_stray_number(const std::string& unit) {
   for (std::size_t i = 0; i < unit.size(); ++i) {
-    if (!is_digit(unit[i])) continue;
+    if (!is_digit_character(unit[i])) continue;
     if (!is_exponent(unit, i)) return true;
-    while (i + 1 < unit.size() && is_digit(unit[i + 1])) ++i;
+    while (i + 1 < unit.size() && is_digit_character(unit[i + 1])) ++i;
   }
   return false;
 }
@@ -280,13 +270,13 @@ const ut_system* database() {
 }  // namespace
 
 double unit_scale(const std::string& unit, const Quantity& quantity) {
-  const std::string name = trim(unit);
+  const std::string name = trimmed(unit, blanks);
   if (const auto common = find_common_scale(name, quantity.unit)) return *common;
   return scale_by_database(name, quantity);
 }
 
 double scale_by_database(const std::string& unit, const Quantity& quantity) {
-  const std::string name = trim(unit);
+  const std::string name = trimmed(unit, blanks);
   refuse_misread(name);
   const UnitHandle from = has_stray_number(name) ? nullptr : parse_unit(database(), name);
   const std::string si(quantity.unit);
@@ -302,12 +292,12 @@ double scale_by_database(const std::string& unit, const Quantity& quantity) {
 }
 
 MeasuredUnit measure_unit(const std::string& unit) {
-  const auto common = find_common_measure(trim(unit));
+  const auto common = find_common_measure(trimmed(unit, blanks));
   return common ? *common : measure_by_database(unit);
 }
 
 MeasuredUnit measure_by_database(const std::string& unit) {
-  const std::string name = trim(unit);
+  const std::string name = trimmed(unit, blanks);
   refuse_misread(name);
   const UnitHandle handle = has_stray_number(name) ? nullptr : parse_unit(database(), name);
   if (!handle && name != "1") {
@@ -336,9 +326,9 @@ namespace {
 
 /// "10,5 mm": written as in half of the world.
 void refuse_decimal_comma(const char* begin, const char* comma, const char* end) {
-  if (comma == end || *comma != ',' || comma + 1 == end || !is_digit(comma[1])) return;
+  if (comma == end || *comma != ',' || comma + 1 == end || !is_digit_character(comma[1])) return;
   const std::string whole(begin, comma), rest(comma + 1, end);
-  const auto behind = std::ranges::find_if_not(rest, is_digit);
+  const auto behind = std::ranges::find_if_not(rest, is_digit_character);
   if (behind - rest.begin() == 3 && whole != "0") {
     throw UnitError(
         fmt::format("numbers have a decimal point and nothing between thousands; write "
@@ -351,9 +341,9 @@ void refuse_decimal_comma(const char* begin, const char* comma, const char* end)
 }  // namespace
 
 WrittenQuantity split_quantity(const std::string& text) {
-  const std::string trimmed = trim(text);
-  const char* begin = trimmed.data();
-  const char* end = begin + trimmed.size();
+  const std::string whole = trimmed(text, blanks);
+  const char* begin = whole.data();
+  const char* end = begin + whole.size();
   if (begin != end && *begin == '+' && begin + 1 != end && begin[1] != '-') ++begin;
   WrittenQuantity written;
   const auto [rest, status] = std::from_chars(begin, end, written.value);
@@ -364,7 +354,7 @@ WrittenQuantity split_quantity(const std::string& text) {
     throw UnitError("it does not begin with a number");
   }
   refuse_decimal_comma(begin, rest, end);
-  written.unit = trim(std::string_view(rest, end - rest));
+  written.unit = trimmed(std::string_view(rest, end - rest), blanks);
   return written;
 }
 

@@ -301,10 +301,7 @@ void check_constant(const Json& document, const std::string& pointer, const std:
                     const std::string& file) {
   constexpr std::string_view constants = "/constants/";
   if (!pointer.starts_with(constants)) return;
-  std::vector<std::string> names;
-  if (document.contains("constants") && document["constants"].is_object()) {
-    for (const auto& [name, value] : document["constants"].items()) names.push_back(name);
-  }
+  const std::vector<std::string> names = keys_of(document, "constants");
   const std::string name = pointer.substr(constants.size());
   if (std::ranges::find(names, name) != names.end()) return;
   throw InputError(fmt::format("{}: {} names the unknown constant \"{}\"{}", file, place, name,

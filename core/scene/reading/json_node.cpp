@@ -52,9 +52,7 @@ void JsonNode::allow_keys(const std::vector<std::string_view>& known) const {
 
 JsonNode JsonNode::at(const std::string& key) const {
   if (std::optional<JsonNode> child = find(key)) return *child;
-  std::vector<std::string> present;
-  for (const auto& [name, member] : value_->items()) present.push_back(name);
-  const std::string similar = closest(key, present);
+  const std::string similar = closest(key, keys_of(*value_));
   fail(fmt::format("is missing the key \"{}\"{}", key,
                    similar.empty() ? "" : fmt::format("; is \"{}\" a misspelling?", similar)));
 }

@@ -50,10 +50,8 @@ class SectionList {
                             child_pointer("/variables", name));
     variable.allow_keys({"start", "choices"});
     const JsonNode choices = variable.at("choices");
-    std::vector<std::string> known;
-    for (const auto& [one, section] : catalogue.items()) known.push_back(one);
     for (const JsonNode& choice : choices.items()) {
-      names_.push_back(read_known_name(choice, "section", known));
+      names_.push_back(read_known_name(choice, "section", keys_of(catalogue)));
     }
     if (names_.empty()) choices.fail("must have at least one choice");
     sort(file);
@@ -147,11 +145,7 @@ std::string named_variable(const SectionReference& reference, const Json& docume
                            const std::string& file) {
   const JsonNode node(*reference.section, file, reference.pointer);
   node.allow_keys({"variable"});
-  std::vector<std::string> known;
-  if (document.contains("variables") && document["variables"].is_object()) {
-    for (const auto& [name, variable] : document["variables"].items()) known.push_back(name);
-  }
-  return read_known_name(node.at("variable"), "variable", known);
+  return read_known_name(node.at("variable"), "variable", keys_of(document, "variables"));
 }
 
 }  // namespace

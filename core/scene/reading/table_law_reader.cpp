@@ -13,6 +13,7 @@
 #include "core/scene/reading/json_node.hpp"
 #include "core/scene/reading/syntax_error.hpp"
 #include "core/scene/reading/time_function_reader.hpp"
+#include "core/scene/reading/unit_scanner.hpp"
 #include "core/scene/units.hpp"
 
 namespace pleuel {
@@ -27,13 +28,8 @@ struct TableColumns {
 
 namespace fs = std::filesystem;
 
-/// Without blanks around it, and, of a cell, quotes.
-std::string trimmed(std::string text, std::string_view covers = " \t\r\"") {
-  const auto is_cover = [&](char c) { return covers.find(c) != std::string_view::npos; };
-  while (!text.empty() && is_cover(text.back())) text.pop_back();
-  text.erase(text.begin(), std::ranges::find_if_not(text, is_cover));
-  return text;
-}
+/// Around cells.
+constexpr std::string_view covers = " \t\r\"";
 
 std::optional<double> number_of(const std::string& cell) {
   const char* begin = cell.data() + (cell.starts_with('+') ? 1 : 0);
@@ -73,7 +69,7 @@ std::vector<std::string> split(const std::string& line, char separator) {
   std::size_t begin = 0;
   while (begin <= line.size()) {
     const std::size_t end = end_of_cell(line, begin, separator);
-    const std::string cell = trimmed(line.substr(begin, end - begin));
+    const std::string cell = trimmed(line.substr(begin, end - begin), covers);
     if (separator != ' ' || !cell.empty()) cells.push_back(cell);
     begin = end + 1;
   }
@@ -91,7 +87,8 @@ std::vector<Row> rows_of(const std::string& text) {
     const std::string line = trimmed(text.substr(begin, end - begin), " \r");
     ++line_number;
     begin = end + 1;
-    if (trimmed(line).empty() || trimmed(line).starts_with('#')) continue;
+    const std::string content = trimmed(line, covers);
+    if (content.empty() || content.starts_with('#')) continue;
     rows.push_back({line_number, split(line, separator_of(line))});
   }
   return rows;
@@ -106,7 +103,8 @@ Head head_of(const std::string& cell) {
   for (const auto& [open, close] : {std::pair('[', ']'), std::pair('(', ')')}) {
     const std::size_t at = cell.find(open);
     if (at == std::string::npos || !cell.ends_with(close)) continue;
-    return {trimmed(cell.substr(0, at)), trimmed(cell.substr(at + 1, cell.size() - at - 2))};
+    return {trimmed(cell.substr(0, at), covers),
+            trimmed(cell.substr(at + 1, cell.size() - at - 2), covers)};
   }
   return {cell, ""};
 }
