@@ -107,9 +107,7 @@ int ExpressionBuilder::add_symbol(const Symbol& symbol) {
     return add_constant({symbol.dimension, symbol.constant, symbol.counts_cycles});
   }
   std::vector<ExpressionArgument>& all = expression_.arguments;
-  const auto known = std::ranges::find_if(all, [&](const ExpressionArgument& one) {
-    return one.kind == symbol.argument->kind && one.index == symbol.argument->index;
-  });
+  const auto known = std::ranges::find(all, *symbol.argument);
   const auto index = static_cast<int>(known - all.begin());
   if (known == all.end()) all.push_back(*symbol.argument);
   return add({Operation::argument, 0.0, index}, {symbol.dimension, std::nullopt});
