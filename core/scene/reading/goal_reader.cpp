@@ -1,6 +1,7 @@
 #include "core/scene/reading/goal_reader.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -74,6 +75,15 @@ void show_as_limited(const JsonNode& node, ResponseSettings& response) {
     if (response.unit.empty()) continue;
     response.unit_scale = unit_scale(response.unit, quantity_of(response));
   }
+}
+
+/// What {"minimize": …} or {"maximize": …} names.
+std::pair<JsonNode, Aim> read_aim(const JsonNode& node) {
+  node.allow_keys({"minimize", "maximize", "over_cases"});
+  const auto largest = node.find("maximize");
+  if (!largest) return {node.at("minimize"), Aim::minimize};
+  if (node.find("minimize")) node.fail("has both \"minimize\" and \"maximize\"");
+  return {*largest, Aim::maximize};
 }
 
 std::vector<std::string> read_case_names(const JsonNode& node) {
@@ -159,12 +169,8 @@ ConstraintSettings read_constraint(const std::string& name, const JsonNode& node
 
 Objective read_objective(const JsonNode& node, std::vector<ResponseSettings>& responses,
                          NumberReader& numbers) {
-  node.allow_keys({"minimize", "maximize", "over_cases"});
-  const auto largest = node.find("maximize");
-  if (largest && node.find("minimize")) node.fail("has both \"minimize\" and \"maximize\"");
-  const JsonNode name = largest ? *largest : node.at("minimize");
-  Objective objective{read_response_or_formula(name, responses, numbers).name,
-                      largest ? Aim::maximize : Aim::minimize};
+  const auto [name, aim] = read_aim(node);
+  Objective objective{read_response_or_formula(name, responses, numbers).name, aim};
   if (const auto over_cases = node.find("over_cases")) read_over_cases(*over_cases, objective);
   return objective;
 }
@@ -243,11 +249,7 @@ Objective read_goal(const JsonNode& node, const ProblemFile& problem, const Numb
   JsonNode name = node;
   Aim aim = Aim::minimize;
   if (node.value().is_object()) {
-    node.allow_keys({"minimize", "maximize", "over_cases"});
-    const auto largest = node.find("maximize");
-    if (largest && node.find("minimize")) node.fail("has both \"minimize\" and \"maximize\"");
-    name = largest ? *largest : node.at("minimize");
-    if (largest) aim = Aim::maximize;
+    std::tie(name, aim) = read_aim(node);
     over_cases = node.find("over_cases");
   }
   const std::string written = problem.has_cases() ? spaced_case(name.text()) : name.text();
