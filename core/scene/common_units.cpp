@@ -57,18 +57,9 @@ std::span<const CommonUnit> common_units() {
   return table;
 }
 
-std::optional<double> find_common_scale(std::string_view unit, std::string_view si) {
-  for (const CommonUnit& common : table) {
-    if (common.unit == unit && common.si == si) return common.scale;
-  }
-  return std::nullopt;
-}
-
-std::optional<MeasuredUnit> find_common_measure(std::string_view unit) {
-  const auto common = std::ranges::find(table, unit, &CommonUnit::unit);
-  if (common == std::end(table)) return std::nullopt;
-  const auto si = std::ranges::find(table, common->si, &CommonUnit::unit);
-  return MeasuredUnit{common->scale, si->dimension};
+const CommonUnit* find_common_unit(std::string_view unit) {
+  const auto* found = std::ranges::find(table, unit, &CommonUnit::unit);
+  return found == std::end(table) ? nullptr : found;
 }
 
 }  // namespace pleuel

@@ -27,12 +27,8 @@ struct FreeSystem {
 struct FreeUnit {
   void operator()(ut_unit* unit) const { ut_free(unit); }
 };
-struct FreeConverter {
-  void operator()(cv_converter* converter) const { cv_free(converter); }
-};
 using SystemHandle = std::unique_ptr<ut_system, FreeSystem>;
 using UnitHandle = std::unique_ptr<ut_unit, FreeUnit>;
-using ConverterHandle = std::unique_ptr<cv_converter, FreeConverter>;
 
 UnitHandle parse_unit(const ut_system* system, const std::string& text) {
   return UnitHandle(ut_parse(system, text.c_str(), UT_UTF8));
@@ -83,13 +79,6 @@ bool has_stray_number(const std::string& unit) {
   return false;
 }
 
-bool has_angle(const ut_unit* unit) {
-  char definition[256];
-  const int length = ut_format(unit, definition, sizeof definition, UT_ASCII | UT_DEFINITION);
-  if (length < 0 || length >= static_cast<int>(sizeof definition)) return false;
-  return std::string_view(definition, length).find("rad") != std::string_view::npos;
-}
-
 /// Of a frequency both cycles and radians are units; "1/s" could be either of them.
 bool counts_cycles(const std::string& name) {
   return name.ends_with("Hz") || name.ends_with("hertz");
@@ -118,42 +107,33 @@ void refuse_misread(const std::string& unit) {
   }
 }
 
-double cycles_factor(const std::string& name, const Quantity& quantity, const ut_unit* from) {
+bool has_angle(const Dimension& dimension) {
+  return dimension.powers[3] != 0.0;
+}
+
+Dimension without_angle(Dimension dimension) {
+  dimension.powers[3] = 0.0;
+  return dimension;
+}
+
+double cycles_factor(const std::string& name, const Quantity& quantity, const Dimension& from) {
   const auto is = [&quantity](const Quantity& other) {
     return quantity.name == other.name && quantity.unit == other.unit;
   };
   if (is(quantities::angular_frequency) && counts_cycles(name)) return 2.0 * std::numbers::pi;
-  const bool asks_for_cycles = is(quantities::frequency);
-  return asks_for_cycles && has_angle(from) ? 0.5 / std::numbers::pi : 1.0;
+  return is(quantities::frequency) && has_angle(from) ? 0.5 / std::numbers::pi : 1.0;
 }
 
-void check_dimension(const std::string& name, const ut_unit* from, const ut_unit* to) {
-  const bool has_right_dimension = to != nullptr && ut_are_convertible(from, to) != 0;
-  if (has_right_dimension && has_angle(to) && !has_angle(from)) {
-    const UnitHandle rate = parse_unit(ut_get_system(to), "rad/s");
-    const bool is_rate = rate && ut_are_convertible(rate.get(), to) != 0;
-    throw UnitError(fmt::format("\"{}\" names no angle{}", name,
-                                is_rate
-                                    ? "; write rad/s, deg/s or rpm"
-                                    : ", and what is measured has one: write \"rad\" where it is"));
-  }
-  if (!has_right_dimension || has_angle(from) != has_angle(to)) {
+void check_dimension(const std::string& name, const Dimension& from, const Dimension& to) {
+  if (without_angle(from) != without_angle(to) || (has_angle(from) && !has_angle(to))) {
     throw UnitError(fmt::format("\"{}\" measures something else", name));
   }
-}
-
-double proportional_factor(const std::string& name, ut_unit* from, ut_unit* to) {
-  const ConverterHandle converter(ut_get_converter(from, to));
-  const double scale = converter ? cv_convert_double(converter.get(), 1.0) : 0.0;
-  const double zero = converter ? cv_convert_double(converter.get(), 0.0) : 0.0;
-  if (!std::isfinite(zero)) {  // a reciprocal, which the library converts too: s to 1/s
-    throw UnitError(fmt::format("\"{}\" measures something else", name));
-  }
-  if (zero != 0.0) throw UnitError(fmt::format("\"{}\" does not count from zero", name));
-  if (!std::isfinite(scale) || scale == 0.0) {
-    throw UnitError(fmt::format("\"{}\" is out of the range of numbers", name));
-  }
-  return scale;
+  if (has_angle(from) == has_angle(to)) return;
+  const bool is_rate = without_angle(to) == measure_unit("1/s").dimension;
+  throw UnitError(fmt::format("\"{}\" names no angle{}", name,
+                              is_rate
+                                  ? "; write rad/s, deg/s or rpm"
+                                  : ", and what is measured has one: write \"rad\" where it is"));
 }
 
 std::string in_small_letters(std::string_view text) {
@@ -267,48 +247,50 @@ const ut_system* database() {
   return system.get();
 }
 
+/// @param si  of the quantity that is asked for; empty: of any
+MeasuredUnit measured_by_database(const std::string& name, std::string_view si) {
+  refuse_misread(name);
+  const UnitHandle handle = has_stray_number(name) ? nullptr : parse_unit(database(), name);
+  if (!handle && (si.empty() || has_stray_number(std::string(si)))) {
+    if (const auto dimension = read_base_units(name)) return {1.0, *dimension};
+  }
+  if (!handle) throw unknown_unit(name, si);
+  UnitTaker taker;
+  if (taker.take(handle.get())) return taker.found;
+  throw UnitError(fmt::format("\"{}\" does not count from zero", name));
+}
+
 }  // namespace
 
 double unit_scale(const std::string& unit, const Quantity& quantity) {
-  const std::string name = trimmed(unit, blanks);
-  if (const auto common = find_common_scale(name, quantity.unit)) return *common;
-  return scale_by_database(name, quantity);
+  const CommonUnit* common = find_common_unit(trimmed(unit, blanks));
+  if (common != nullptr && common->si == quantity.unit) return common->scale;
+  return scale_by_database(unit, quantity);
 }
 
 double scale_by_database(const std::string& unit, const Quantity& quantity) {
   const std::string name = trimmed(unit, blanks);
-  refuse_misread(name);
-  const UnitHandle from = has_stray_number(name) ? nullptr : parse_unit(database(), name);
-  const std::string si(quantity.unit);
-  const auto root = has_stray_number(si) ? read_base_units(si) : std::nullopt;
-  if (root && read_base_units(name) == root) return 1.0;
-  if (!from) throw unknown_unit(name, si);
-  const UnitHandle to = parse_unit(database(), si);
-  const double cycles = cycles_factor(name, quantity, from.get());
-  if (cycles == 1.0 || ut_are_convertible(from.get(), to.get()) == 0) {
-    check_dimension(name, from.get(), to.get());
+  const MeasuredUnit from = measured_by_database(name, quantity.unit);
+  const Dimension to = measure_unit(std::string(quantity.unit)).dimension;
+  const double cycles = cycles_factor(name, quantity, from.dimension);
+  if (cycles == 1.0 || without_angle(from.dimension) != without_angle(to)) {
+    check_dimension(name, from.dimension, to);
   }
-  return cycles * proportional_factor(name, from.get(), to.get());
+  if (!std::isfinite(from.scale) || from.scale == 0.0) {
+    throw UnitError(fmt::format("\"{}\" is out of the range of numbers", name));
+  }
+  return cycles * from.scale;
 }
 
 MeasuredUnit measure_unit(const std::string& unit) {
-  const auto common = find_common_measure(trimmed(unit, blanks));
-  return common ? *common : measure_by_database(unit);
+  const CommonUnit* common = find_common_unit(trimmed(unit, blanks));
+  if (common == nullptr) return measure_by_database(unit);
+  return {common->scale, find_common_unit(common->si)->dimension};
 }
 
 MeasuredUnit measure_by_database(const std::string& unit) {
   const std::string name = trimmed(unit, blanks);
-  refuse_misread(name);
-  const UnitHandle handle = has_stray_number(name) ? nullptr : parse_unit(database(), name);
-  if (!handle && name != "1") {
-    if (const auto dimension = read_base_units(name)) return {1.0, *dimension};
-    throw unknown_unit(name, "");
-  }
-  UnitTaker taker;
-  if (handle && !taker.take(handle.get())) {
-    throw UnitError(fmt::format("\"{}\" does not count from zero", name));
-  }
-  return taker.found;
+  return name == "1" ? MeasuredUnit() : measured_by_database(name, "");
 }
 
 double read_quantity(const std::string& text, const Quantity& quantity) {
