@@ -1,8 +1,6 @@
 #include "core/scene/body_rules.hpp"
 
 #include <algorithm>
-#include <map>
-#include <utility>
 
 #include <fmt/format.h>
 

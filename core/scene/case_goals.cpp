@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <optional>
-#include <stdexcept>
-#include <utility>
 
 #include "core/base/find_named.hpp"
 #include "core/base/int_size.hpp"

@@ -1,14 +1,10 @@
 #include "core/scene/problem_reader.hpp"
 
 #include <algorithm>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
-#include "core/base/error.hpp"
 #include "core/scene/reading/across_cases.hpp"
-#include "core/scene/reading/case_reader.hpp"
 #include "core/scene/reading/catalogue.hpp"
 #include "core/scene/reading/document_reader.hpp"
 #include "core/scene/reading/mistakes.hpp"

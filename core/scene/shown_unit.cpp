@@ -1,10 +1,8 @@
 #include "core/scene/shown_unit.hpp"
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <numbers>
-#include <optional>
 #include <stdexcept>
 
 #include <fmt/format.h>

@@ -3,18 +3,15 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
-#include <cmath>
 #include <memory>
 #include <numbers>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 #include <udunits2.h>
 
 #include "core/scene/common_units.hpp"
-#include "core/scene/dimension.hpp"
 #include "core/scene/reading/suggestion.hpp"
 #include "core/scene/reading/unit_scanner.hpp"
 

@@ -1,21 +1,15 @@
 #include "core/scene/reading/across_cases.hpp"
 
 #include <algorithm>
-#include <optional>
-#include <set>
-#include <utility>
 
 #include <fmt/format.h>
 
-#include "core/base/find_named.hpp"
 #include "core/scene/case_goals.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/reading/case_suffix.hpp"
 #include "core/scene/reading/goal_reader.hpp"
-#include "core/scene/reading/number_reader.hpp"
 #include "core/scene/reading/response_reader.hpp"
 #include "core/scene/reading/scene_reader.hpp"
-#include "core/scene/reading/symbols.hpp"
 #include "core/scene/reading/unit_scanner.hpp"
 #include "core/scene/reading/variable_reader.hpp"
 #include "core/scene/response_parts.hpp"

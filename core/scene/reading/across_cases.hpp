@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "core/scene/problem_file.hpp"
 #include "core/scene/reading/symbols.hpp"
 #include "core/scene/units.hpp"

@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "core/base/find_named.hpp"
 #include "core/base/int_size.hpp"
 #include "core/scene/body_chart.hpp"
-#include "core/scene/body_constants.hpp"
 #include "core/scene/held_points.hpp"
 #include "core/scene/reading/mistakes.hpp"
 

@@ -2,15 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
-#include <set>
-#include <string>
-#include <string_view>
-#include <utility>
 
 #include <fmt/format.h>
 
-#include "core/base/error.hpp"
 #include "core/base/find_named.hpp"
 #include "core/base/plain_file_name.hpp"
 #include "core/scene/case_goals.hpp"

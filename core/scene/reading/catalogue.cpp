@@ -1,7 +1,5 @@
 #include "core/scene/reading/catalogue.hpp"
 
-#include <filesystem>
-
 #include <fmt/format.h>
 
 #include "core/scene/reading/scene_reader.hpp"

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "core/scene/reading/json_text.hpp"
 #include "core/scene/units.hpp"
 

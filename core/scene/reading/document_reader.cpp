@@ -1,11 +1,7 @@
 #include "core/scene/reading/document_reader.hpp"
 
-#include <string_view>
-#include <vector>
-
 #include <fmt/format.h>
 
-#include "core/base/error.hpp"
 #include "core/base/machine_memory.hpp"
 #include "core/scene/reading/case_suffix.hpp"
 #include "core/scene/reading/catalogue.hpp"
@@ -17,7 +13,6 @@
 #include "core/scene/reading/scene_check.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 #include "core/scene/reading/settings_reader.hpp"
-#include "core/scene/reading/variable_reader.hpp"
 #include "core/scene/scene_rules.hpp"
 
 namespace pleuel {

@@ -1,15 +1,8 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
-#include "core/scene/problem_file.hpp"
 #include "core/scene/problem_text.hpp"
 #include "core/scene/reading/case_reader.hpp"
-#include "core/scene/reading/json_node.hpp"
-#include "core/scene/reading/number_reader.hpp"
 #include "core/scene/reading/variable_reader.hpp"
-#include "core/scene/units.hpp"
 
 namespace pleuel {
 

@@ -1,12 +1,7 @@
 #pragma once
 
-#include <cstddef>
 #include <memory>
-#include <optional>
 #include <stdexcept>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "core/base/expression.hpp"
 #include "core/base/find_named.hpp"

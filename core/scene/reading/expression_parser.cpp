@@ -5,16 +5,11 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "core/base/int_size.hpp"
 #include "core/scene/load_cases.hpp"
-#include "core/scene/reading/case_suffix.hpp"
-#include "core/scene/reading/expression_builder.hpp"
 #include "core/scene/reading/suggestion.hpp"
 #include "core/scene/reading/unit_scanner.hpp"
 

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "core/base/find_named.hpp"
 #include "core/scene/case_goals.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/reading/case_suffix.hpp"

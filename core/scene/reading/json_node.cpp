@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "core/base/error.hpp"
 #include "core/base/quoted.hpp"
 #include "core/scene/reading/suggestion.hpp"

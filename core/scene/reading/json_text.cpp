@@ -1,7 +1,6 @@
 #include "core/scene/reading/json_text.hpp"
 
 #include <unordered_set>
-#include <vector>
 
 #include <fmt/format.h>
 

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "core/scene/reading/case_suffix.hpp"
-#include "core/scene/reading/symbols.hpp"
 #include "core/scene/reading/unit_scanner.hpp"
 
 namespace pleuel {

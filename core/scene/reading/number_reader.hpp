@@ -1,14 +1,6 @@
 #pragma once
 
-#include <array>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "core/scene/number.hpp"
-#include "core/scene/reading/expression_parser.hpp"
-#include "core/scene/reading/json_node.hpp"
 #include "core/scene/reading/symbols.hpp"
 #include "core/scene/units.hpp"
 

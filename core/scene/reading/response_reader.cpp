@@ -1,16 +1,13 @@
 #include "core/scene/reading/response_reader.hpp"
 
 #include <algorithm>
-#include <set>
 
 #include <fmt/format.h>
 
-#include "core/base/find_named.hpp"
 #include "core/base/int_size.hpp"
 #include "core/scene/grammar/response_table.hpp"
 #include "core/scene/reading/case_suffix.hpp"
 #include "core/scene/reading/joint_reader.hpp"
-#include "core/scene/reading/key_reader.hpp"
 #include "core/scene/reading/mistakes.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 #include "core/scene/reading/symbols.hpp"

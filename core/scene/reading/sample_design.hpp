@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "core/scene/problem_file.hpp"
 
 namespace pleuel {

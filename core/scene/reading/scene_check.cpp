@@ -1,7 +1,6 @@
 #include "core/scene/reading/scene_check.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <set>
 
 #include <Eigen/Geometry>
@@ -9,7 +8,6 @@
 
 #include "core/scene/body_rules.hpp"
 #include "core/scene/held_points.hpp"
-#include "core/scene/joint_kind.hpp"
 #include "core/scene/reading/body_places.hpp"
 #include "core/scene/reading/mistakes.hpp"
 #include "core/scene/reading/sample_design.hpp"

@@ -1,10 +1,6 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "core/scene/reading/json_node.hpp"
-#include "core/scene/reading/json_text.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/units.hpp"
 

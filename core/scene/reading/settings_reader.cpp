@@ -1,15 +1,12 @@
 #include "core/scene/reading/settings_reader.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <utility>
 #include <variant>
 
 #include <fmt/format.h>
 
 #include "core/base/int_size.hpp"
 #include "core/base/machine_memory.hpp"
-#include "core/scene/problem_file.hpp"
 #include "core/scene/reading/key_reader.hpp"
 #include "core/scene/reading/mistakes.hpp"
 #include "core/scene/reading/sample_design.hpp"

@@ -1,7 +1,6 @@
 #include "core/scene/reading/shared_by_cases.hpp"
 
 #include <algorithm>
-#include <string>
 
 #include <fmt/format.h>
 

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <vector>
-
-#include "core/scene/problem_file.hpp"
 #include "core/scene/reading/case_reader.hpp"
 
 /// What load cases have in common, as there is one design: variables with their choices, numbers

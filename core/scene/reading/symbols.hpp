@@ -2,9 +2,6 @@
 
 #include <initializer_list>
 #include <set>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "core/base/error.hpp"
 #include "core/scene/reading/expression_parser.hpp"

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <optional>
-#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>

@@ -2,15 +2,9 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
-#include <optional>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
-#include "core/scene/reading/json_node.hpp"
 #include "core/scene/reading/syntax_error.hpp"
 #include "core/scene/reading/time_function_reader.hpp"
 #include "core/scene/reading/unit_scanner.hpp"

@@ -4,8 +4,6 @@
 #include <functional>
 #include <iterator>
 #include <memory>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 

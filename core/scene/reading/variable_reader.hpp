@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "core/scene/problem_file.hpp"
 #include "core/scene/reading/json_node.hpp"
 #include "core/scene/reading/number_reader.hpp"
