@@ -8,7 +8,7 @@
 #include "core/scene/held_points.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/reading/body_places.hpp"
-#include "core/scene/reading/sample_design.hpp"
+#include "core/scene/reading/variable_reader.hpp"
 #include "core/scene/visit_numbers.hpp"
 
 namespace pleuel {

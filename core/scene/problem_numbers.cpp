@@ -5,7 +5,6 @@
 #include "core/base/error.hpp"
 #include "core/scene/material_library.hpp"
 #include "core/scene/reading/document_reader.hpp"
-#include "core/scene/reading/sample_design.hpp"
 #include "core/scene/scene_rules.hpp"
 #include "core/scene/visit_numbers.hpp"
 

@@ -9,7 +9,6 @@
 #include "core/scene/reading/mistakes.hpp"
 #include "core/scene/reading/override.hpp"
 #include "core/scene/reading/response_reader.hpp"
-#include "core/scene/reading/sample_design.hpp"
 #include "core/scene/reading/scene_check.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 #include "core/scene/reading/settings_reader.hpp"

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
-#include "core/scene/reading/control_characters.hpp"
 #include "core/scene/reading/syntax_error.hpp"
 
 namespace pleuel {

@@ -10,9 +10,9 @@
 #include "core/scene/held_points.hpp"
 #include "core/scene/reading/body_places.hpp"
 #include "core/scene/reading/mistakes.hpp"
-#include "core/scene/reading/sample_design.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 #include "core/scene/reading/section_choices.hpp"
+#include "core/scene/reading/variable_reader.hpp"
 
 namespace pleuel {
 

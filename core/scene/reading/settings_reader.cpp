@@ -9,7 +9,7 @@
 #include "core/base/machine_memory.hpp"
 #include "core/scene/reading/key_reader.hpp"
 #include "core/scene/reading/mistakes.hpp"
-#include "core/scene/reading/sample_design.hpp"
+#include "core/scene/reading/variable_reader.hpp"
 #include "core/scene/shown_unit.hpp"
 
 namespace pleuel {
