@@ -32,7 +32,7 @@ constexpr Choice<MeshUnits> unit_choices[] = {{"m-kg-s", {1.0, 1.0, 1.0}},
 /// Numbers of a model file: in SI, or texts with a unit.
 class ModelReader {
  public:
-  explicit ModelReader(const JsonNode& root) : root_(root), numbers_(units_, {}) {}
+  explicit ModelReader(const JsonNode& root) : root_(root), numbers_({}) {}
 
   ReductionModel read() {
     root_.allow_keys({"body", "description", "mesh", "matrices", "units", "interfaces", "places",
@@ -254,7 +254,6 @@ class ModelReader {
   }
 
   JsonNode root_;
-  UnitSystem units_;
   NumberReader numbers_;
   ReductionModel model_;
 };

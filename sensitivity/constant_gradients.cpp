@@ -95,7 +95,6 @@ class WithEntries {
       set_entry(*of.derivative, entries[i], 1.0);
       DesignVariable variable;
       variable.name = of.variable;
-      variable.quantity = quantities::pure_number;
       imported.variables.push_back(
           {Number::bound(static_cast<int>(first_ + i)), quantities::pure_number, i});
       file->design.push_back(std::move(of));

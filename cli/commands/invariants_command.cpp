@@ -11,8 +11,8 @@ namespace {
 
 std::vector<std::string> si_units(const ProblemFile& problem) {
   std::vector<std::string> units;
-  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
-    units.emplace_back(variable_quantity(problem, static_cast<int>(i)).unit);
+  for (const DesignVariable& variable : problem.variables) {
+    units.emplace_back(variable.quantity.unit);
   }
   return units;
 }

@@ -29,28 +29,27 @@ void check_names(const JsonNode& variables, const ProblemFile& problem) {
 /// A number in the unit that stands beside it, by default SI ("1" of a pure number); or a text with
 /// unit.
 double read_number(const std::optional<JsonNode>& unit, const JsonNode& value,
-                   const UnitSystem& units, const Quantity& quantity) {
+                   const Quantity& quantity) {
   const JsonNode& written = value.value().is_string() || !unit ? value : *unit;
   try {
-    if (value.value().is_string()) return units.read(value.text(), quantity);
+    if (value.value().is_string()) return read_quantity(value.text(), quantity);
     const bool is_si = !unit || unit->text() == quantity.unit;
-    return value.number() * (is_si ? 1.0 : units.scale(unit->text(), quantity));
+    return value.number() * (is_si ? 1.0 : unit_scale(unit->text(), quantity));
   } catch (const UnitError& error) {
     written.fail_with_value("must be " + describe(quantity), fmt::format(": {}", error.what()));
   }
 }
 
 /// {"value", "unit"}, or the value alone.
-double read_value(const JsonNode& node, const DesignVariable& variable, const UnitSystem& units,
-                  const Quantity& quantity) {
+double read_value(const JsonNode& node, const DesignVariable& variable) {
   const JsonNode value = node.value().is_object() ? node.at("value") : node;
   for (const SizeChoice& choice : variable.choices) {
     if (value.value().is_string() && value.text() == choice.text) return choice.value;
   }
   const auto unit = node.value().is_object() ? node.find("unit") : std::nullopt;
-  const double x = read_number(unit, value, units, quantity);
+  const double x = read_number(unit, value, variable.quantity);
   if (x < variable.lower || x > variable.upper) {
-    value.fail_with_value("must lie within the bounds of " + bounds_text(variable, quantity),
+    value.fail_with_value("must lie within the bounds of " + bounds_text(variable),
                           value.value().is_number() && !unit ? " in SI units" : "");
   }
   return x;
@@ -166,13 +165,12 @@ Eigen::VectorXd read_design(const std::filesystem::path& path, const ProblemFile
   const JsonNode root(document, file, "", "the design");
   const JsonNode variables = variables_of(root);
   check_names(variables, problem);
-  const UnitSystem units;
   Eigen::VectorXd x(problem.variables.size());
   for (std::size_t i = 0; i < problem.variables.size(); ++i) {
     const DesignVariable& variable = problem.variables[i];
     const std::optional<JsonNode> value = variables.find(variable.name);
     if (!value) variables.fail(fmt::format("is missing the key \"{}\"", variable.name));
-    x(i) = read_value(*value, variable, units, variable_quantity(problem, static_cast<int>(i)));
+    x(i) = read_value(*value, variable);
   }
   return x;
 }

@@ -1,6 +1,5 @@
 #include "core/scene/body_chart.hpp"
 
-#include <array>
 #include <cmath>
 
 #include "core/base/dense_solvers.hpp"

@@ -1,7 +1,6 @@
 #include "core/scene/body_groups.hpp"
 
 #include <array>
-#include <vector>
 
 #include "core/base/disjoint_sets.hpp"
 #include "core/base/int_size.hpp"

@@ -1,17 +1,14 @@
 #include "core/scene/body_rules.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <map>
-#include <utility>
 
 #include <fmt/format.h>
 
 #include "core/base/dense_solvers.hpp"
 #include "core/scene/held_points.hpp"
 #include "core/scene/load_cases.hpp"
-#include "core/scene/reading/geometry.hpp"
-#include "core/scene/reading/sample_design.hpp"
+#include "core/scene/reading/body_places.hpp"
+#include "core/scene/reading/variable_reader.hpp"
 #include "core/scene/visit_numbers.hpp"
 
 namespace pleuel {
@@ -80,9 +77,8 @@ std::string remedy(const SectionRule& rule, const std::string& terms) {
 
 class Corners {
  public:
-  explicit Corners(const ProblemFile& problem) : problem_(problem) {
-    for (const DesignVariable& variable : problem.variables) start_.push_back(variable.start);
-  }
+  explicit Corners(const ProblemFile& problem)
+      : problem_(problem), start_(start_values(problem.variables)) {}
 
   std::vector<std::string> find() && {
     for (const Body& body : problem_.scene.bodies) {

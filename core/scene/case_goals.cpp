@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <optional>
-#include <stdexcept>
-#include <utility>
 
 #include "core/base/find_named.hpp"
 #include "core/base/int_size.hpp"
@@ -16,8 +13,8 @@ namespace pleuel {
 
 namespace {
 
-std::size_t index_of(const std::vector<ResponseSettings>& responses, const std::string& name) {
-  return index_of_named(responses, name).value();
+std::size_t index_of(const ProblemFile& problem, const std::string& response) {
+  return index_of_named(problem.responses, response).value();
 }
 
 std::string word_of(const Objective& goal) {
@@ -35,62 +32,44 @@ double weight_of(const Objective& goal, const ProblemFile& load_case) {
 }
 
 /// Puts a number together from those of the cases: their largest or smallest, or a weighted sum.
-class FormulaOverCases {
- public:
-  FormulaOverCases(const ProblemFile& joined, const Objective& goal, std::size_t index)
-      : joined_(joined), goal_(goal) {
-    const ResponseSettings& first = joined.responses[joined_response(joined, {0, index})];
-    const Quantity quantity = quantity_of(first);
-    whole_.text = name_in_case(goal.response, word_of(goal));
-    whole_.quantity = quantity.name;
-    whole_.unit = quantity.unit;
-    for (std::size_t c = 0; c < joined.cases.size(); ++c) add(c, index);
-  }
-
-  std::shared_ptr<const Expression> take() {
-    return std::make_shared<const Expression>(std::move(whole_));
-  }
-
- private:
-  int add_step(const ExpressionStep& step) {
-    whole_.steps.push_back(step);
-    return int_size(whole_.steps) - 1;
-  }
-
-  void add(std::size_t load_case, std::size_t index) {
-    const double weight = weight_of(goal_, joined_.cases[load_case]);
-    if (weight == 0.0) return;
-    const std::size_t response = joined_response(joined_, {load_case, index});
-    whole_.arguments.push_back({ExpressionArgument::Kind::response, response});
-    const auto argument = int_size(whole_.arguments) - 1;
-    int term = add_step({Operation::argument, 0.0, argument});
+Expression formula_over_cases(const ProblemFile& joined, const Objective& goal, std::size_t index) {
+  const Operation operation = goal.over_cases == OverCases::weighted ? Operation::plus
+                              : goal.aim == Aim::maximize            ? Operation::smaller
+                                                                     : Operation::larger;
+  Expression whole;
+  const auto add = [&](const ExpressionStep& step) {
+    whole.steps.push_back(step);
+    return int_size(whole.steps) - 1;
+  };
+  std::optional<int> last;
+  for (std::size_t c = 0; c < joined.cases.size(); ++c) {
+    const double weight = weight_of(goal, joined.cases[c]);
+    if (weight == 0.0) continue;
+    whole.arguments.push_back(
+        {ExpressionArgument::Kind::response, joined_response(joined, {c, index})});
+    int term = add({Operation::argument, 0.0, int_size(whole.arguments) - 1});
     if (weight != 1.0) {
-      const int factor = add_step({Operation::constant, weight});
-      term = add_step({Operation::times, 0.0, factor, term});
+      term = add({Operation::times, 0.0, add({Operation::constant, weight}), term});
     }
-    last_ = last_ ? add_step({operation(), 0.0, *last_, term}) : term;
+    last = last ? add({operation, 0.0, *last, term}) : term;
   }
-
-  Operation operation() const {
-    if (goal_.over_cases == OverCases::weighted) return Operation::plus;
-    return goal_.aim == Aim::maximize ? Operation::smaller : Operation::larger;
-  }
-
-  const ProblemFile& joined_;
-  const Objective& goal_;
-  Expression whole_;
-  std::optional<int> last_;
-};
+  return whole;
+}
 
 ResponseSettings response_over_cases(const ProblemFile& joined, const Objective& goal,
                                      std::size_t index) {
   const ResponseSettings& first = joined.responses[joined_response(joined, {0, index})];
+  const Quantity quantity = quantity_of(first);
   ResponseSettings over_cases;
   over_cases.name = name_in_case(goal.response, word_of(goal));
   over_cases.type = ResponseType::expression;
   over_cases.unit = first.unit;
   over_cases.unit_scale = first.unit_scale;
-  over_cases.expression = FormulaOverCases(joined, goal, index).take();
+  Expression formula = formula_over_cases(joined, goal, index);
+  formula.text = over_cases.name;
+  formula.quantity = quantity.name;
+  formula.unit = quantity.unit;
+  over_cases.expression = std::make_shared<const Expression>(std::move(formula));
   return over_cases;
 }
 
@@ -105,10 +84,6 @@ ConstraintSettings limit_on(const Objective& goal, double value, const std::stri
   constraint.response = response;
   (goal.aim == Aim::minimize ? constraint.upper : constraint.lower) = value;
   return constraint;
-}
-
-std::size_t index_of(const ProblemFile& problem, const std::string& response) {
-  return index_of_named(problem.responses, response).value();
 }
 
 void add_responses(ProblemFile& joined, const std::vector<bool>& is_same) {
@@ -193,7 +168,7 @@ void join_objective(ProblemFile& joined) {
 
 Objective goal_of_problem(ProblemFile& problem, Objective goal) {
   if (!problem.has_cases() || goal.over_cases == OverCases::same) return goal;
-  const std::size_t index = index_of(problem.cases.front().responses, goal.response);
+  const std::size_t index = index_of(problem.cases.front(), goal.response);
   ResponseSettings over_cases = response_over_cases(problem, goal, index);
   const ResponseSettings* known = find_named(problem.responses, over_cases.name);
   while (known != nullptr && !is_same(*known->expression, *over_cases.expression)) {
@@ -210,7 +185,7 @@ Objective goal_of_problem(ProblemFile& problem, Objective goal) {
 void set_objective(ProblemFile& problem, const Objective& goal) {
   problem.objective = goal;
   if (!problem.has_cases()) return;
-  const std::size_t response = index_of(problem.responses, goal.response);
+  const std::size_t response = index_of(problem, goal.response);
   problem.case_weights.clear();
   for (ProblemFile& one : problem.cases) {
     one.objective.reset();
@@ -227,7 +202,7 @@ void add_limit(ProblemFile& problem, const Objective& goal, double value, const 
     problem.constraints.push_back(limit_on(goal, value, name, goal.response));
     return;
   }
-  const std::size_t response = index_of(problem.responses, goal.response);
+  const std::size_t response = index_of(problem, goal.response);
   if (goal.over_cases != OverCases::worst) {
     problem.constraints.push_back(limit_on(goal, value, name, goal.response));
     problem.case_constraints.push_back({several_cases, 0});

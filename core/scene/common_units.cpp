@@ -7,77 +7,48 @@ namespace pleuel {
 
 namespace {
 
+/// Units of SI have their dimension, in powers of m, kg, s, rad.
 constexpr CommonUnit table[] = {
-    {"m", "m", 1},
+    {"m", "m", 1, {{1}}},
     {"mm", "m", 0.001},
     {"cm", "m", 0.01},
     {"um", "m", 9.9999999999999995e-07},
-    {"kg", "kg", 1},
+    {"kg", "kg", 1, {{0, 1}}},
     {"g", "kg", 0.001},
-    {"s", "s", 1},
+    {"s", "s", 1, {{0, 0, 1}}},
     {"ms", "s", 0.001},
     {"us", "s", 9.9999999999999995e-07},
-    {"Pa", "Pa", 1},
+    {"Pa", "Pa", 1, {{-1, 1, -2}}},
     {"kPa", "Pa", 1000},
     {"MPa", "Pa", 1000000},
     {"GPa", "Pa", 1000000000},
-    {"N", "N", 1},
+    {"N", "N", 1, {{1, 1, -2}}},
     {"kN", "N", 1000},
-    {"N m", "N m", 1},
+    {"N m", "N m", 1, {{2, 1, -2}}},
     {"Nm", "N m", 1},
-    {"kg/m^3", "kg/m^3", 1},
+    {"kg/m^3", "kg/m^3", 1, {{-3, 1}}},
     {"g/cm^3", "kg/m^3", 999.99999999999989},
-    {"rad", "rad", 1},
+    {"rad", "rad", 1, {{0, 0, 0, 1}}},
     {"deg", "rad", 0.017453292519943295},
-    {"rad/s", "rad/s", 1},
+    {"rad/s", "rad/s", 1, {{0, 0, -1, 1}}},
     {"rpm", "rad/s", 0.10471975511965977},
-    {"m/s", "m/s", 1},
-    {"m/s^2", "m/s^2", 1},
-    {"1/s", "1/s", 1},
+    {"m/s", "m/s", 1, {{1, 0, -1}}},
+    {"m/s^2", "m/s^2", 1, {{1, 0, -2}}},
+    {"1/s", "1/s", 1, {{0, 0, -1}}},
     {"mm^2", "m^2", 9.9999999999999995e-07},
     {"cm^2", "m^2", 0.0001},
-    {"m^2", "m^2", 1},
+    {"m^2", "m^2", 1, {{2}}},
     {"mm^4", "m^4", 1.0000000000000002e-12},
     {"cm^4", "m^4", 1e-08},
-    {"m^4", "m^4", 1},
-    {"kg m^2", "kg m^2", 1},
-    {"N/m", "N/m", 1},
-    {"N s/m", "N s/m", 1},
-    {"N m/rad", "N m/rad", 1},
-    {"N m s/rad", "N m s/rad", 1},
-    {"Hz", "Hz", 1},
-    {"W", "W", 1},
-    {"J", "J", 1},
-};
-
-struct SiUnit {
-  std::string_view name;
-  Dimension dimension;  ///< m, kg, s, rad
-};
-
-constexpr SiUnit si_units[] = {
-    {"m", {{1}}},
-    {"kg", {{0, 1}}},
-    {"s", {{0, 0, 1}}},
-    {"Pa", {{-1, 1, -2}}},
-    {"N", {{1, 1, -2}}},
-    {"N m", {{2, 1, -2}}},
-    {"kg/m^3", {{-3, 1}}},
-    {"rad", {{0, 0, 0, 1}}},
-    {"rad/s", {{0, 0, -1, 1}}},
-    {"m/s", {{1, 0, -1}}},
-    {"m/s^2", {{1, 0, -2}}},
-    {"1/s", {{0, 0, -1}}},
-    {"m^2", {{2}}},
-    {"m^4", {{4}}},
-    {"kg m^2", {{2, 1}}},
-    {"N/m", {{0, 1, -2}}},
-    {"N s/m", {{0, 1, -1}}},
-    {"N m/rad", {{2, 1, -2, -1}}},
-    {"N m s/rad", {{2, 1, -1, -1}}},
-    {"Hz", {{0, 0, -1}}},
-    {"W", {{2, 1, -3}}},
-    {"J", {{2, 1, -2}}},
+    {"m^4", "m^4", 1, {{4}}},
+    {"kg m^2", "kg m^2", 1, {{2, 1}}},
+    {"N/m", "N/m", 1, {{0, 1, -2}}},
+    {"N s/m", "N s/m", 1, {{0, 1, -1}}},
+    {"N m/rad", "N m/rad", 1, {{2, 1, -2, -1}}},
+    {"N m s/rad", "N m s/rad", 1, {{2, 1, -1, -1}}},
+    {"Hz", "Hz", 1, {{0, 0, -1}}},
+    {"W", "W", 1, {{2, 1, -3}}},
+    {"J", "J", 1, {{2, 1, -2}}},
 };
 
 }  // namespace
@@ -86,19 +57,9 @@ std::span<const CommonUnit> common_units() {
   return table;
 }
 
-std::optional<double> find_common_scale(std::string_view unit, std::string_view si) {
-  for (const CommonUnit& common : table) {
-    if (common.unit == unit && common.si == si) return common.scale;
-  }
-  return std::nullopt;
-}
-
-std::optional<MeasuredUnit> find_common_measure(std::string_view unit) {
-  const auto common = std::ranges::find(table, unit, &CommonUnit::unit);
-  if (common == std::end(table)) return std::nullopt;
-  const auto si = std::ranges::find(si_units, common->si, &SiUnit::name);
-  if (si == std::end(si_units)) return std::nullopt;
-  return MeasuredUnit{common->scale, si->dimension};
+const CommonUnit* find_common_unit(std::string_view unit) {
+  const auto* found = std::ranges::find(table, unit, &CommonUnit::unit);
+  return found == std::end(table) ? nullptr : found;
 }
 
 }  // namespace pleuel

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string_view>
 
@@ -12,15 +11,14 @@ namespace pleuel {
 struct CommonUnit {
   std::string_view unit, si;
   double scale;
+  Dimension dimension = {};  ///< of an SI unit
 };
 
 /// Units that most files have. Their conversions need no database, which takes some milliseconds to
 /// read; they are what the database says, to the last bit.
 std::span<const CommonUnit> common_units();
 
-std::optional<double> find_common_scale(std::string_view unit, std::string_view si);
-
-/// What a common unit measures.
-std::optional<MeasuredUnit> find_common_measure(std::string_view unit);
+/// Null if it is none of them.
+const CommonUnit* find_common_unit(std::string_view unit);
 
 }  // namespace pleuel

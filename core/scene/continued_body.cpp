@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -10,7 +9,6 @@
 #include "core/base/error.hpp"
 #include "core/base/int_size.hpp"
 #include "core/scene/body_chart.hpp"
-#include "core/scene/body_constants.hpp"
 
 namespace pleuel {
 

@@ -11,15 +11,19 @@ std::optional<Quantity> find_quantity(const std::string& unit) {
   return std::nullopt;
 }
 
-std::optional<Quantity> find_quantity(const Dimension& dimension, const UnitSystem& units) {
+Dimension dimension_of(const Quantity& quantity) {
+  return measure_unit(std::string(quantity.unit)).dimension;
+}
+
+std::optional<Quantity> find_quantity(const Dimension& dimension) {
   for (const Quantity& quantity : named_quantities) {
-    if (units.measure(std::string(quantity.unit)).dimension == dimension) return quantity;
+    if (dimension_of(quantity) == dimension) return quantity;
   }
   return std::nullopt;
 }
 
-std::string describe(const Dimension& dimension, const UnitSystem& units) {
-  if (const auto quantity = find_quantity(dimension, units)) return describe(*quantity);
+std::string describe(const Dimension& dimension) {
+  if (const auto quantity = find_quantity(dimension)) return describe(*quantity);
   return fmt::format("a quantity [{}]", base_units(dimension));
 }
 

@@ -37,11 +37,13 @@ inline constexpr std::array named_quantities = {quantities::pure_number,
 /// The quantity of a number of a scene that has this SI unit, if there is one.
 std::optional<Quantity> find_quantity(const std::string& unit);
 
+Dimension dimension_of(const Quantity& quantity);
+
 /// The quantity that numbers of the file with this dimension have, if it has a name: of m² kg s⁻²
 /// "a torque [N m]".
-std::optional<Quantity> find_quantity(const Dimension& dimension, const UnitSystem& units);
+std::optional<Quantity> find_quantity(const Dimension& dimension);
 
 /// "a length [m]", "a number without unit"; of a quantity without name "a quantity [kg m]".
-std::string describe(const Dimension& dimension, const UnitSystem& units);
+std::string describe(const Dimension& dimension);
 
 }  // namespace pleuel

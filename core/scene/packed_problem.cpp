@@ -1,7 +1,6 @@
 #include "core/scene/packed_problem.hpp"
 
 #include "core/jobs/child_program.hpp"
-#include "core/scene/body_constants.hpp"
 #include "core/scene/body_source.hpp"
 #include "core/scene/dimension.hpp"
 

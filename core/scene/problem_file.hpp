@@ -129,8 +129,8 @@ struct SizeChoice {
 struct DesignVariable {
   std::string name;
   double start = 0.0, lower = 0.0, upper = 0.0;  ///< SI
-  std::string unit;                       ///< as the user wrote it, for display; may be empty
-  std::optional<Quantity> quantity = {};  ///< what it measures; none: see variable_quantity()
+  std::string unit;                             ///< as the user wrote it, for display; may be empty
+  Quantity quantity = quantities::pure_number;  ///< what it measures
   /// What it is to be chosen from, in ascending order; empty: any number between the bounds. Sections
   /// ascend by area.
   std::vector<SizeChoice> choices = {};

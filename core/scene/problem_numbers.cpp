@@ -46,16 +46,15 @@ void declare_library_materials(Json& document) {
   }
 }
 
-Json document_of(const ProblemText& text, const UnitSystem& units) {
-  Json document = whole_document(text, units);
+Json document_of(const ProblemText& text) {
+  Json document = whole_document(text);
   declare_library_materials(document);
   return document;
 }
 
 /// @throws InputError if a number would move a point along an elastic beam
 void check_places(const ProblemFile& problem, const std::vector<NumberGroup>& groups) {
-  Design<double> start;
-  for (const DesignVariable& variable : problem.variables) start.push_back(variable.start);
+  const Design<double> start = start_values(problem.variables);
   const std::size_t first = problem.variables.size() - groups.size();
   for (std::size_t i = 0; i < groups.size(); ++i) {
     const auto moved = find_point_moved_along(problem.scene, start, first + i);
@@ -70,10 +69,9 @@ std::string unit_written_in(const Json& value) {
 }  // namespace
 
 std::vector<SceneNumber> scene_numbers(const ProblemText& text) {
-  const UnitSystem units;
-  const Json document = document_of(text, units);
+  const Json document = document_of(text);
   const JsonNode root(document, text.file);
-  NumberReader reader(units, variable_names(root));
+  NumberReader reader(variable_names(root));
   read_document(root, reader);
   std::vector<SceneNumber> numbers;
   for (const FixedNumber& fixed : reader.fixed_numbers()) {
@@ -85,8 +83,7 @@ std::vector<SceneNumber> scene_numbers(const ProblemText& text) {
 }
 
 ProblemFile bind_numbers(const ProblemText& text, const std::vector<NumberGroup>& groups) {
-  const UnitSystem units;
-  Json document = document_of(text, units);
+  Json document = document_of(text);
   for (const NumberGroup& group : groups) {
     const Json value = document[Json::json_pointer(group.pointers.front())];
     document["variables"][group.name] = {{"start", value}, {"lower", value}, {"upper", value}};
@@ -95,7 +92,7 @@ ProblemFile bind_numbers(const ProblemText& text, const std::vector<NumberGroup>
     }
   }
   const JsonNode root(document, text.file);
-  NumberReader reader(units, variable_names(root));
+  NumberReader reader(variable_names(root));
   ProblemFile problem = read_document(root, reader);
   if (!problem.load_case.empty()) keep_case(problem);
   check_places(problem, groups);

@@ -25,7 +25,7 @@ class UndecidedProblem {
   ProblemFile complete_;
 };
 
-/// Reads and checks a problem file: syntax, keys, types, units, names, and what can be said of the
+/// Reads and checks a problem file: syntax, keys, types, names, and what can be said of the
 /// values without mechanics. What it returns has all defaults and is in SI units.
 /// @param overrides  each "/json/pointer=value", applied in this order before anything is checked;
 ///                   a value that is not JSON is a text: /simulation/step=0.1 ms

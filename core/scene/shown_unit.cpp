@@ -1,10 +1,8 @@
 #include "core/scene/shown_unit.hpp"
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <numbers>
-#include <optional>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -12,7 +10,6 @@
 #include "core/base/find_named.hpp"
 #include "core/scene/dimension.hpp"
 #include "core/scene/response_kind.hpp"
-#include "core/scene/visit_numbers.hpp"
 
 namespace pleuel {
 
@@ -42,21 +39,6 @@ Quantity instant_quantity(const ResponseSettings& response) {
   return kind_of(response.type).quantity;
 }
 
-std::optional<Quantity> find_quantity(const Scene& scene, int variable) {
-  std::optional<Quantity> found;
-  visit_numbers(scene, [&](const Number& number, const Quantity& quantity) {
-    if (!found && number.variable == variable) found.emplace(quantity);
-  });
-  return found;
-}
-
-bool names(const ConstraintSettings& constraint, int variable) {
-  for (const auto& [other, coefficient] : constraint.linear) {
-    if (other == variable) return true;
-  }
-  return false;
-}
-
 }  // namespace
 
 Quantity times_time(const Quantity& quantity) {
@@ -81,17 +63,6 @@ Quantity quantity_of(const ResponseSettings& response) {
   return response.over_time == OverTime::integral ? times_time(quantity) : quantity;
 }
 
-Quantity variable_quantity(const ProblemFile& problem, int variable) {
-  if (const auto quantity = find_quantity(problem.scene, variable)) return *quantity;
-  for (const ConstraintSettings& constraint : problem.constraints) {
-    if (!names(constraint, variable)) continue;
-    for (const auto& [other, coefficient] : constraint.linear) {
-      if (const auto quantity = find_quantity(problem.scene, other)) return *quantity;
-    }
-  }
-  return problem.variables[variable].quantity.value_or(quantities::pure_number);
-}
-
 ShownUnit engineering_unit(std::string_view si) {
   struct Entry {
     std::string_view si, name;
@@ -107,28 +78,23 @@ ShownUnit engineering_unit(std::string_view si) {
 
 namespace {
 
-ShownUnit unit_of(const DesignVariable& variable, const Quantity& quantity,
-                  const UnitSystem& system) {
-  const std::string& written = variable.unit;
-  return written.empty()
-             ? engineering_unit(quantity.unit)
-             : ShownUnit{std::string(quantity.unit), written, system.scale(written, quantity)};
+ShownUnit unit_of(const DesignVariable& variable) {
+  const auto& [name, unit] = variable.quantity;
+  return variable.unit.empty() ? engineering_unit(unit)
+                               : ShownUnit{std::string(unit), variable.unit,
+                                           unit_scale(variable.unit, variable.quantity)};
 }
 
 }  // namespace
 
 std::vector<ShownUnit> variable_units(const ProblemFile& problem) {
-  const UnitSystem system;
   std::vector<ShownUnit> units;
-  for (std::size_t i = 0; i < problem.variables.size(); ++i) {
-    const Quantity quantity = variable_quantity(problem, static_cast<int>(i));
-    units.push_back(unit_of(problem.variables[i], quantity, system));
-  }
+  for (const DesignVariable& variable : problem.variables) units.push_back(unit_of(variable));
   return units;
 }
 
-std::string bounds_text(const DesignVariable& variable, const Quantity& quantity) {
-  const ShownUnit unit = unit_of(variable, quantity, UnitSystem());
+std::string bounds_text(const DesignVariable& variable) {
+  const ShownUnit unit = unit_of(variable);
   return fmt::format("{:g} to {:g}{}", unit.shown(variable.lower), unit.shown(variable.upper),
                      unit.suffix());
 }

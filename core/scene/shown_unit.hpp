@@ -16,10 +16,6 @@ Quantity quantity_of(const ResponseSettings& response);
 /// The quantity of the integral over time of what a response measures: "Pa s".
 Quantity times_time(const Quantity& quantity);
 
-/// What a design variable measures: the quantity of the first number of the scene that is bound to
-/// it; else that of the other variables of its linear constraint; else a pure number.
-Quantity variable_quantity(const ProblemFile& problem, int variable);
-
 /// In which unit people see a quantity. JSON and CSV stay in SI.
 struct ShownUnit {
   std::string si;       ///< "m"
@@ -40,7 +36,7 @@ ShownUnit engineering_unit(std::string_view si);
 std::vector<ShownUnit> variable_units(const ProblemFile& problem);
 
 /// "4 to 60 mm": the bounds of a variable, in the unit that the user wrote.
-std::string bounds_text(const DesignVariable& variable, const Quantity& quantity);
+std::string bounds_text(const DesignVariable& variable);
 
 ShownUnit unit_of(const ResponseSettings& response);
 /// Of a response, or of the first variable of a linear constraint.

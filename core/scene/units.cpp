@@ -3,19 +3,17 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
-#include <cmath>
 #include <memory>
 #include <numbers>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 #include <udunits2.h>
 
 #include "core/scene/common_units.hpp"
-#include "core/scene/dimension.hpp"
 #include "core/scene/reading/suggestion.hpp"
+#include "core/scene/reading/unit_scanner.hpp"
 
 namespace pleuel {
 namespace {
@@ -26,12 +24,8 @@ struct FreeSystem {
 struct FreeUnit {
   void operator()(ut_unit* unit) const { ut_free(unit); }
 };
-struct FreeConverter {
-  void operator()(cv_converter* converter) const { cv_free(converter); }
-};
 using SystemHandle = std::unique_ptr<ut_system, FreeSystem>;
 using UnitHandle = std::unique_ptr<ut_unit, FreeUnit>;
-using ConverterHandle = std::unique_ptr<cv_converter, FreeConverter>;
 
 UnitHandle parse_unit(const ut_system* system, const std::string& text) {
   return UnitHandle(ut_parse(system, text.c_str(), UT_UTF8));
@@ -56,18 +50,7 @@ void add_bytes(ut_system* system) {
   add_symbol(system, "GiB", "1073741824 B");
 }
 
-bool is_digit(char c) {
-  return std::isdigit(static_cast<unsigned char>(c)) != 0;
-}
-bool is_space(char c) {
-  return std::isspace(static_cast<unsigned char>(c)) != 0;
-}
-
-std::string trim(std::string_view text) {
-  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
-  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
-  return std::string(text);
-}
+constexpr std::string_view blanks = " \t\n\v\f\r";
 
 /// Whether the digit at `position` belongs to an exponent (m2, m^2, m-2, m^-2) or is the 1 of
 /// "1/s".
@@ -86,18 +69,11 @@ bool is_exponent(const std::string& unit, std::size_t position) {
 /// slips of the pen, as in "1 000 mm" or "120 mm 30".
 bool has_stray_number(const std::string& unit) {
   for (std::size_t i = 0; i < unit.size(); ++i) {
-    if (!is_digit(unit[i])) continue;
+    if (!is_digit_character(unit[i])) continue;
     if (!is_exponent(unit, i)) return true;
-    while (i + 1 < unit.size() && is_digit(unit[i + 1])) ++i;
+    while (i + 1 < unit.size() && is_digit_character(unit[i + 1])) ++i;
   }
   return false;
-}
-
-bool has_angle(const ut_unit* unit) {
-  char definition[256];
-  const int length = ut_format(unit, definition, sizeof definition, UT_ASCII | UT_DEFINITION);
-  if (length < 0 || length >= static_cast<int>(sizeof definition)) return false;
-  return std::string_view(definition, length).find("rad") != std::string_view::npos;
 }
 
 /// Of a frequency both cycles and radians are units; "1/s" could be either of them.
@@ -128,42 +104,33 @@ void refuse_misread(const std::string& unit) {
   }
 }
 
-double cycles_factor(const std::string& name, const Quantity& quantity, const ut_unit* from) {
+bool has_angle(const Dimension& dimension) {
+  return dimension.powers[3] != 0.0;
+}
+
+Dimension without_angle(Dimension dimension) {
+  dimension.powers[3] = 0.0;
+  return dimension;
+}
+
+double cycles_factor(const std::string& name, const Quantity& quantity, const Dimension& from) {
   const auto is = [&quantity](const Quantity& other) {
     return quantity.name == other.name && quantity.unit == other.unit;
   };
   if (is(quantities::angular_frequency) && counts_cycles(name)) return 2.0 * std::numbers::pi;
-  const bool asks_for_cycles = is(quantities::frequency);
-  return asks_for_cycles && has_angle(from) ? 0.5 / std::numbers::pi : 1.0;
+  return is(quantities::frequency) && has_angle(from) ? 0.5 / std::numbers::pi : 1.0;
 }
 
-void check_dimension(const std::string& name, const ut_unit* from, const ut_unit* to) {
-  const bool has_right_dimension = to != nullptr && ut_are_convertible(from, to) != 0;
-  if (has_right_dimension && has_angle(to) && !has_angle(from)) {
-    const UnitHandle rate = parse_unit(ut_get_system(to), "rad/s");
-    const bool is_rate = rate && ut_are_convertible(rate.get(), to) != 0;
-    throw UnitError(fmt::format("\"{}\" names no angle{}", name,
-                                is_rate
-                                    ? "; write rad/s, deg/s or rpm"
-                                    : ", and what is measured has one: write \"rad\" where it is"));
-  }
-  if (!has_right_dimension || has_angle(from) != has_angle(to)) {
+void check_dimension(const std::string& name, const Dimension& from, const Dimension& to) {
+  if (without_angle(from) != without_angle(to) || (has_angle(from) && !has_angle(to))) {
     throw UnitError(fmt::format("\"{}\" measures something else", name));
   }
-}
-
-double proportional_factor(const std::string& name, ut_unit* from, ut_unit* to) {
-  const ConverterHandle converter(ut_get_converter(from, to));
-  const double scale = converter ? cv_convert_double(converter.get(), 1.0) : 0.0;
-  const double zero = converter ? cv_convert_double(converter.get(), 0.0) : 0.0;
-  if (!std::isfinite(zero)) {  // a reciprocal, which the library converts too: s to 1/s
-    throw UnitError(fmt::format("\"{}\" measures something else", name));
-  }
-  if (zero != 0.0) throw UnitError(fmt::format("\"{}\" does not count from zero", name));
-  if (!std::isfinite(scale) || scale == 0.0) {
-    throw UnitError(fmt::format("\"{}\" is out of the range of numbers", name));
-  }
-  return scale;
+  if (has_angle(from) == has_angle(to)) return;
+  const bool is_rate = without_angle(to) == measure_unit("1/s").dimension;
+  throw UnitError(fmt::format("\"{}\" names no angle{}", name,
+                              is_rate
+                                  ? "; write rad/s, deg/s or rpm"
+                                  : ", and what is measured has one: write \"rad\" where it is"));
 }
 
 std::string in_small_letters(std::string_view text) {
@@ -277,55 +244,57 @@ const ut_system* database() {
   return system.get();
 }
 
-}  // namespace
-
-double UnitSystem::scale(const std::string& unit, const Quantity& quantity) const {
-  const std::string name = trim(unit);
-  if (const auto common = find_common_scale(name, quantity.unit)) return *common;
-  return scale_by_database(name, quantity);
-}
-
-double UnitSystem::scale_by_database(const std::string& unit, const Quantity& quantity) const {
-  const std::string name = trim(unit);
-  refuse_misread(name);
-  const UnitHandle from = has_stray_number(name) ? nullptr : parse_unit(database(), name);
-  const std::string si(quantity.unit);
-  const auto root = has_stray_number(si) ? read_base_units(si) : std::nullopt;
-  if (root && read_base_units(name) == root) return 1.0;
-  if (!from) throw unknown_unit(name, si);
-  const UnitHandle to = parse_unit(database(), si);
-  const double cycles = cycles_factor(name, quantity, from.get());
-  if (cycles == 1.0 || ut_are_convertible(from.get(), to.get()) == 0) {
-    check_dimension(name, from.get(), to.get());
-  }
-  return cycles * proportional_factor(name, from.get(), to.get());
-}
-
-MeasuredUnit UnitSystem::measure(const std::string& unit) const {
-  const auto common = find_common_measure(trim(unit));
-  return common ? *common : measure_by_database(unit);
-}
-
-MeasuredUnit UnitSystem::measure_by_database(const std::string& unit) const {
-  const std::string name = trim(unit);
+/// @param si  of the quantity that is asked for; empty: of any
+MeasuredUnit measured_by_database(const std::string& name, std::string_view si) {
   refuse_misread(name);
   const UnitHandle handle = has_stray_number(name) ? nullptr : parse_unit(database(), name);
-  if (!handle && name != "1") {
+  if (!handle && (si.empty() || has_stray_number(std::string(si)))) {
     if (const auto dimension = read_base_units(name)) return {1.0, *dimension};
-    throw unknown_unit(name, "");
   }
+  if (!handle) throw unknown_unit(name, si);
   UnitTaker taker;
-  if (handle && !taker.take(handle.get())) {
-    throw UnitError(fmt::format("\"{}\" does not count from zero", name));
-  }
-  return taker.found;
+  if (taker.take(handle.get())) return taker.found;
+  throw UnitError(fmt::format("\"{}\" does not count from zero", name));
 }
 
-double UnitSystem::read(const std::string& text, const Quantity& quantity) const {
+}  // namespace
+
+double unit_scale(const std::string& unit, const Quantity& quantity) {
+  const CommonUnit* common = find_common_unit(trimmed(unit, blanks));
+  if (common != nullptr && common->si == quantity.unit) return common->scale;
+  return scale_by_database(unit, quantity);
+}
+
+double scale_by_database(const std::string& unit, const Quantity& quantity) {
+  const std::string name = trimmed(unit, blanks);
+  const MeasuredUnit from = measured_by_database(name, quantity.unit);
+  const Dimension to = measure_unit(std::string(quantity.unit)).dimension;
+  const double cycles = cycles_factor(name, quantity, from.dimension);
+  if (cycles == 1.0 || without_angle(from.dimension) != without_angle(to)) {
+    check_dimension(name, from.dimension, to);
+  }
+  if (!std::isfinite(from.scale) || from.scale == 0.0) {
+    throw UnitError(fmt::format("\"{}\" is out of the range of numbers", name));
+  }
+  return cycles * from.scale;
+}
+
+MeasuredUnit measure_unit(const std::string& unit) {
+  const CommonUnit* common = find_common_unit(trimmed(unit, blanks));
+  if (common == nullptr) return measure_by_database(unit);
+  return {common->scale, find_common_unit(common->si)->dimension};
+}
+
+MeasuredUnit measure_by_database(const std::string& unit) {
+  const std::string name = trimmed(unit, blanks);
+  return name == "1" ? MeasuredUnit() : measured_by_database(name, "");
+}
+
+double read_quantity(const std::string& text, const Quantity& quantity) {
   const WrittenQuantity written = split_quantity(text);
   if (written.unit.empty() && quantity == quantities::pure_number) return written.value;
   if (written.unit.empty()) throw UnitError("a number in quotes needs its unit");
-  const double value = written.value * scale(written.unit, quantity);
+  const double value = written.value * unit_scale(written.unit, quantity);
   if (!std::isfinite(value) || (value == 0.0 && written.value != 0.0)) {
     throw UnitError("it is out of the range of numbers");
   }
@@ -336,9 +305,9 @@ namespace {
 
 /// "10,5 mm": written as in half of the world.
 void refuse_decimal_comma(const char* begin, const char* comma, const char* end) {
-  if (comma == end || *comma != ',' || comma + 1 == end || !is_digit(comma[1])) return;
+  if (comma == end || *comma != ',' || comma + 1 == end || !is_digit_character(comma[1])) return;
   const std::string whole(begin, comma), rest(comma + 1, end);
-  const auto behind = std::ranges::find_if_not(rest, is_digit);
+  const auto behind = std::ranges::find_if_not(rest, is_digit_character);
   if (behind - rest.begin() == 3 && whole != "0") {
     throw UnitError(
         fmt::format("numbers have a decimal point and nothing between thousands; write "
@@ -351,9 +320,9 @@ void refuse_decimal_comma(const char* begin, const char* comma, const char* end)
 }  // namespace
 
 WrittenQuantity split_quantity(const std::string& text) {
-  const std::string trimmed = trim(text);
-  const char* begin = trimmed.data();
-  const char* end = begin + trimmed.size();
+  const std::string whole = trimmed(text, blanks);
+  const char* begin = whole.data();
+  const char* end = begin + whole.size();
   if (begin != end && *begin == '+' && begin + 1 != end && begin[1] != '-') ++begin;
   WrittenQuantity written;
   const auto [rest, status] = std::from_chars(begin, end, written.value);
@@ -364,7 +333,7 @@ WrittenQuantity split_quantity(const std::string& text) {
     throw UnitError("it does not begin with a number");
   }
   refuse_decimal_comma(begin, rest, end);
-  written.unit = trim(std::string_view(rest, end - rest));
+  written.unit = trimmed(std::string_view(rest, end - rest), blanks);
   return written;
 }
 

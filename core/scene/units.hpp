@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -70,28 +69,28 @@ WrittenQuantity split_quantity(const std::string& text);
 
 struct MeasuredUnit;  // core/scene/dimension.hpp
 
-/// The units that can be written: those of the UDUNITS-2 database and "deg", "rev", "Nm", and of
-/// memory "B" (with prefixes), "KiB", "MiB", "GiB".
-class UnitSystem {
- public:
-  /// The SI value of one `unit` of a quantity: scale("mm", length) = 0.001. Never 0.
-  /// An angle does not come or go silently: "Hz" and "1/min" are no units of angular speed.
-  /// @throws UnitError if the unit is unknown or belongs to another quantity.
-  /// @throws std::runtime_error if the database of units is needed (common_units.hpp) and cannot be
-  ///         read.
-  double scale(const std::string& unit, const Quantity& quantity) const;
-  /// The same from the database, which is read once.
-  double scale_by_database(const std::string& unit, const Quantity& quantity) const;
+// The units that can be written: those of the UDUNITS-2 database and "deg", "rev", "Nm", and of
+// memory "B" (with prefixes), "KiB", "MiB", "GiB".
 
-  /// The SI value of a text such as "120 mm".
-  /// @throws UnitError also for a missing unit and for a value out of the range of numbers.
-  double read(const std::string& text, const Quantity& quantity) const;
+/// The SI value of one `unit` of a quantity: unit_scale("mm", length) = 0.001. Never 0.
+/// An angle does not come or go silently: "Hz" and "1/min" are no units of angular speed.
+/// @throws UnitError if the unit is unknown or belongs to another quantity.
+/// @throws std::runtime_error if the database of units is needed (common_units.hpp) and cannot be
+///         read.
+double unit_scale(const std::string& unit, const Quantity& quantity);
 
-  /// Scale and dimension of a unit by itself: "km/h" is 1/3.6 m/s.
-  /// @throws UnitError if it is unknown or does not count from zero
-  MeasuredUnit measure(const std::string& unit) const;
-  /// The same from the database.
-  MeasuredUnit measure_by_database(const std::string& unit) const;
-};
+/// The same from the database, which is read once.
+double scale_by_database(const std::string& unit, const Quantity& quantity);
+
+/// The SI value of a text such as "120 mm".
+/// @throws UnitError also for a missing unit and for a value out of the range of numbers.
+double read_quantity(const std::string& text, const Quantity& quantity);
+
+/// Scale and dimension of a unit by itself: "km/h" is 1/3.6 m/s.
+/// @throws UnitError if it is unknown or does not count from zero
+MeasuredUnit measure_unit(const std::string& unit);
+
+/// The same from the database.
+MeasuredUnit measure_by_database(const std::string& unit);
 
 }  // namespace pleuel

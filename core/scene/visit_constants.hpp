@@ -17,7 +17,7 @@ enum class ByCoordinates { none, columns, both };
 struct ConstantsBlock {
   std::string_view word;  ///< in files
   ByCoordinates indices = ByCoordinates::none;
-  bool may_be_missing = false;  ///< in files
+  bool may_be_missing = false;  ///< in files; of derivatives all may
 };
 
 /// In the order of moment_pairs.
@@ -45,23 +45,23 @@ void visit_invariants(const Visit& visit, Constants&... of) {
 template <class Visit, class... Places>
 void visit_place(const Visit& visit, Places&... of) {
   visit(ConstantsBlock{"position"}, of.position...);
-  visit(ConstantsBlock{"displacement", ByCoordinates::columns}, of.displacement...);
-  visit(ConstantsBlock{"rotation", ByCoordinates::columns}, of.rotation...);
+  visit(ConstantsBlock{"displacement", ByCoordinates::columns, true}, of.displacement...);
+  visit(ConstantsBlock{"rotation", ByCoordinates::columns, true}, of.rotation...);
 }
 
 template <class Visit, class... Recoveries>
 void visit_stress(const Visit& visit, Recoveries&... of) {
   for (const auto& [word, member] : strength_members<double>) {
-    visit(ConstantsBlock{word}, (of.strengths.*member)...);
+    visit(ConstantsBlock{word, ByCoordinates::none, true}, (of.strengths.*member)...);
   }
-  visit(ConstantsBlock{"of_coordinates", ByCoordinates::columns}, of.of_coordinates...);
-  visit(ConstantsBlock{"of_accelerations"}, of.of_accelerations...);
-  visit(ConstantsBlock{"of_stretching"}, of.of_stretching...);
+  visit(ConstantsBlock{"of_coordinates", ByCoordinates::columns, true}, of.of_coordinates...);
+  visit(ConstantsBlock{"of_accelerations", ByCoordinates::none, true}, of.of_accelerations...);
+  visit(ConstantsBlock{"of_stretching", ByCoordinates::none, true}, of.of_stretching...);
 }
 
 template <class Visit, class... Stretchings>
 void visit_stretching(const Visit& visit, Stretchings&... of) {
-  visit(ConstantsBlock{"damping"}, of.damping...);
+  visit(ConstantsBlock{"damping", ByCoordinates::none, true}, of.damping...);
   visit(ConstantsBlock{"displacements", ByCoordinates::columns}, of.displacements...);
 }
 

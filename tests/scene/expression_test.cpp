@@ -14,13 +14,8 @@ namespace {
 
 using Kind = ExpressionArgument::Kind;
 
-const UnitSystem& units() {
-  static const UnitSystem system;
-  return system;
-}
-
 Dimension dimension(const std::string& unit) {
-  return units().measure(unit).dimension;
+  return measure_unit(unit).dimension;
 }
 
 /// a, b, c without unit; lengths p and q; a mass; a constant; a name that is no word.
@@ -51,18 +46,18 @@ std::vector<double> arguments_of(const Expression& expression) {
 }
 
 double value_of(const std::string& text) {
-  const ReadExpression read = read_expression(text, symbols(), units());
+  const ReadExpression read = read_expression(text, symbols());
   return evaluate(*read.expression, arguments_of(*read.expression)).value;
 }
 
 std::string unit_of(const std::string& text) {
-  return read_expression(text, symbols(), units()).expression->unit;
+  return read_expression(text, symbols()).expression->unit;
 }
 
 /// "column: what"; empty if the text can be read.
 std::string complaint_about_formula(const std::string& text) {
   try {
-    read_expression(text, symbols(), units());
+    read_expression(text, symbols());
   } catch (const ExpressionError& error) {
     return std::to_string(error.column()) + ": " + error.what();
   }
@@ -90,7 +85,7 @@ TEST(Expression, TakesNoAngleForARatioOfFrequencies) {
 
 /// What is equal but for its round-off is a tie, with the mean of both derivatives.
 TEST(Expression, HasTheMeanDerivativeWhereTwoAreEqualButForRoundOff) {
-  const ReadExpression read = read_expression("min(a, b)", symbols(), units());
+  const ReadExpression read = read_expression("min(a, b)", symbols());
   for (const double part : {0.0, 1e-15, -1e-15}) {
     const ExpressionValue found = evaluate(*read.expression, {1.3, 1.3 * (1.0 + part)});
     EXPECT_EQ(found.derivatives, (std::vector<double>{0.5, 0.5})) << part;
@@ -156,8 +151,8 @@ TEST(Expression, QuotesNamesThatAreNoWords) {
 }
 
 TEST(Expression, KnowsWhatIsFixed) {
-  EXPECT_TRUE(read_expression("2*stroke^2/(1 mm)", symbols(), units()).constant.has_value());
-  EXPECT_FALSE(read_expression("2*p", symbols(), units()).constant.has_value());
+  EXPECT_TRUE(read_expression("2*stroke^2/(1 mm)", symbols()).constant.has_value());
+  EXPECT_FALSE(read_expression("2*p", symbols()).constant.has_value());
 }
 
 using C = std::complex<double>;
@@ -181,7 +176,7 @@ std::vector<double> complex_step_gradient(const Formula& formula) {
 class ExpressionDerivative : public testing::TestWithParam<Formula> {};
 
 TEST_P(ExpressionDerivative, EqualsTheComplexStep) {
-  const ReadExpression read = read_expression(GetParam().text, symbols(), units());
+  const ReadExpression read = read_expression(GetParam().text, symbols());
   const ExpressionValue found = evaluate(*read.expression, arguments_of(*read.expression));
   const std::vector<double> expected = complex_step_gradient(GetParam());
   std::vector<double> derivatives(3, 0.0);
@@ -217,7 +212,7 @@ TEST(ExpressionDerivativeOfKinks, EqualsDifferencesAwayFromThem) {
   for (const char* text :
        {"atan2(a, b)/(1 rad)*c", "asin(a*c)/(1 rad)", "acos(a*c)/(1 rad)", "atan(a/c)/(1 rad)",
         "max(a*b, c)", "min(a*b, c)", "max(a, b, c)*min(a, b)", "abs(c - a)", "abs(a - c)^3"}) {
-    const ReadExpression read = read_expression(text, symbols(), units());
+    const ReadExpression read = read_expression(text, symbols());
     const std::vector<double> at = arguments_of(*read.expression);
     const ExpressionValue found = evaluate(*read.expression, at);
     for (std::size_t i = 0; i < at.size(); ++i) {
@@ -234,16 +229,16 @@ TEST(ExpressionDerivativeOfKinks, EqualsDifferencesAwayFromThem) {
 }
 
 TEST(ExpressionDerivativeOfKinks, IsTheMeanOfBothSidesAtAKink) {
-  const ReadExpression largest = read_expression("max(a, b)", symbols(), units());
+  const ReadExpression largest = read_expression("max(a, b)", symbols());
   EXPECT_EQ(evaluate(*largest.expression, {1.0, 1.0}).derivatives, (std::vector<double>{0.5, 0.5}));
-  const ReadExpression magnitude = read_expression("abs(a)", symbols(), units());
+  const ReadExpression magnitude = read_expression("abs(a)", symbols());
   EXPECT_EQ(evaluate(*magnitude.expression, {0.0}).derivatives, std::vector<double>{0.0});
 }
 
 TEST(Expression, WithoutValueIsNotFinite) {
-  const ReadExpression root = read_expression("sqrt(a - b)", symbols(), units());
+  const ReadExpression root = read_expression("sqrt(a - b)", symbols());
   EXPECT_FALSE(std::isfinite(evaluate(*root.expression, {1.0, 2.0}).value));
-  const ReadExpression ratio = read_expression("a/b", symbols(), units());
+  const ReadExpression ratio = read_expression("a/b", symbols());
   EXPECT_FALSE(std::isfinite(evaluate(*ratio.expression, {1.0, 0.0}).value));
 }
 
@@ -329,9 +324,9 @@ TEST(Expression, NestedTooDeeplyIsRefused) {
 TEST(Expression, RefusesAUnitThatMayBeAName) {
   std::vector<Symbol> all = symbols();
   all.push_back({"s", dimension("m"), {}, ExpressionArgument{Kind::variable, 0}});
-  EXPECT_THROW(read_expression("80 mm/s", all, units()), ExpressionError);
-  EXPECT_EQ(read_expression("(80 mm)/s", all, units()).expression->unit, "1");
-  EXPECT_EQ(read_expression("80 mm s^-1", all, units()).expression->unit, "m/s");
+  EXPECT_THROW(read_expression("80 mm/s", all), ExpressionError);
+  EXPECT_EQ(read_expression("(80 mm)/s", all).expression->unit, "1");
+  EXPECT_EQ(read_expression("80 mm s^-1", all).expression->unit, "m/s");
 }
 
 // Formulas in a problem file: in place of numbers, and as responses.
@@ -464,7 +459,7 @@ TEST(Formula, GivesAVariableItsQuantityIfNothingElseDoes) {
   document["variables"]["thickness"] = {{"start", "2 mm"}, {"lower", "1 mm"}, {"upper", "3 mm"}};
   document["scene"]["bodies"]["rod"]["segments"][0]["section"]["thickness"] = "= thickness";
   const ProblemFile problem = read(document);
-  EXPECT_EQ(variable_quantity(problem, 3), quantities::length);
+  EXPECT_EQ(problem.variables[3].quantity, quantities::length);
   EXPECT_EQ(variable_units(problem)[3].name, "mm");
 }
 

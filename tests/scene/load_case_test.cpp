@@ -634,7 +634,7 @@ TEST(PackedProblem, KeepsWhatNoFileSays) {
   EXPECT_FALSE(same.simulation.checks_resolution);
   EXPECT_TRUE(same.simulation.moves_by_bending);
   EXPECT_EQ(same.simulation.instants, problem.simulation.instants);
-  EXPECT_EQ(same.variables[0].quantity.has_value(), problem.variables[0].quantity.has_value());
+  EXPECT_EQ(same.variables[0].quantity, problem.variables[0].quantity);
 }
 
 }  // namespace

@@ -1,15 +1,9 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <functional>
 #include <initializer_list>
 #include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
 
-#include "core/scene/kind_table.hpp"
 #include "core/scene/number.hpp"
 #include "core/scene/units.hpp"
 

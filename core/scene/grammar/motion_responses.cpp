@@ -5,7 +5,6 @@
 #include "core/base/find_named.hpp"
 #include "core/scene/grammar/response_keys.hpp"
 #include "core/scene/joint_kind.hpp"
-#include "core/scene/kind_table.hpp"
 
 namespace pleuel::response_tables {
 

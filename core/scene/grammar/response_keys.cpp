@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include "core/base/find_named.hpp"
-#include "core/scene/kind_table.hpp"
-#include "core/scene/response_kind.hpp"
 #include "core/scene/response_parts.hpp"
 
 namespace pleuel::response_tables {

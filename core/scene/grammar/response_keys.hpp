@@ -1,10 +1,8 @@
 #pragma once
 
-#include <string_view>
 #include <variant>
 
 #include "core/scene/grammar/keys.hpp"
-#include "core/scene/problem_file.hpp"
 #include "core/scene/response_kind.hpp"
 
 namespace pleuel {

@@ -2,10 +2,6 @@
 
 #include <iterator>
 
-#include "core/scene/grammar/response_keys.hpp"
-#include "core/scene/kind_table.hpp"
-#include "core/scene/response_kind.hpp"
-
 namespace pleuel::response_tables {
 
 namespace {

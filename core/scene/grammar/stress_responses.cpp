@@ -5,7 +5,6 @@
 #include "core/base/find_named.hpp"
 #include "core/base/int_size.hpp"
 #include "core/scene/grammar/response_keys.hpp"
-#include "core/scene/kind_table.hpp"
 #include "core/scene/response_parts.hpp"
 
 namespace pleuel::response_tables {

@@ -1,12 +1,9 @@
 #pragma once
 
-#include <vector>
-
 #include "core/scene/body_source.hpp"
 #include "core/scene/grammar/keys.hpp"
 #include "core/scene/point.hpp"
 #include "core/scene/problem_file.hpp"
-#include "core/scene/scene.hpp"
 
 /// The tables of keys (keys.hpp), one a struct.
 namespace pleuel {

@@ -1,21 +1,15 @@
 #include "core/scene/reading/across_cases.hpp"
 
 #include <algorithm>
-#include <optional>
-#include <set>
-#include <utility>
 
 #include <fmt/format.h>
 
-#include "core/base/find_named.hpp"
 #include "core/scene/case_goals.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/reading/case_suffix.hpp"
 #include "core/scene/reading/goal_reader.hpp"
-#include "core/scene/reading/number_reader.hpp"
 #include "core/scene/reading/response_reader.hpp"
 #include "core/scene/reading/scene_reader.hpp"
-#include "core/scene/reading/symbols.hpp"
 #include "core/scene/reading/unit_scanner.hpp"
 #include "core/scene/reading/variable_reader.hpp"
 #include "core/scene/response_parts.hpp"
@@ -76,15 +70,15 @@ void read_across_constraints(const JsonNode& node, NumberReader& numbers, Proble
 
 /// Variables are what the cases use them as.
 void check_mentions(const NumberReader& numbers, const std::vector<Symbol>& symbols,
-                    const UnitSystem& units, const ProblemFile& joined) {
+                    const ProblemFile& joined) {
   for (const VariableMention& mention : numbers.mentions()) {
     const DesignVariable& variable = joined.variables[mention.variable];
     const Dimension dimension = find_named(symbols, variable.name)->dimension;
-    if (!variable.quantity || dimension == numbers.dimension_of(*variable.quantity)) continue;
+    if (dimension == dimension_of(variable.quantity)) continue;
     mention.node.fail(fmt::format(
         "takes the variable \"{}\" for {}, as its start is written, but the scene uses it as {}; "
         "give the start of the variable its unit",
-        variable.name, describe(dimension, units), describe(*variable.quantity)));
+        variable.name, describe(dimension), describe(variable.quantity)));
   }
 }
 
@@ -113,8 +107,8 @@ void ask_for_accuracies(const JsonNode& root, ProblemFile& joined) {
 }  // namespace
 
 void read_across_cases(const JsonNode& root, const std::vector<std::vector<Symbol>>& of_cases,
-                       const UnitSystem& units, ProblemFile& joined) {
-  NumberReader numbers(units, variable_names(root));
+                       ProblemFile& joined) {
+  NumberReader numbers(variable_names(root));
   const std::vector<Symbol> symbols = symbols_across(of_cases, joined);
   numbers.declare(symbols);
   if (const auto node = root.find("responses")) read_across_responses(*node, numbers, joined);
@@ -125,7 +119,7 @@ void read_across_cases(const JsonNode& root, const std::vector<std::vector<Symbo
   }
   if (const auto node = root.find("constraints")) read_across_constraints(*node, numbers, joined);
   joined.case_responses.resize(joined.responses.size(), {several_cases, 0});
-  check_mentions(numbers, symbols, units, joined);
+  check_mentions(numbers, symbols, joined);
   joined.pareto.reset();
   if (const auto pareto = root.find("pareto"))
     joined.pareto = read_pareto(*pareto, joined, numbers);

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include "core/scene/problem_file.hpp"
 #include "core/scene/reading/symbols.hpp"
 #include "core/scene/units.hpp"
@@ -17,6 +15,6 @@ namespace pleuel {
 /// @param joined    the problem of all cases, without them
 /// @throws InputError
 void read_across_cases(const JsonNode& root, const std::vector<std::vector<Symbol>>& of_cases,
-                       const UnitSystem& units, ProblemFile& joined);
+                       ProblemFile& joined);
 
 }  // namespace pleuel

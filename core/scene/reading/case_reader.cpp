@@ -2,15 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <optional>
-#include <set>
-#include <string>
-#include <string_view>
-#include <utility>
 
 #include <fmt/format.h>
 
-#include "core/base/error.hpp"
 #include "core/base/find_named.hpp"
 #include "core/base/plain_file_name.hpp"
 #include "core/scene/case_goals.hpp"
@@ -301,10 +295,7 @@ void check_constant(const Json& document, const std::string& pointer, const std:
                     const std::string& file) {
   constexpr std::string_view constants = "/constants/";
   if (!pointer.starts_with(constants)) return;
-  std::vector<std::string> names;
-  if (document.contains("constants") && document["constants"].is_object()) {
-    for (const auto& [name, value] : document["constants"].items()) names.push_back(name);
-  }
+  const std::vector<std::string> names = keys_of(document, "constants");
   const std::string name = pointer.substr(constants.size());
   if (std::ranges::find(names, name) != names.end()) return;
   throw InputError(fmt::format("{}: {} names the unknown constant \"{}\"{}", file, place, name,

@@ -1,9 +1,6 @@
 #pragma once
 
 #include <set>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "core/scene/problem_file.hpp"
 #include "core/scene/reading/json_node.hpp"

@@ -1,18 +1,9 @@
 #include "core/scene/reading/case_suffix.hpp"
 
 #include "core/scene/load_cases.hpp"
+#include "core/scene/reading/unit_scanner.hpp"
 
 namespace pleuel {
-
-namespace {
-
-std::string trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(' ');
-  if (first == std::string_view::npos) return "";
-  return std::string(text.substr(first, text.find_last_not_of(' ') - first + 1));
-}
-
-}  // namespace
 
 std::optional<CaseSuffix> case_suffix(std::string_view text, std::size_t at) {
   const std::size_t open = text.find_first_not_of(' ', at);

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "core/scene/reading/json_text.hpp"
 #include "core/scene/units.hpp"
 
@@ -17,7 +14,7 @@ namespace pleuel {
 /// (section_choices.hpp).
 /// @param file  how messages name the document; its folder is that of the problem.
 /// @throws InputError  that names the file and the pointer in which the fault is.
-void expand_catalogue(Json& document, const std::string& file, const UnitSystem& units);
+void expand_catalogue(Json& document, const std::string& file);
 
 /// The variables that choose sections in a document that is not expanded yet.
 std::vector<std::string> section_variables(const Json& document);

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include "core/base/dense_solvers.hpp"
+#include "core/base/find_named.hpp"
+#include "core/scene/kind_table.hpp"
 #include "core/scene/visit_constants.hpp"
 
 namespace pleuel {
@@ -16,12 +18,6 @@ namespace {
 constexpr int most_rows = 1000000;
 constexpr int components = 6;  // of stress
 constexpr std::size_t most_displacements = 12;
-
-SparseMatrix empty_matrix(Eigen::Index rows, Eigen::Index columns) {
-  return SparseMatrix(rows, columns);
-}
-
-// Numbers that have their sizes already.
 
 void read_numbers(const JsonNode& node, double& number) {
   number = node.number();
@@ -62,68 +58,54 @@ void read_numbers(const JsonNode& node, SparseMatrix& matrix) {
 
 // Blocks of an object. `visit_blocks` is one of the functions of visit_constants.hpp for it.
 
-/// The node has keys of these blocks, and these besides, only.
+/// Whether blocks say what a body is, or what a design variable changes: what is missing there is zero.
+enum class BlocksOf { body, derivative };
+
+/// The node has keys of these blocks, and these besides, only. What is missing stays as it is.
 template <class VisitBlocks>
-void allow_blocks(const JsonNode& node, const VisitBlocks& visit_blocks,
-                  std::vector<std::string_view> keys = {}) {
+void read_blocks(const JsonNode& node, BlocksOf of, const VisitBlocks& visit_blocks,
+                 std::vector<std::string_view> keys = {}) {
   visit_blocks([&](const ConstantsBlock& block, const auto&) { keys.push_back(block.word); });
   node.allow_keys(keys);
-}
-
-/// What is missing stays as it is.
-template <class VisitBlocks>
-void fill_blocks(const JsonNode& node, const VisitBlocks& visit_blocks) {
   visit_blocks([&](const ConstantsBlock& block, auto& numbers) {
-    if (const auto found = node.find(std::string(block.word))) read_numbers(*found, numbers);
+    const std::string word(block.word);
+    const bool is_needed = of == BlocksOf::body && !block.may_be_missing;
+    const auto found = is_needed ? node.at(word) : node.find(word);
+    if (found) read_numbers(*found, numbers);
   });
 }
 
-template <class VisitBlocks>
-void read_blocks(const JsonNode& node, const VisitBlocks& visit_blocks,
-                 const std::vector<std::string_view>& others = {}) {
-  allow_blocks(node, visit_blocks, others);
-  fill_blocks(node, visit_blocks);
+void read_invariants_block(const JsonNode& node, BlocksOf of, BodyConstants& constants) {
+  read_blocks(node, of, [&](const auto& visit) { visit_invariants(visit, constants); });
+}
+
+void read_place(const JsonNode& node, BlocksOf of, BodyPlace& place) {
+  read_blocks(node, of, [&](const auto& visit) { visit_place(visit, place); });
 }
 
 void set_sizes(BodyConstants& constants, int n) {
-  constants.shape = empty_matrix(3, n);
-  constants.mixed = empty_matrix(9, n);
+  constants.shape = SparseMatrix(3, n);
+  constants.mixed = SparseMatrix(9, n);
   for (auto* matrix : {&constants.mass_matrix, &constants.stiffness, &constants.damping}) {
-    *matrix = empty_matrix(n, n);
+    *matrix = SparseMatrix(n, n);
   }
-  for (SparseMatrix& moment : constants.moments) moment = empty_matrix(n, n);
-}
-
-void read_invariants_block(const JsonNode& node, BodyConstants& constants, bool is_derivative) {
-  const auto blocks = [&](const auto& visit) { visit_invariants(visit, constants); };
-  allow_blocks(node, blocks);
-  blocks([&](const ConstantsBlock& block, const auto&) {
-    if (!is_derivative && !block.may_be_missing) node.at(std::string(block.word));
-  });
-  fill_blocks(node, blocks);
-}
-
-void read_place(const JsonNode& node, BodyPlace& place) {
-  read_blocks(node, [&](const auto& visit) { visit_place(visit, place); });
+  for (SparseMatrix& moment : constants.moments) moment = SparseMatrix(n, n);
 }
 
 void read_places(const JsonNode& node, BodyConstants& constants) {
   for (const auto& [name, member] : node.members()) {
-    BodyPlace place{name, {}, empty_matrix(3, constants.size()), empty_matrix(3, constants.size())};
-    member.at("position");
-    read_place(member, place);
+    BodyPlace place{name, {}, SparseMatrix(3, constants.size()), SparseMatrix(3, constants.size())};
+    read_place(member, BlocksOf::body, place);
     constants.places.push_back(std::move(place));
   }
   if (constants.places.empty()) node.fail("must have at least one place");
 }
 
 void read_changes_of_places(const JsonNode& node, BodyConstants& change) {
-  std::vector<std::string> names;
-  for (const BodyPlace& place : change.places) names.push_back(place.name);
   for (const auto& [name, member] : node.members()) {
-    const auto found = std::ranges::find(names, name);
-    if (found == names.end()) fail_unknown_name(node, "place", name, names);
-    read_place(member, change.places[found - names.begin()]);
+    BodyPlace* place = find_named(change.places, name);
+    if (place == nullptr) fail_unknown_name(node, "place", name, names_of(change.places));
+    read_place(member, BlocksOf::derivative, *place);
   }
 }
 
@@ -161,29 +143,26 @@ void read_strengths(const JsonNode& node, Strengths<double>& strengths) {
 
 void read_stress(const JsonNode& node, BodyConstants& constants) {
   StressRecovery stress;
-  const auto blocks = [&](const auto& visit) { visit_stress(visit, stress); };
-  allow_blocks(node, blocks, {"points", "groups", fatigue_exponent_word});
   for (const JsonNode& point : node.at("points").items()) stress.points.push_back(point.text());
   if (stress.points.empty()) node.at("points").fail("must have at least one point");
   const auto rows = components * static_cast<Eigen::Index>(stress.points.size());
   const auto elements = constants.stretching ? constants.stretching->elements.size() : 0;
-  stress.of_coordinates = empty_matrix(rows, constants.size());
+  stress.of_coordinates = SparseMatrix(rows, constants.size());
   stress.of_accelerations =
-      empty_matrix(rows, 3 * static_cast<Eigen::Index>(constants.places.size()));
-  stress.of_stretching = empty_matrix(rows, elements);
+      SparseMatrix(rows, 3 * static_cast<Eigen::Index>(constants.places.size()));
+  stress.of_stretching = SparseMatrix(rows, elements);
   if (node.find("of_stretching") && !constants.stretching) {
     node.at("of_stretching").fail("needs the block \"stiffening\"");
   }
   if (const auto groups = node.find("groups")) read_groups(*groups, stress);
-  fill_blocks(node, blocks);
+  read_blocks(node, BlocksOf::body, [&](const auto& visit) { visit_stress(visit, stress); },
+              {"points", "groups", fatigue_exponent_word});
   read_strengths(node, stress.strengths);
   constants.stress = std::move(stress);
 }
 
 StretchedElement read_element(const JsonNode& node, Eigen::Index displacements) {
   StretchedElement element;
-  const auto blocks = [&](const auto& visit) { visit_element(visit, element); };
-  allow_blocks(node, blocks, {"displacements", "elongation"});
   const JsonNode list = node.at("displacements");
   for (const JsonNode& item : list.items()) {
     const int index = item.whole_number(0, static_cast<int>(displacements) - 1);
@@ -199,20 +178,20 @@ StretchedElement read_element(const JsonNode& node, Eigen::Index displacements) 
   element.elongation.resize(size);
   element.slopes.resize(size, size);
   read_numbers(node.at("elongation"), element.elongation);
-  const JsonNode stiffness = node.at("axial_stiffness"), slopes = node.at("slopes");
-  fill_blocks(node, blocks);
-  if (element.axial_stiffness <= 0.0) stiffness.fail_with_value("must be positive [N/m]");
+  read_blocks(node, BlocksOf::body, [&](const auto& visit) { visit_element(visit, element); },
+              {"displacements", "elongation"});
+  if (element.axial_stiffness <= 0.0) {
+    node.at("axial_stiffness").fail_with_value("must be positive [N/m]");
+  }
   return element;
 }
 
 void read_stiffening(const JsonNode& node, BodyConstants& constants) {
   Stretching stretching;
-  const auto blocks = [&](const auto& visit) { visit_stretching(visit, stretching); };
-  allow_blocks(node, blocks, {"size", "elements"});
   stretching.displacements =
-      empty_matrix(node.at("size").whole_number(1, most_rows), constants.size());
-  node.at("displacements");
-  fill_blocks(node, blocks);
+      SparseMatrix(node.at("size").whole_number(1, most_rows), constants.size());
+  read_blocks(node, BlocksOf::body, [&](const auto& visit) { visit_stretching(visit, stretching); },
+              {"size", "elements"});
   for (const JsonNode& item : node.at("elements").items()) {
     stretching.elements.push_back(read_element(item, stretching.displacements.rows()));
   }
@@ -221,13 +200,15 @@ void read_stiffening(const JsonNode& node, BodyConstants& constants) {
 }
 
 void read_change_of_stiffening(const JsonNode& node, Stretching& change) {
-  read_blocks(node, [&](const auto& visit) { visit_stretching(visit, change); }, {"elements"});
+  read_blocks(node, BlocksOf::derivative,
+              [&](const auto& visit) { visit_stretching(visit, change); }, {"elements"});
   const auto elements = node.find("elements");
   if (!elements) return;
   std::size_t i = 0;
   for (const JsonNode& item : elements->items(change.elements.size())) {
     StretchedElement& element = change.elements[i++];
-    read_blocks(item, [&](const auto& visit) { visit_element(visit, element); });
+    read_blocks(item, BlocksOf::derivative,
+                [&](const auto& visit) { visit_element(visit, element); });
   }
 }
 
@@ -236,7 +217,7 @@ void read_change_of_stiffening(const JsonNode& node, Stretching& change) {
 BodyConstants read_constants(const JsonNode& node, int coordinates) {
   BodyConstants constants;
   set_sizes(constants, coordinates);
-  read_invariants_block(node.at("invariants"), constants, false);
+  read_invariants_block(node.at("invariants"), BlocksOf::body, constants);
   read_places(node.at("places"), constants);
   if (const auto stiffening = node.find("stiffening")) read_stiffening(*stiffening, constants);
   if (const auto stress = node.find("stress")) read_stress(*stress, constants);
@@ -246,18 +227,20 @@ BodyConstants read_constants(const JsonNode& node, int coordinates) {
 BodyConstants read_derivative(const JsonNode& node, const BodyConstants& of) {
   node.allow_keys({"invariants", "places", "stress", "stiffening"});
   BodyConstants change = zero_constants(of);
+  const auto require = [](const JsonNode& block, bool is_there) {
+    if (!is_there) block.fail("has no block of the same name outside the derivatives");
+  };
   if (const auto invariants = node.find("invariants")) {
-    read_invariants_block(*invariants, change, true);
+    read_invariants_block(*invariants, BlocksOf::derivative, change);
   }
   if (const auto places = node.find("places")) read_changes_of_places(*places, change);
   if (const auto stress = node.find("stress")) {
-    if (!change.stress) stress->fail("has no block of the same name outside the derivatives");
-    read_blocks(*stress, [&](const auto& visit) { visit_stress(visit, *change.stress); });
+    require(*stress, change.stress.has_value());
+    read_blocks(*stress, BlocksOf::derivative,
+                [&](const auto& visit) { visit_stress(visit, *change.stress); });
   }
   if (const auto stiffening = node.find("stiffening")) {
-    if (!change.stretching) {
-      stiffening->fail("has no block of the same name outside the derivatives");
-    }
+    require(*stiffening, change.stretching.has_value());
     read_change_of_stiffening(*stiffening, *change.stretching);
   }
   return change;

@@ -1,11 +1,7 @@
 #include "core/scene/reading/document_reader.hpp"
 
-#include <string_view>
-#include <vector>
-
 #include <fmt/format.h>
 
-#include "core/base/error.hpp"
 #include "core/base/machine_memory.hpp"
 #include "core/scene/reading/case_suffix.hpp"
 #include "core/scene/reading/catalogue.hpp"
@@ -16,7 +12,6 @@
 #include "core/scene/reading/scene_check.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 #include "core/scene/reading/settings_reader.hpp"
-#include "core/scene/reading/variable_reader.hpp"
 #include "core/scene/scene_rules.hpp"
 
 namespace pleuel {
@@ -68,8 +63,7 @@ void read_settings(const JsonNode& root, NumberReader& numbers, ProblemFile& pro
 
 void check_scattering_places(const JsonNode& root, const ProblemFile& problem) {
   if (!problem.uncertainty) return;
-  Design<double> start;
-  for (const DesignVariable& variable : problem.variables) start.push_back(variable.start);
+  const Design<double> start = start_values(problem.variables);
   for (const UncertainParameter& parameter : problem.uncertainty->parameters) {
     const auto moved =
         find_point_moved_along(problem.scene, start, parameter.variable, parameter.half_width());
@@ -107,9 +101,9 @@ std::vector<CaseChanges> cases_of(const Json& document, const std::string& file)
   return read_cases(JsonNode(document, file));
 }
 
-Json whole_document(const ProblemText& text, const UnitSystem& units) {
+Json whole_document(const ProblemText& text) {
   Json document = overridden_document(text);
-  expand_catalogue(document, text.file, units);
+  expand_catalogue(document, text.file);
   return document;
 }
 

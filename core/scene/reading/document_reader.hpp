@@ -1,15 +1,8 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
-#include "core/scene/problem_file.hpp"
 #include "core/scene/problem_text.hpp"
 #include "core/scene/reading/case_reader.hpp"
-#include "core/scene/reading/json_node.hpp"
-#include "core/scene/reading/number_reader.hpp"
 #include "core/scene/reading/variable_reader.hpp"
-#include "core/scene/units.hpp"
 
 namespace pleuel {
 
@@ -22,7 +15,7 @@ std::vector<CaseChanges> cases_of(const Json& document, const std::string& file)
 
 /// The document that a problem is read from: with all overrides, and sections of the catalogue
 /// written out. @throws InputError
-Json whole_document(const ProblemText& text, const UnitSystem& units);
+Json whole_document(const ProblemText& text);
 
 /// @param numbers  that knows variable_names()
 /// @throws InputError

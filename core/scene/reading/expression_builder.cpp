@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/int_size.hpp"
+#include "core/scene/kind_table.hpp"
 #include "core/scene/reading/suggestion.hpp"
 
 namespace pleuel {
@@ -35,16 +36,14 @@ std::size_t ExpressionBuilder::column_of(std::size_t position) const {
 int ExpressionBuilder::add_quantity(std::size_t position, double value, const std::string& unit) {
   MeasuredUnit measured;
   try {
-    if (!unit.empty()) measured = units_.measure(without_blanks_at_powers(unit));
+    if (!unit.empty()) measured = measure_unit(without_blanks_at_powers(unit));
   } catch (const UnitError& error) {
     const bool is_product = find(unit) != nullptr || unit == "pi";
     fail(position, is_product ? std::string("a product needs its *") : error.what());
   }
   const double si = value * measured.scale;
   if (!std::isfinite(si)) fail(position, "the number is out of range");
-  const int step = add_constant(si, measured.dimension);
-  facts_[step].counts_cycles = is_of_cycles(unit);
-  return step;
+  return add_constant({measured.dimension, si, is_of_cycles(unit)});
 }
 
 int ExpressionBuilder::add_name(std::size_t position, const std::string& name) {
@@ -63,7 +62,7 @@ int ExpressionBuilder::add_name(std::size_t position, const std::string& name) {
 }
 
 int ExpressionBuilder::apply(std::size_t position, Operation operation, int first, int second) {
-  StepFacts facts;
+  KnownNumber facts;
   facts.dimension = dimension_of(position, operation, first, second);
   const bool has_cycles = fact(first).counts_cycles || (second >= 0 && fact(second).counts_cycles);
   facts.counts_cycles = has_cycles && facts.dimension.powers[3] == 0.0;
@@ -76,16 +75,9 @@ int ExpressionBuilder::apply(std::size_t position, Operation operation, int firs
   return step;
 }
 
-const Symbol* ExpressionBuilder::find(const std::string& name) const {
-  for (const Symbol& symbol : symbols_) {
-    if (symbol.name == name) return &symbol;
-  }
-  return nullptr;
-}
-
 bool ExpressionBuilder::is_unit(const std::string& name) const {
   try {
-    units_.measure(name);
+    measure_unit(name);
     return true;
   } catch (const UnitError&) {
     return false;
@@ -94,33 +86,28 @@ bool ExpressionBuilder::is_unit(const std::string& name) const {
 
 ReadExpression ExpressionBuilder::take() {
   expression_.text = std::string(text_);
-  const auto quantity = find_quantity(facts_.back().dimension, units_);
+  const auto quantity = find_quantity(facts_.back().dimension);
   expression_.quantity = quantity ? quantity->name : "a quantity";
   expression_.unit = quantity ? std::string(quantity->unit) : base_units(facts_.back().dimension);
-  return {std::make_shared<const Expression>(std::move(expression_)), facts_.back().dimension,
-          facts_.back().constant, facts_.back().counts_cycles};
+  return {facts_.back(), std::make_shared<const Expression>(std::move(expression_))};
 }
 
-int ExpressionBuilder::add(const ExpressionStep& step, const StepFacts& facts) {
+int ExpressionBuilder::add(const ExpressionStep& step, const KnownNumber& facts) {
   expression_.steps.push_back(step);
   facts_.push_back(facts);
   return int_size(facts_) - 1;
 }
 
-int ExpressionBuilder::add_constant(double value, const Dimension& dimension) {
-  return add({Operation::constant, value}, {dimension, value});
+int ExpressionBuilder::add_constant(const KnownNumber& known) {
+  return add({Operation::constant, *known.constant}, known);
 }
 
 int ExpressionBuilder::add_symbol(const Symbol& symbol) {
   if (symbol.constant) {
-    const int step = add_constant(*symbol.constant, symbol.dimension);
-    facts_[step].counts_cycles = symbol.counts_cycles;
-    return step;
+    return add_constant({symbol.dimension, symbol.constant, symbol.counts_cycles});
   }
   std::vector<ExpressionArgument>& all = expression_.arguments;
-  const auto known = std::ranges::find_if(all, [&](const ExpressionArgument& one) {
-    return one.kind == symbol.argument->kind && one.index == symbol.argument->index;
-  });
+  const auto known = std::ranges::find(all, *symbol.argument);
   const auto index = static_cast<int>(known - all.begin());
   if (known == all.end()) all.push_back(*symbol.argument);
   return add({Operation::argument, 0.0, index}, {symbol.dimension, std::nullopt});
@@ -184,12 +171,13 @@ Dimension ExpressionBuilder::dimension_of(std::size_t position, Operation operat
 
 /// f/(60 Hz) looks like a ratio, but would be 2π times as large, as an angle [rad] whose unit no
 /// limit asks for; so would f*(1/(60 Hz)), and (60 Hz)/f as much smaller.
-void ExpressionBuilder::check_no_ratio_of_frequencies(std::size_t position, const StepFacts& result,
-                                                      int first, int second) const {
+void ExpressionBuilder::check_no_ratio_of_frequencies(std::size_t position,
+                                                      const KnownNumber& result, int first,
+                                                      int second) const {
   const double angles = result.dimension.powers[3];
   const bool is_angle = angles != 0.0 && result.dimension == Dimension::angle().to_the(angles);
   if (!is_angle || fact(first).counts_cycles == fact(second).counts_cycles) return;
-  const StepFacts& cycles = fact(first).counts_cycles ? fact(first) : fact(second);
+  const KnownNumber& cycles = fact(first).counts_cycles ? fact(first) : fact(second);
   if (cycles.dimension.is_number()) return;  // cycles themselves, which "1 rad" makes an angle
   fail(position, fmt::format("{} and {} make no ratio but an angle: frequencies are angular ones "
                              "here, and Hz counts cycles; write \"rev/s\" in place of \"Hz\"",
@@ -285,9 +273,7 @@ void ExpressionBuilder::fail_unknown(std::size_t position, const std::string& na
                                "\"{}[{}]\"; there are {}",
                                name, name, cases.front(), quoted_list(cases, "and")));
   }
-  std::vector<std::string> known;
-  for (const Symbol& symbol : symbols_) known.push_back(symbol.name);
-  std::string more = hint(name, known);
+  std::string more = hint(name, names_of(symbols_));
   if (is_unit(name)) {
     more += fmt::format(". If the unit is meant: it stands right behind its number, as in \"1 {}\"",
                         name);

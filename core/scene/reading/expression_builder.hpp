@@ -1,14 +1,10 @@
 #pragma once
 
-#include <cstddef>
 #include <memory>
-#include <optional>
 #include <stdexcept>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "core/base/expression.hpp"
+#include "core/base/find_named.hpp"
 #include "core/scene/named_quantities.hpp"
 #include "core/scene/reading/case_suffix.hpp"
 
@@ -47,12 +43,19 @@ class CaseExpressionError : public ExpressionError {
   using ExpressionError::ExpressionError;
 };
 
-struct ReadExpression {
-  std::shared_ptr<const Expression> expression;
+/// What is known of a number while a text is read.
+struct KnownNumber {
   Dimension dimension;
   /// Its value [SI] where it depends on no variable and no response.
-  std::optional<double> constant;
+  std::optional<double> constant = {};
   bool counts_cycles = false;  ///< made from Hz, which are 1/s in formulas
+
+  /// A plain 0, which is as well no length, no mass, …
+  bool is_zero() const { return constant == 0.0 && dimension.is_number(); }
+};
+
+struct ReadExpression : KnownNumber {
+  std::shared_ptr<const Expression> expression;
 };
 
 /// Puts the steps of an expression together while its text is read, and checks that units fit.
@@ -60,9 +63,8 @@ struct ReadExpression {
 class ExpressionBuilder {
  public:
   /// All must outlive this.
-  ExpressionBuilder(std::string_view text, const std::vector<Symbol>& symbols,
-                    const UnitSystem& units)
-      : text_(text), symbols_(symbols), units_(units) {}
+  ExpressionBuilder(std::string_view text, const std::vector<Symbol>& symbols)
+      : text_(text), symbols_(symbols) {}
 
   /// @throws ExpressionError at the column of the position, always
   [[noreturn]] void fail(std::size_t position, const std::string& why) const {
@@ -79,34 +81,25 @@ class ExpressionBuilder {
   /// @throws ExpressionError where units do not fit, or the result is no finite number
   int apply(std::size_t position, Operation operation, int first, int second = -1);
 
-  const Symbol* find(const std::string& name) const;
+  const Symbol* find(const std::string& name) const { return find_named(symbols_, name); }
   bool is_unit(const std::string& name) const;
 
   /// The expression whose result is that of the last step. Ends the building.
   ReadExpression take();
 
  private:
-  /// What is known of the result of a step while the text is read.
-  struct StepFacts {
-    Dimension dimension;
-    std::optional<double> constant;  ///< its value, if it depends on nothing
-    bool counts_cycles = false;      ///< made from Hz, which are 1/s here
-    /// A plain 0, which is as well no length, no mass, …
-    bool is_zero() const { return constant && *constant == 0.0 && dimension.is_number(); }
-  };
-
   std::size_t column_of(std::size_t position) const;
-  const StepFacts& fact(int step) const { return facts_[step]; }
-  std::string described(int step) const { return describe(fact(step).dimension, units_); }
+  const KnownNumber& fact(int step) const { return facts_[step]; }
+  std::string described(int step) const { return describe(fact(step).dimension); }
 
-  int add(const ExpressionStep& step, const StepFacts& facts);
-  int add_constant(double value, const Dimension& dimension);
+  int add(const ExpressionStep& step, const KnownNumber& facts);
+  int add_constant(const KnownNumber& known);
   int add_symbol(const Symbol& symbol);
   void fold(std::size_t position, int step);
 
   Dimension dimension_of(std::size_t position, Operation operation, int first, int second) const;
   void check_number(std::size_t position, int step) const;
-  void check_no_ratio_of_frequencies(std::size_t position, const StepFacts& result, int first,
+  void check_no_ratio_of_frequencies(std::size_t position, const KnownNumber& result, int first,
                                      int second) const;
   Dimension common(std::size_t position, int first, int second, const char* what) const;
   Dimension power(std::size_t position, int base, int exponent) const;
@@ -120,9 +113,8 @@ class ExpressionBuilder {
 
   std::string_view text_;
   const std::vector<Symbol>& symbols_;
-  const UnitSystem& units_;
   Expression expression_;
-  std::vector<StepFacts> facts_;  ///< one a step
+  std::vector<KnownNumber> facts_;  ///< one a step
 };
 
 }  // namespace pleuel

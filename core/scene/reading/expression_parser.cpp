@@ -5,16 +5,11 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "core/base/int_size.hpp"
 #include "core/scene/load_cases.hpp"
-#include "core/scene/reading/case_suffix.hpp"
-#include "core/scene/reading/expression_builder.hpp"
 #include "core/scene/reading/suggestion.hpp"
 #include "core/scene/reading/unit_scanner.hpp"
 
@@ -278,13 +273,12 @@ void check_characters(const ExpressionBuilder& builder, std::string_view text) {
 
 }  // namespace
 
-ReadExpression read_expression(const std::string& text, const std::vector<Symbol>& symbols,
-                               const UnitSystem& units) {
+ReadExpression read_expression(const std::string& text, const std::vector<Symbol>& symbols) {
   // The sign "=" becomes a blank: columns are those of the whole text.
   std::string formula = text;
   const std::size_t first = formula.find_first_not_of(' ');
   if (first != std::string::npos && formula[first] == '=') formula[first] = ' ';
-  ExpressionBuilder builder(formula, symbols, units);
+  ExpressionBuilder builder(formula, symbols);
   if (formula.find_first_not_of(' ') == std::string::npos) builder.fail(0, "there is no formula");
   check_characters(builder, formula);
   FormulaParser(formula, builder).read();

@@ -13,7 +13,6 @@ namespace pleuel {
 /// a unit, never a product.
 /// @param text  that may begin with "="
 /// @throws ExpressionError
-ReadExpression read_expression(const std::string& text, const std::vector<Symbol>& symbols,
-                               const UnitSystem& units);
+ReadExpression read_expression(const std::string& text, const std::vector<Symbol>& symbols);
 
 }  // namespace pleuel

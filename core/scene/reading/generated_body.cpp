@@ -1,12 +1,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
 #include <mutex>
-#include <string>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -19,7 +17,6 @@
 #include "core/jobs/child_program.hpp"
 #include "core/jobs/parallel.hpp"
 #include "core/scene/aligned_body.hpp"
-#include "core/scene/body_constants.hpp"
 #include "core/scene/body_source.hpp"
 #include "core/scene/reading/json_text.hpp"
 

@@ -1,10 +1,10 @@
 #include "core/scene/reading/goal_reader.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 #include <fmt/format.h>
 
-#include "core/base/find_named.hpp"
 #include "core/scene/case_goals.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/reading/case_suffix.hpp"
@@ -66,15 +66,23 @@ void read_limits(const JsonNode& node, const Quantity& quantity, const NumberRea
 }
 
 /// People see a response in the unit of its first limit, unless it says its own.
-void show_as_limited(const JsonNode& node, ResponseSettings& response,
-                     const NumberReader& numbers) {
+void show_as_limited(const JsonNode& node, ResponseSettings& response) {
   for (const char* key : {"upper", "lower"}) {
     const std::optional<JsonNode> limit = node.find(key);
     if (!limit || !response.unit.empty()) continue;
     response.unit = written_unit({*limit});
     if (response.unit.empty()) continue;
-    response.unit_scale = numbers.scale(response.unit, quantity_of(response));
+    response.unit_scale = unit_scale(response.unit, quantity_of(response));
   }
+}
+
+/// What {"minimize": …} or {"maximize": …} names.
+std::pair<JsonNode, Aim> read_aim(const JsonNode& node) {
+  node.allow_keys({"minimize", "maximize", "over_cases"});
+  const auto largest = node.find("maximize");
+  if (!largest) return {node.at("minimize"), Aim::minimize};
+  if (node.find("minimize")) node.fail("has both \"minimize\" and \"maximize\"");
+  return {*largest, Aim::maximize};
 }
 
 std::vector<std::string> read_case_names(const JsonNode& node) {
@@ -127,12 +135,10 @@ const ConstraintSettings& read_varied_constraint(const JsonNode& node, const Pro
   return constraint;
 }
 
-Quantity quantity_of(const ConstraintSettings& constraint, const ProblemFile& problem,
-                     const NumberReader& numbers) {
+Quantity quantity_of(const ConstraintSettings& constraint, const ProblemFile& problem) {
   const ResponseSettings* response = find_named(problem.responses, constraint.response);
-  if (response) return quantity_of(*response);
-  const auto known = problem.variables[constraint.linear.front().first].quantity;
-  return problem.has_cases() && known ? *known : quantity_of(constraint.linear, numbers);
+  return response ? quantity_of(*response)
+                  : problem.variables[constraint.linear.front().first].quantity;
 }
 
 }  // namespace
@@ -156,18 +162,14 @@ ConstraintSettings read_constraint(const std::string& name, const JsonNode& node
   ResponseSettings& response = read_response_or_formula(node.at("response"), responses, numbers);
   constraint.response = response.name;
   read_limits(node, quantity_of(response), numbers, constraint);
-  show_as_limited(node, response, numbers);
+  show_as_limited(node, response);
   return constraint;
 }
 
 Objective read_objective(const JsonNode& node, std::vector<ResponseSettings>& responses,
                          NumberReader& numbers) {
-  node.allow_keys({"minimize", "maximize", "over_cases"});
-  const auto largest = node.find("maximize");
-  if (largest && node.find("minimize")) node.fail("has both \"minimize\" and \"maximize\"");
-  const JsonNode name = largest ? *largest : node.at("minimize");
-  Objective objective{read_response_or_formula(name, responses, numbers).name,
-                      largest ? Aim::maximize : Aim::minimize};
+  const auto [name, aim] = read_aim(node);
+  Objective objective{read_response_or_formula(name, responses, numbers).name, aim};
   if (const auto over_cases = node.find("over_cases")) read_over_cases(*over_cases, objective);
   return objective;
 }
@@ -246,11 +248,7 @@ Objective read_goal(const JsonNode& node, const ProblemFile& problem, const Numb
   JsonNode name = node;
   Aim aim = Aim::minimize;
   if (node.value().is_object()) {
-    node.allow_keys({"minimize", "maximize", "over_cases"});
-    const auto largest = node.find("maximize");
-    if (largest && node.find("minimize")) node.fail("has both \"minimize\" and \"maximize\"");
-    name = largest ? *largest : node.at("minimize");
-    if (largest) aim = Aim::maximize;
+    std::tie(name, aim) = read_aim(node);
     over_cases = node.find("over_cases");
   }
   const std::string written = problem.has_cases() ? spaced_case(name.text()) : name.text();
@@ -321,7 +319,7 @@ ParetoSettings read_pareto(const JsonNode& node, const ProblemFile& problem,
   ParetoSettings pareto;
   const ConstraintSettings& constraint =
       read_varied_constraint(node.at("constraint"), problem, numbers, pareto.constraint);
-  const Quantity quantity = quantity_of(constraint, problem, numbers);
+  const Quantity quantity = quantity_of(constraint, problem);
   pareto.from = numbers.fixed(node.at("from"), quantity);
   pareto.to = numbers.fixed(node.at("to"), quantity);
   if (pareto.from == pareto.to) node.at("to").fail_with_value("must differ from \"from\"");

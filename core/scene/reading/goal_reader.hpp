@@ -1,11 +1,6 @@
 #pragma once
 
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "core/scene/problem_file.hpp"
-#include "core/scene/reading/json_node.hpp"
 #include "core/scene/reading/number_reader.hpp"
 
 /// What the design is to reach: objective, constraints, and the study that trades one for the

@@ -1,19 +1,15 @@
 #include "core/scene/reading/invariants_reader.hpp"
 
 #include <cmath>
-#include <filesystem>
-#include <string>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "core/base/error.hpp"
 #include "core/base/int_size.hpp"
-#include "core/scene/body_constants.hpp"
 #include "core/scene/body_source.hpp"
 #include "core/scene/named_quantities.hpp"
 #include "core/scene/reading/constants_reader.hpp"
-#include "core/scene/reading/json_node.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 #include "core/scene/reading/syntax_error.hpp"
 #include "core/scene/visit_constants.hpp"

@@ -1,12 +1,9 @@
 #include "core/scene/reading/joint_reader.hpp"
 
 #include <cmath>
-#include <string>
-#include <vector>
 
 #include <fmt/format.h>
 
-#include "core/scene/joint_kind.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 #include "core/scene/reading/suggestion.hpp"
 #include "core/scene/reading/time_function_reader.hpp"

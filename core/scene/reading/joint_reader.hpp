@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "core/scene/joint_kind.hpp"
 #include "core/scene/reading/json_node.hpp"
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "core/base/error.hpp"
 #include "core/base/quoted.hpp"
 #include "core/scene/reading/suggestion.hpp"
@@ -52,9 +50,7 @@ void JsonNode::allow_keys(const std::vector<std::string_view>& known) const {
 
 JsonNode JsonNode::at(const std::string& key) const {
   if (std::optional<JsonNode> child = find(key)) return *child;
-  std::vector<std::string> present;
-  for (const auto& [name, member] : value_->items()) present.push_back(name);
-  const std::string similar = closest(key, present);
+  const std::string similar = closest(key, keys_of(*value_));
   fail(fmt::format("is missing the key \"{}\"{}", key,
                    similar.empty() ? "" : fmt::format("; is \"{}\" a misspelling?", similar)));
 }

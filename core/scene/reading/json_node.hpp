@@ -2,10 +2,7 @@
 
 #include <filesystem>
 #include <optional>
-#include <string>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 #include "core/scene/kind_table.hpp"
 #include "core/scene/reading/json_text.hpp"

@@ -1,14 +1,10 @@
 #include "core/scene/reading/json_text.hpp"
 
-#include <algorithm>
-#include <string_view>
 #include <unordered_set>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
-#include "core/scene/reading/control_characters.hpp"
 #include "core/scene/reading/syntax_error.hpp"
 
 namespace pleuel {
@@ -131,18 +127,21 @@ Json parse_json(const std::string& text, const std::string& file) {
   return builder.take();
 }
 
+std::vector<std::string> keys_of(const Json& object) {
+  std::vector<std::string> keys;
+  if (!object.is_object()) return keys;
+  for (const auto& [key, member] : object.items()) keys.push_back(key);
+  return keys;
+}
+
+std::vector<std::string> keys_of(const Json& parent, const char* key) {
+  return parent.is_object() && parent.contains(key) ? keys_of(parent[key])
+                                                    : std::vector<std::string>();
+}
+
 std::string child_pointer(const std::string& parent, const std::string& key) {
-  std::string pointer = parent + "/";
-  for (const char c : key) {
-    if (c == '~') {
-      pointer += "~0";
-    } else if (c == '/') {
-      pointer += "~1";
-    } else {
-      pointer += c;
-    }
-  }
-  return pointer;
+  const bool is_plain = key.find_first_of("~/") == std::string::npos;
+  return parent + (is_plain ? "/" + key : (Json::json_pointer() / key).to_string());
 }
 
 }  // namespace pleuel

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -16,6 +17,12 @@ inline constexpr std::size_t deepest_nesting = 64;
 /// @throws InputError with line and column for bad syntax, invalid UTF-8 and numbers out of range;
 ///         with the JSON pointer for a key that is there twice and for too deep nesting.
 Json parse_json(const std::string& text, const std::string& file);
+
+/// Names of the members of an object; none of another value.
+std::vector<std::string> keys_of(const Json& object);
+
+/// The same of a member that may be missing.
+std::vector<std::string> keys_of(const Json& parent, const char* key);
 
 /// `parent` extended by a key, escaped as RFC 6901 wants it.
 std::string child_pointer(const std::string& parent, const std::string& key);

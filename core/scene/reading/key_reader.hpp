@@ -1,10 +1,8 @@
 #pragma once
 
 #include <string_view>
-#include <vector>
 
 #include "core/scene/grammar/tables.hpp"
-#include "core/scene/reading/json_node.hpp"
 #include "core/scene/reading/number_reader.hpp"
 
 /// Reads objects by their tables of keys (grammar/keys.hpp). Everything throws InputError.

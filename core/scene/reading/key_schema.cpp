@@ -1,6 +1,5 @@
 #include "core/scene/reading/key_schema.hpp"
 
-#include <algorithm>
 #include <iterator>
 
 #include <fmt/format.h>

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "core/scene/reading/json_text.hpp"
 
 /// The part of the schema of problem files that the tables of keys say (grammar/keys.hpp).

@@ -1,10 +1,7 @@
-#include <algorithm>
 #include <functional>
-#include <optional>
 
 #include <fmt/format.h>
 
-#include "core/scene/joint_kind.hpp"
 #include "core/scene/reading/joint_reader.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 #include "core/scene/reading/time_function_reader.hpp"

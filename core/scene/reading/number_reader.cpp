@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "core/scene/reading/case_suffix.hpp"
-#include "core/scene/reading/symbols.hpp"
 #include "core/scene/reading/unit_scanner.hpp"
 
 namespace pleuel {
@@ -18,8 +17,7 @@ std::string rule_of(Range range, const Quantity& quantity) {
   return fmt::format("{} [{}]", rule, quantity.unit);
 }
 
-NumberReader::NumberReader(const UnitSystem& units, std::vector<std::string> variables)
-    : units_(&units), variables_(std::move(variables)) {}
+NumberReader::NumberReader(std::vector<std::string> variables) : variables_(std::move(variables)) {}
 
 double NumberReader::fixed(const JsonNode& node, const Quantity& quantity, Range range) const {
   const std::string expected = "must be " + describe(quantity);
@@ -30,7 +28,7 @@ double NumberReader::fixed(const JsonNode& node, const Quantity& quantity, Range
     value = constant_formula(node, quantity);
   } else if (node.value().is_string()) {
     try {
-      value = units_->read(node.value().get<std::string>(), quantity);
+      value = read_quantity(node.value().get<std::string>(), quantity);
     } catch (const UnitError& error) {
       const std::string text = node.value().get<std::string>();
       node.fail_with_value(expected,
@@ -58,7 +56,7 @@ Number NumberReader::designable(const JsonNode& node, const Quantity& quantity, 
 }
 
 void NumberReader::declare(const JsonNode& root) {
-  symbols_ = read_symbols(root, *units_);
+  symbols_ = read_symbols(root);
   root_ = root;
   is_of_case_ = root.find(case_key).has_value();
 }
@@ -88,11 +86,9 @@ ReadExpression NumberReader::formula(const JsonNode& node, const std::vector<Sym
   std::vector<Symbol> all = symbols_;
   all.insert(all.end(), more.begin(), more.end());
   for (const std::string& name : left_out_) {
-    const bool is_known =
-        std::ranges::any_of(all, [&](const Symbol& one) { return one.name == name; });
-    if (!is_known) all.push_back({name, {}});
+    if (!find_named(all, name)) all.push_back({name, {}});
   }
-  ReadExpression read = read_formula(node, all, *units_);
+  ReadExpression read = read_formula(node, all);
   for (const ExpressionArgument& argument : read.expression->arguments) {
     if (argument.kind != ExpressionArgument::Kind::variable) continue;
     mentions_.push_back({static_cast<int>(argument.index), node});
@@ -110,7 +106,7 @@ ReadExpression NumberReader::formula_of(const JsonNode& node, const Quantity& qu
 double NumberReader::constant_formula(const JsonNode& node, const Quantity& quantity) const {
   const ReadExpression read = [&] {
     try {
-      return read_formula(node, symbols_, *units_);
+      return read_formula(node, symbols_);
     } catch (const NamesCases& error) {
       throw InputError(error.what());
     }
@@ -124,13 +120,11 @@ double NumberReader::constant_formula(const JsonNode& node, const Quantity& quan
   return *read.constant;
 }
 
-/// A plain 0 is as well no length, no mass, …
 void NumberReader::check_quantity(const JsonNode& node, const ReadExpression& read,
                                   const Quantity& quantity) const {
-  const bool is_zero = read.constant && *read.constant == 0.0 && read.dimension.is_number();
   const Dimension asked = dimension_of(quantity);
-  if (is_zero || asked == read.dimension) return;
-  std::string more = fmt::format(", which is {}", describe(read.dimension, *units_));
+  if (read.is_zero() || asked == read.dimension) return;
+  std::string more = fmt::format(", which is {}", describe(read.dimension));
   if (asked / Dimension::angle() == read.dimension) {
     more +=
         "; angles never come or go silently: write \"= f*1 rev\" for f cycles per second, as of "
@@ -169,14 +163,13 @@ void NumberReader::check_mention(const VariableMention& mention) const {
   if (!quantity) {
     mention.node.fail(fmt::format(
         "names the variable \"{}\", which is {}: variables have units of numbers of the scene",
-        name, describe(dimension, *units_)));
+        name, describe(dimension)));
   }
   if (dimension == dimension_of(*quantity)) return;
   mention.node.fail(fmt::format(
       "takes the variable \"{}\" for {}, as its start is written, but {} uses it as {}; give the "
       "start of the variable its unit",
-      name, describe(dimension, *units_), first_use(mention.variable)->node.place(),
-      describe(*quantity)));
+      name, describe(dimension), first_use(mention.variable)->node.place(), describe(*quantity)));
 }
 
 Number NumberReader::binding(const JsonNode& node, const Quantity& quantity, Range range) {
@@ -285,7 +278,7 @@ std::optional<Quantity> NumberReader::quantity_of(int variable) const {
                                                 }) ||
                             std::ranges::find(used_elsewhere_, variable) != used_elsewhere_.end();
   if (!is_mentioned) return std::nullopt;
-  return find_quantity(symbol_of(variable)->dimension, *units_);
+  return find_quantity(symbol_of(variable)->dimension);
 }
 
 }  // namespace pleuel

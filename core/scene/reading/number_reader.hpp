@@ -1,14 +1,6 @@
 #pragma once
 
-#include <array>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "core/scene/number.hpp"
-#include "core/scene/reading/expression_parser.hpp"
-#include "core/scene/reading/json_node.hpp"
 #include "core/scene/reading/symbols.hpp"
 #include "core/scene/units.hpp"
 
@@ -44,7 +36,7 @@ struct VariableMention {
 class NumberReader {
  public:
   /// @param variables  names in the order of the design.
-  NumberReader(const UnitSystem& units, std::vector<std::string> variables);
+  explicit NumberReader(std::vector<std::string> variables);
 
   /// Takes from the document what formulas may name (symbols.hpp), and whether it is that of one of
   /// several load cases (case_key).
@@ -132,15 +124,6 @@ class NumberReader {
   /// The quantity of a variable; nothing if it is not used, or has a unit that no number has.
   std::optional<Quantity> quantity_of(int variable) const;
 
-  /// The SI value of one unit.
-  double scale(const std::string& unit, const Quantity& quantity) const {
-    return units_->scale(unit, quantity);
-  }
-  const UnitSystem& units() const { return *units_; }
-  Dimension dimension_of(const Quantity& quantity) const {
-    return units_->measure(std::string(quantity.unit)).dimension;
-  }
-
  private:
   void leave_out(const std::string& name, const std::string& formula);
   const VariableUse* first_use(int variable) const;
@@ -154,7 +137,6 @@ class NumberReader {
   Number designable_formula(const JsonNode& node, const Quantity& quantity, Range range);
   const Symbol* symbol_of(int variable) const;
 
-  const UnitSystem* units_;
   std::vector<std::string> variables_;
   std::vector<Symbol> symbols_;
   std::optional<JsonNode> root_;

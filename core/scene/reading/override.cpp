@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
 #include "core/scene/reading/suggestion.hpp"
+#include "core/scene/reading/unit_scanner.hpp"
 #include "core/scene/units.hpp"
 
 namespace pleuel {
@@ -41,7 +40,7 @@ std::string unit_of_text(const std::string& text) {
   const std::string unit(std::find_if(rest, end, [](char c) { return c != ' '; }), end);
   if (unit.empty()) return "";
   try {
-    UnitSystem().measure(unit);
+    measure_unit(unit);
     return unit;
   } catch (const UnitError&) {
     return "";
@@ -61,7 +60,7 @@ class Override {
   void apply(Json& document, const std::string& assignment) const {
     const std::size_t equals = assignment.find('=');
     if (equals == std::string::npos) fail("has no \"=\"; write /json/pointer=value");
-    set(document, keys_of(document, assigned_place(assignment)),
+    set(document, keys_to(document, assigned_place(assignment)),
         read_value(assignment.substr(equals + 1)));
   }
 
@@ -89,13 +88,9 @@ class Override {
   }
 
   /// Of a pointer, or of the start of the design variable of this name.
-  std::vector<std::string> keys_of(const Json& document, const std::string& place) const {
+  std::vector<std::string> keys_to(const Json& document, const std::string& place) const {
     if (!place.empty() && place.front() == '/') return split(place);
-    std::vector<std::string> known;
-    const auto variables = document.find("variables");
-    if (variables != document.end() && variables->is_object()) {
-      for (const auto& [name, variable] : variables->items()) known.push_back(name);
-    }
+    const std::vector<std::string> known = keys_of(document, "variables");
     if (std::ranges::find(known, place) == known.end()) {
       const std::string rule = "must begin with a JSON pointer such as /simulation/step";
       const bool is_no_name = place.empty() || place.find('/') != std::string::npos;
@@ -132,9 +127,7 @@ class Override {
     const bool is_block = (pointer.empty() && is_one_of(optional_blocks)) ||
                           (pointer == "/scene" && is_one_of(scene_blocks));
     if (is_block) return parent[key] = Json::object();
-    std::vector<std::string> known;
-    for (const auto& [name, member] : parent.items()) known.push_back(name);
-    fail(fmt::format("{} has no key \"{}\"{}", shown(pointer), key, hint(key, known)));
+    fail(fmt::format("{} has no key \"{}\"{}", shown(pointer), key, hint(key, keys_of(parent))));
   }
 
   std::size_t index(std::size_t size, const std::string& pointer, const std::string& key) const {
@@ -175,7 +168,7 @@ void require_unit(const Json& document, const std::string& assignment, const std
   }
   const std::string unit = written.is_string() ? unit_of_text(written) : "";
   if (unit.empty()) return;
-  const double number = value.get<double>(), in_unit = number / UnitSystem().measure(unit).scale;
+  const double number = value.get<double>(), in_unit = number / measure_unit(unit).scale;
   const std::string of_si =
       in_unit == number
           ? ""
@@ -191,10 +184,7 @@ void replace_at(Json& document, const std::string& pointer, const Json& value,
 }
 
 std::string assigned_place(const std::string& assignment) {
-  const std::string text = assignment.substr(0, assignment.find('='));
-  const std::size_t begin = text.find_first_not_of(' ');
-  if (begin == std::string::npos) return "";
-  return text.substr(begin, text.find_last_not_of(' ') - begin + 1);
+  return trimmed(assignment.substr(0, assignment.find('=')));
 }
 
 std::string assigned_pointer(const std::string& assignment) {

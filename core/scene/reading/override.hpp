@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "core/scene/reading/json_text.hpp"
 
 namespace pleuel {

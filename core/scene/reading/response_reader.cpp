@@ -1,19 +1,17 @@
 #include "core/scene/reading/response_reader.hpp"
 
 #include <algorithm>
-#include <set>
 
 #include <fmt/format.h>
 
-#include "core/base/find_named.hpp"
 #include "core/base/int_size.hpp"
 #include "core/scene/grammar/response_table.hpp"
 #include "core/scene/reading/case_suffix.hpp"
 #include "core/scene/reading/joint_reader.hpp"
-#include "core/scene/reading/key_reader.hpp"
 #include "core/scene/reading/mistakes.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 #include "core/scene/reading/symbols.hpp"
+#include "core/scene/reading/unit_scanner.hpp"
 #include "core/scene/response_kind.hpp"
 #include "core/scene/shown_unit.hpp"
 
@@ -102,14 +100,13 @@ bool is_frequency(const ResponseSettings& response) {
 }
 
 /// Of responses that are read: an expression without formula is not.
-std::vector<Symbol> symbols_of(const std::vector<ResponseSettings>& responses,
-                               const NumberReader& numbers) {
+std::vector<Symbol> symbols_of(const std::vector<ResponseSettings>& responses) {
   std::vector<Symbol> symbols;
   for (std::size_t i = 0; i < responses.size(); ++i) {
     const bool is_read = responses[i].type != ResponseType::expression || responses[i].expression;
     if (!is_read) continue;
-    symbols.push_back({responses[i].name, numbers.dimension_of(quantity_of(responses[i])),
-                       std::nullopt, ExpressionArgument{Kind::response, i}});
+    symbols.push_back({responses[i].name, dimension_of(quantity_of(responses[i])), std::nullopt,
+                       ExpressionArgument{Kind::response, i}});
   }
   return symbols;
 }
@@ -126,7 +123,7 @@ void name_frequency(Expression& expression, const std::vector<ResponseSettings>&
 
 ResponseSettings make_response(const std::string& name, const JsonNode& value,
                                const std::vector<ResponseSettings>& known, NumberReader& numbers) {
-  Expression expression = *numbers.formula(value, symbols_of(known, numbers)).expression;
+  Expression expression = *numbers.formula(value, symbols_of(known)).expression;
   name_frequency(expression, known);
   if (expression.arguments.empty()) {
     value.fail_with_value("must depend on a response or on a design variable");
@@ -149,45 +146,32 @@ void add_leaves(const Expression& whole, int step, Operation extreme, std::vecto
   add_leaves(whole, one.second, extreme, leaves);
 }
 
-/// The part of a formula that ends with this step.
-class Extract {
- public:
-  Extract(const Expression& whole, std::string text) : whole_(whole) {
-    part_.text = std::move(text);
-    part_.quantity = whole.quantity;
-    part_.unit = whole.unit;
-  }
-
-  Expression ending_with(int step) && {
-    add(step);
-    return std::move(part_);
-  }
-
- private:
-  int add(int step) {
-    ExpressionStep copy = whole_.steps[step];
-    if (copy.operation == Operation::argument) {
-      copy.first = argument(whole_.arguments[copy.first]);
-    } else {
-      if (copy.first >= 0) copy.first = add(copy.first);
-      if (copy.second >= 0) copy.second = add(copy.second);
+/// The part of a formula that ends with this step: operands stand before what is made of them.
+Expression part_ending_with(const Expression& whole, int last, const std::string& text) {
+  const auto has_operands = [](const ExpressionStep& step) {
+    return step.operation != Operation::argument && step.first >= 0;
+  };
+  int first = last;
+  while (has_operands(whole.steps[first])) first = whole.steps[first].first;
+  Expression part;
+  part.text = text;
+  part.quantity = whole.quantity;
+  part.unit = whole.unit;
+  for (int i = first; i <= last; ++i) {
+    ExpressionStep step = whole.steps[i];
+    if (has_operands(step)) {
+      step.first -= first;
+      if (step.second >= 0) step.second -= first;
+    } else if (step.operation == Operation::argument) {
+      const ExpressionArgument& argument = whole.arguments[step.first];
+      const auto known = std::ranges::find(part.arguments, argument);
+      step.first = static_cast<int>(known - part.arguments.begin());
+      if (known == part.arguments.end()) part.arguments.push_back(argument);
     }
-    part_.steps.push_back(copy);
-    return int_size(part_.steps) - 1;
+    part.steps.push_back(step);
   }
-
-  int argument(const ExpressionArgument& asked) {
-    for (std::size_t i = 0; i < part_.arguments.size(); ++i) {
-      const ExpressionArgument& known = part_.arguments[i];
-      if (known.kind == asked.kind && known.index == asked.index) return static_cast<int>(i);
-    }
-    part_.arguments.push_back(asked);
-    return int_size(part_.arguments) - 1;
-  }
-
-  const Expression& whole_;
-  Expression part_;
-};
+  return part;
+}
 
 /// "a" and "2*b" of "max(a, 2*b)".
 std::vector<std::string> operand_texts(const std::string& formula) {
@@ -202,10 +186,7 @@ std::vector<std::string> operand_texts(const std::string& formula) {
     }
     if (c == '(') ++depth;
   }
-  for (std::string& text : texts) {
-    const std::size_t first = text.find_first_not_of(' '), last = text.find_last_not_of(' ');
-    text = first == std::string::npos ? "" : text.substr(first, last - first + 1);
-  }
+  for (std::string& text : texts) text = trimmed(text);
   return texts;
 }
 
@@ -240,7 +221,7 @@ void split_extreme(ResponseSettings& whole, std::vector<ResponseSettings>& respo
       part.name = has_texts && !is_variable ? texts[i] : fmt::format("{} [{}]", whole.name, i + 1);
       part.type = ResponseType::expression;
       part.expression =
-          std::make_shared<const Expression>(Extract(expression, part.name).ending_with(leaves[i]));
+          std::make_shared<const Expression>(part_ending_with(expression, leaves[i], part.name));
       const bool is_known = find_named(responses, part.name) || find_named(parts, part.name);
       if (part.expression->arguments.empty() || is_known) return;
       parts.push_back(std::move(part));
@@ -275,7 +256,7 @@ ResponseSettings read_expression_response(const std::string& name, const JsonNod
   if (const auto unit = node.find("unit")) {
     response.unit = unit->text();
     try {
-      response.unit_scale = numbers.scale(response.unit, quantity_of(response));
+      response.unit_scale = unit_scale(response.unit, quantity_of(response));
     } catch (const UnitError& error) {
       unit->fail_with_value(fmt::format("must be a unit of {}, which the formula is",
                                         describe(quantity_of(response))),

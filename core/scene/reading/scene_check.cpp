@@ -1,7 +1,6 @@
 #include "core/scene/reading/scene_check.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <set>
 
 #include <Eigen/Geometry>
@@ -9,13 +8,11 @@
 
 #include "core/scene/body_rules.hpp"
 #include "core/scene/held_points.hpp"
-#include "core/scene/joint_kind.hpp"
-#include "core/scene/reading/beam_places.hpp"
-#include "core/scene/reading/geometry.hpp"
+#include "core/scene/reading/body_places.hpp"
 #include "core/scene/reading/mistakes.hpp"
-#include "core/scene/reading/sample_design.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 #include "core/scene/reading/section_choices.hpp"
+#include "core/scene/reading/variable_reader.hpp"
 
 namespace pleuel {
 
@@ -103,18 +100,6 @@ void check_deflections(const JsonNode& bodies, const ProblemFile& problem) {
   }
 }
 
-}  // namespace
-
-void check_scene(const JsonNode& node, const ProblemFile& problem) {
-  check_mechanism(node, problem.scene);
-  const std::vector<SampleDesign> samples = sample_designs(problem.variables);
-  check_bodies(node.at("bodies"), problem.scene, samples);
-  check_placement(node, problem.scene, samples);
-  check_deflections(node.at("bodies"), problem);
-}
-
-namespace {
-
 constexpr double parallel_tolerance = 1e-9;  // sine of the angle between axes: rounding
 
 void check_that_something_acts_on_every_body(const JsonNode& node, const Scene& scene) {
@@ -193,15 +178,13 @@ void check_that_no_motion_is_driven_twice(const JsonNode& node, const Scene& sce
   }
 }
 
-}  // namespace
-
+/// What needs no geometry of the design: a joint or a load acts on every body, what is driven or
+/// loaded by an angle can turn, no motion is prescribed twice.
 void check_mechanism(const JsonNode& node, const Scene& scene) {
   check_that_something_acts_on_every_body(node, scene);
   check_turning(node, scene);
   check_that_no_motion_is_driven_twice(node, scene);
 }
-
-namespace {
 
 /// Two points that define a direction.
 struct PointPair {
@@ -247,47 +230,6 @@ std::vector<PointPair> pairs_of(const JsonNode& node, const Scene& scene) {
   return pairs;
 }
 
-void check_on_beam(const JsonNode& node, const PlacedPoint& place, PlacesOfBeams& places,
-                   const std::vector<SampleDesign>& samples) {
-  const auto& beam = std::get<BeamBody>(place.body->shape);
-  const Design<double>& start = samples.front().design;
-  const Eigen::Vector3d at_start = resolve_point(*place.point, start);
-  const double share = nearest_share(beam, at_start, start);
-  if (!is_on_beam(beam, share, at_start, start)) {
-    node.fail(
-        fmt::format("must be on the axis of the beam \"{}\", the nearest point is {} [m], got {}",
-                    place.body->name, describe(point_at(beam, share, start)), describe(at_start)));
-  }
-  if (samples.size() == 1) return;  // nothing varies
-  const BeamPlaces& of_beam = places.of(*place.body);
-  for (const SampleDesign& sample : samples) {
-    const auto found = of_beam.find_misplaced(*place.point, sample.design);
-    if (!found) continue;
-    node.fail(fmt::format("{}, got {}{}", *found,
-                          describe(resolve_point(*place.point, sample.design)), sample.where));
-  }
-}
-
-void check_on_imported(const JsonNode& node, const PlacedPoint& place,
-                       const std::vector<SampleDesign>& samples) {
-  const Design<double>& start = samples.front().design;
-  for (const SampleDesign& sample : samples) {
-    const auto found = find_off_place(*place.body, *place.point, start, sample.design);
-    if (found) node.fail(*found + sample.where);
-  }
-}
-
-void check_on_mass(const JsonNode& node, const PlacedPoint& place, const PointMass& mass,
-                   const Scene& scene, const std::vector<SampleDesign>& samples) {
-  for (const SampleDesign& sample : samples) {
-    const Eigen::Vector3d at = resolve_point(*place.point, sample.design);
-    if (is_on_mass(mass, at, scene, sample.design)) continue;
-    const Eigen::Vector3d point = resolve_point(mass.at, sample.design);
-    node.fail(fmt::format("must be where the point mass \"{}\" is, {} [m], got {}{}",
-                          place.body->name, describe(point), describe(at), sample.where));
-  }
-}
-
 void check_pair(const PointPair& pair, const std::vector<SampleDesign>& samples) {
   for (const SampleDesign& sample : samples) {
     const Eigen::Vector3d first = resolve_point(*pair.first, sample.design);
@@ -298,23 +240,31 @@ void check_pair(const PointPair& pair, const std::vector<SampleDesign>& samples)
   }
 }
 
-}  // namespace
-
+/// Joints, loads and initial deflections are at points of their bodies, and the two points of a distance
+/// or spring differ.
+/// @param samples  the start design first
 void check_placement(const JsonNode& node, const Scene& scene,
                      const std::vector<SampleDesign>& samples) {
-  PlacesOfBeams places(scene, samples.front().design);
-  for (const PlacedPoint& place : placed_points(scene)) {
-    if (place.body == nullptr) continue;
-    const JsonNode at = node_of(node, place);
-    if (const auto* beam = std::get_if<BeamBody>(&place.body->shape)) {
-      if (!beam->is_rigid) check_on_beam(at, place, places, samples);
-    } else if (const auto* mass = std::get_if<PointMass>(&place.body->shape)) {
-      check_on_mass(at, place, *mass, scene, samples);
-    } else if (std::holds_alternative<ImportedBody>(place.body->shape)) {
-      check_on_imported(at, place, samples);
+  PlacesOnBodies places(scene, samples.front().design);
+  for (const PlacedPoint& placed : placed_points(scene)) {
+    for (const SampleDesign& sample : samples) {
+      const auto found = places.find_misplaced(placed, sample.design, false);
+      if (!found) continue;
+      node_of(node, placed)
+          .fail(fmt::format("{}, got {}{}", found->rule, describe(found->at), sample.where));
     }
   }
   for (const PointPair& pair : pairs_of(node, scene)) check_pair(pair, samples);
+}
+
+}  // namespace
+
+void check_scene(const JsonNode& node, const ProblemFile& problem) {
+  check_mechanism(node, problem.scene);
+  const std::vector<SampleDesign> samples = sample_designs(problem.variables);
+  check_bodies(node.at("bodies"), problem.scene, samples);
+  check_placement(node, problem.scene, samples);
+  check_deflections(node.at("bodies"), problem);
 }
 
 }  // namespace pleuel

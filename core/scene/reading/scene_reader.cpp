@@ -59,8 +59,7 @@ void read_bodies(const JsonNode& node, Scene& scene, NumberReader& numbers) {
 /// @param bodies  by whose names joints find them
 void read_joints(const JsonNode& node, const JsonNode& bodies, Scene& scene,
                  NumberReader& numbers) {
-  std::vector<std::string> names;
-  for (const auto& member : bodies.members()) names.push_back(member.first);
+  std::vector<std::string> names = keys_of(bodies.value());
   names.emplace_back(ground_name);
   read_each(node, [&](const std::string& name, const JsonNode& joint) {
     scene.joints.push_back(read_joint(name, joint, names, numbers));

@@ -1,13 +1,8 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "core/base/find_named.hpp"
-#include "core/scene/kind_table.hpp"
 #include "core/scene/reading/json_node.hpp"
 #include "core/scene/reading/key_reader.hpp"
-#include "core/scene/reading/number_reader.hpp"
 #include "core/scene/scene.hpp"
 
 namespace pleuel {

@@ -44,19 +44,17 @@ struct Area {
 class SectionList {
  public:
   SectionList(const Json& document, const std::string& name, const std::string& file,
-              const Json& catalogue, const UnitSystem& units)
+              const Json& catalogue)
       : name_(name), catalogue_(catalogue) {
     const JsonNode variable(document.at("variables").at(name), file,
                             child_pointer("/variables", name));
     variable.allow_keys({"start", "choices"});
     const JsonNode choices = variable.at("choices");
-    std::vector<std::string> known;
-    for (const auto& [one, section] : catalogue.items()) known.push_back(one);
     for (const JsonNode& choice : choices.items()) {
-      names_.push_back(read_known_name(choice, "section", known));
+      names_.push_back(read_known_name(choice, "section", keys_of(catalogue)));
     }
     if (names_.empty()) choices.fail("must have at least one choice");
-    sort(file, units);
+    sort(file);
     check_kind(choices);
     start_ = (names_.size() - 1) / 2;
     if (const auto start = variable.find("start")) {
@@ -86,10 +84,10 @@ class SectionList {
  private:
   const Json& at(std::size_t i) const { return catalogue_.at(names_[i]); }
 
-  void sort(const std::string& file, const UnitSystem& units) {
+  void sort(const std::string& file) {
     std::map<std::string, double> areas;
     for (const std::string& name : names_) {
-      NumberReader numbers(units, {});
+      NumberReader numbers({});
       const JsonNode node(catalogue_.at(name), file);
       areas[name] = std::visit(Area{}, read_section(node, numbers));
     }
@@ -147,18 +145,13 @@ std::string named_variable(const SectionReference& reference, const Json& docume
                            const std::string& file) {
   const JsonNode node(*reference.section, file, reference.pointer);
   node.allow_keys({"variable"});
-  std::vector<std::string> known;
-  if (document.contains("variables") && document["variables"].is_object()) {
-    for (const auto& [name, variable] : document["variables"].items()) known.push_back(name);
-  }
-  return read_known_name(node.at("variable"), "variable", known);
+  return read_known_name(node.at("variable"), "variable", keys_of(document, "variables"));
 }
 
 }  // namespace
 
 void expand_section_choices(Json& document, const std::vector<SectionReference>& references,
-                            const std::string& file, const Json& catalogue,
-                            const UnitSystem& units) {
+                            const std::string& file, const Json& catalogue) {
   std::map<std::string, SectionList> lists;
   for (const SectionReference& reference : references) {
     const std::string name = named_variable(reference, document, file);
@@ -166,7 +159,7 @@ void expand_section_choices(Json& document, const std::vector<SectionReference>&
       JsonNode(*reference.section, file, reference.pointer)
           .fail("is chosen from a catalogue, but /scene names none: \"catalogue\": \"FILE\"");
     }
-    const auto list = lists.try_emplace(name, document, name, file, catalogue, units).first;
+    const auto list = lists.try_emplace(name, document, name, file, catalogue).first;
     *reference.section = list->second.section();
   }
   for (const auto& [name, list] : lists) document["variables"][name] = list.variable();

@@ -1,10 +1,6 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "core/scene/reading/json_node.hpp"
-#include "core/scene/reading/json_text.hpp"
 #include "core/scene/scene.hpp"
 #include "core/scene/units.hpp"
 
@@ -27,8 +23,7 @@ struct SectionReference {
 /// @param catalogue  its sections by name; empty if the scene has none
 /// @throws InputError  if a name is unknown, or the sections of a list are not of one type
 void expand_section_choices(Json& document, const std::vector<SectionReference>& references,
-                            const std::string& file, const Json& catalogue,
-                            const UnitSystem& units);
+                            const std::string& file, const Json& catalogue);
 
 /// That walls fit into the outline (core/scene/body_rules.hpp), at the start. At other designs
 /// build_model() looks.

@@ -1,18 +1,15 @@
 #include "core/scene/reading/settings_reader.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <utility>
 #include <variant>
 
 #include <fmt/format.h>
 
 #include "core/base/int_size.hpp"
 #include "core/base/machine_memory.hpp"
-#include "core/scene/problem_file.hpp"
 #include "core/scene/reading/key_reader.hpp"
 #include "core/scene/reading/mistakes.hpp"
-#include "core/scene/reading/sample_design.hpp"
+#include "core/scene/reading/variable_reader.hpp"
 #include "core/scene/shown_unit.hpp"
 
 namespace pleuel {
@@ -37,14 +34,12 @@ constexpr int most_starts = 10000;
 /// The start of the variables, with those that the node names at other values.
 std::vector<double> read_start(const JsonNode& node, const std::vector<DesignVariable>& variables,
                                const NumberReader& numbers) {
-  std::vector<double> start;
-  for (const DesignVariable& variable : variables) start.push_back(variable.start);
+  std::vector<double> start = start_values(variables);
   for (const auto& [name, value] : node.members()) {
     const std::size_t i = numbers.variable(value, name);
-    const Quantity quantity = *numbers.quantity_of(static_cast<int>(i));
-    start[i] = numbers.fixed(value, quantity);
+    start[i] = numbers.fixed(value, variables[i].quantity);
     if (start[i] < variables[i].lower || start[i] > variables[i].upper) {
-      value.fail_with_value("must lie within the bounds of " + bounds_text(variables[i], quantity));
+      value.fail_with_value("must lie within the bounds of " + bounds_text(variables[i]));
     }
   }
   return start;
@@ -142,11 +137,10 @@ UncertainParameter read_parameter(const std::string& name, const JsonNode& node,
 /// The numbers of the scene that depend on the parameter must make sense in all of its range.
 void check_range(const JsonNode& node, const UncertainParameter& parameter,
                  const std::vector<DesignVariable>& variables, const NumberReader& numbers) {
-  const Design<double> start = sample_designs(variables).front().design;
   for (const VariableUse& use : numbers.uses()) {
     if (!use.number.depends_on(parameter.variable)) continue;
     for (const double sign : {-1.0, 1.0}) {
-      Design<double> design = start;
+      Design<double> design = start_values(variables);
       design[parameter.variable] += sign * sample_extent(parameter);
       const double value = resolve(use.number, design);
       if (is_within(use.range, value)) continue;

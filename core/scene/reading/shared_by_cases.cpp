@@ -1,7 +1,6 @@
 #include "core/scene/reading/shared_by_cases.hpp"
 
 #include <algorithm>
-#include <string>
 
 #include <fmt/format.h>
 
@@ -29,8 +28,7 @@ bool is_plain_zero(const Symbol& symbol) {
 }
 
 void check_dimensions(const JsonNode& changed, const std::string& pointer,
-                      const std::vector<Symbol>& base, const std::vector<Symbol>& of_case,
-                      const UnitSystem& units) {
+                      const std::vector<Symbol>& base, const std::vector<Symbol>& of_case) {
   for (const Symbol& symbol : of_case) {
     const Symbol* before = find_named(base, symbol.name);
     const bool is_changed =
@@ -41,16 +39,15 @@ void check_dimensions(const JsonNode& changed, const std::string& pointer,
     }
     changed.fail(fmt::format(
         "must leave the constant \"{}\" what it is in the rest of the file, {}, but makes it {}",
-        symbol.name, describe(before->dimension, units), describe(symbol.dimension, units)));
+        symbol.name, describe(before->dimension), describe(symbol.dimension)));
   }
 }
 
 void check_constants(const JsonNode& root, const CaseChanges& changes,
-                     const std::vector<Symbol>& of_case, const UnitSystem& units) {
+                     const std::vector<Symbol>& of_case) {
   for (const auto& [pointer, value] : changes.values) {
     if (!pointer.starts_with("/constants")) continue;
-    check_dimensions(node_of_change(root, changes, pointer), pointer, read_symbols(root, units),
-                     of_case, units);
+    check_dimensions(node_of_change(root, changes, pointer), pointer, read_symbols(root), of_case);
   }
 }
 
@@ -94,10 +91,10 @@ void check_variables(const JsonNode& root, const ProblemFile& first, const Probl
     if (one.start != two.start) fail_changed(member_or_self(node, "start"), other);
     if (one.lower != two.lower) fail_changed(member_or_self(node, "lower"), other);
     if (one.upper != two.upper) fail_changed(member_or_self(node, "upper"), other);
-    if (one.quantity && two.quantity && !(*one.quantity == *two.quantity)) {
+    if (!(one.quantity == two.quantity)) {
       node.fail(fmt::format(
           "must stand for the same in all cases, but is {} in the case \"{}\" and {} in \"{}\"",
-          describe(*one.quantity), first.load_case, describe(*two.quantity), other.load_case));
+          describe(one.quantity), first.load_case, describe(two.quantity), other.load_case));
     }
   }
 }
@@ -151,13 +148,9 @@ JsonNode node_of_response(const JsonNode& root, const ProblemFile& problem,
   return root;
 }
 
-void check_quantities(const JsonNode& root, const ProblemFile& first, const ProblemFile& other,
-                      const UnitSystem& units) {
+void check_quantities(const JsonNode& root, const ProblemFile& first, const ProblemFile& other) {
   for (std::size_t i = 0; i < first.responses.size(); ++i) {
     const Quantity one = quantity_of(first.responses[i]), two = quantity_of(other.responses[i]);
-    const auto dimension_of = [&](const Quantity& quantity) {
-      return units.measure(std::string(quantity.unit)).dimension;
-    };
     if (one == two || dimension_of(one) == dimension_of(two)) continue;
     node_of_response(root, first, first.responses[i].name)
         .fail(fmt::format(
@@ -170,22 +163,20 @@ void check_quantities(const JsonNode& root, const ProblemFile& first, const Prob
 
 void check_shared_documents(const JsonNode& root, const std::vector<CaseChanges>& changes,
                             const std::vector<Json>& documents,
-                            const std::vector<std::vector<Symbol>>& of_cases,
-                            const UnitSystem& units) {
+                            const std::vector<std::vector<Symbol>>& of_cases) {
   for (std::size_t i = 0; i < changes.size(); ++i) {
-    check_constants(root, changes[i], of_cases[i], units);
+    check_constants(root, changes[i], of_cases[i]);
     check_catalogue(root, changes[i], documents[i]);
   }
 }
 
-void check_shared_numbers(const JsonNode& root, const std::vector<ProblemFile>& cases,
-                          const UnitSystem& units) {
+void check_shared_numbers(const JsonNode& root, const std::vector<ProblemFile>& cases) {
   const ProblemFile& first = cases.front();
   for (const ProblemFile& other : cases) {
     check_variables(root, first, other);
     check_uncertainty(root, first, other);
     check_starts(root, first, other);
-    check_quantities(root, first, other, units);
+    check_quantities(root, first, other);
   }
 }
 

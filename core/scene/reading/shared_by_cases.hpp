@@ -1,8 +1,5 @@
 #pragma once
 
-#include <vector>
-
-#include "core/scene/problem_file.hpp"
 #include "core/scene/reading/case_reader.hpp"
 
 /// What load cases have in common, as there is one design: variables with their choices, numbers
@@ -17,14 +14,12 @@ struct Symbol;
 ///                     variable is chosen from
 void check_shared_documents(const JsonNode& root, const std::vector<CaseChanges>& changes,
                             const std::vector<Json>& documents,
-                            const std::vector<std::vector<Symbol>>& of_cases,
-                            const UnitSystem& units);
+                            const std::vector<std::vector<Symbol>>& of_cases);
 
 /// @param cases  problems of the cases with their names, one each
 /// @throws InputError  if a number that stands once follows from a constant that a case changes, or
 ///                     a response measures something else in another case
-void check_shared_numbers(const JsonNode& root, const std::vector<ProblemFile>& cases,
-                          const UnitSystem& units);
+void check_shared_numbers(const JsonNode& root, const std::vector<ProblemFile>& cases);
 
 /// Of limits that stand once: of variables, or of a response that is the same in all cases.
 /// @param joined  the problem of all cases

@@ -11,34 +11,27 @@ namespace pleuel {
 namespace {
 
 /// A constant, or the dimension of a bound of a variable.
-struct WrittenValue {
-  double value = 0.0;
-  Dimension dimension;
-  bool counts_cycles = false;  ///< made from Hz
-};
-
-WrittenValue read_text(const JsonNode& node, const std::vector<Symbol>& symbols,
-                       const UnitSystem& units) {
+KnownNumber read_text(const JsonNode& node, const std::vector<Symbol>& symbols) {
   if (is_formula(node)) {
-    const ReadExpression read = read_formula(node, symbols, units);
+    const ReadExpression read = read_formula(node, symbols);
     if (!read.constant) node.fail_with_value("must not depend on design variables");
-    return {*read.constant, read.dimension, read.counts_cycles};
+    return read;
   }
   const WrittenQuantity written = split_quantity(node.value().get<std::string>());
-  if (written.unit.empty()) return {written.value, {}};
-  const MeasuredUnit unit = units.measure(written.unit);
-  return {written.value * unit.scale, unit.dimension, is_of_cycles(written.unit)};
+  if (written.unit.empty()) return {{}, written.value};
+  const MeasuredUnit unit = measure_unit(written.unit);
+  return {unit.dimension, written.value * unit.scale, is_of_cycles(written.unit)};
 }
 
 Symbol read_constant(const std::string& name, const JsonNode& node,
-                     const std::vector<Symbol>& symbols, const UnitSystem& units) {
+                     const std::vector<Symbol>& symbols) {
   if (node.value().is_number()) return {name, {}, node.value().get<double>()};
   if (!node.value().is_string()) {
     node.fail_with_value("must be a number, a text with unit, or a formula \"= …\"");
   }
   try {
-    const WrittenValue written = read_text(node, symbols, units);
-    return {name, written.dimension, written.value, std::nullopt, written.counts_cycles};
+    const KnownNumber written = read_text(node, symbols);
+    return {name, written.dimension, written.constant, std::nullopt, written.counts_cycles};
   } catch (const UnitError& error) {
     node.fail_with_value("must be a number, a text with unit, or a formula \"= …\"",
                          fmt::format(": {}{}", error.what(),
@@ -47,8 +40,7 @@ Symbol read_constant(const std::string& name, const JsonNode& node,
 }
 
 /// What is wrong with the text of a bound is said where it is read.
-Dimension dimension_of_variable(const JsonNode& node, const std::vector<Symbol>& symbols,
-                                const UnitSystem& units) {
+Dimension dimension_of_variable(const JsonNode& node, const std::vector<Symbol>& symbols) {
   if (!node.value().is_object()) return {};
   std::vector<JsonNode> bounds;
   for (const char* key : {"start", "lower", "upper"}) {
@@ -61,7 +53,7 @@ Dimension dimension_of_variable(const JsonNode& node, const std::vector<Symbol>&
   for (const JsonNode& bound : bounds) {
     if (!bound.value().is_string()) continue;
     try {
-      const Dimension dimension = read_text(bound, symbols, units).dimension;
+      const Dimension dimension = read_text(bound, symbols).dimension;
       if (!dimension.is_number()) return dimension;
     } catch (const UnitError&) {
     }
@@ -72,10 +64,9 @@ Dimension dimension_of_variable(const JsonNode& node, const std::vector<Symbol>&
 }  // namespace
 
 std::string formula_hint(const std::string& text, const std::vector<Symbol>& symbols) {
-  const bool is_name =
-      std::ranges::any_of(symbols, [&](const Symbol& symbol) { return symbol.name == text; });
   const std::size_t sign = std::min({text.find_first_of("*("), text.find(" + "), text.find(" - ")});
-  if (is_name) return fmt::format("; a formula begins with \"=\": \"= {}\"", text);
+  if (find_named(symbols, text))
+    return fmt::format("; a formula begins with \"=\": \"= {}\"", text);
   if (sign == std::string::npos) return "";
   return fmt::format(
       "; with the sign at column {} it looks like a formula, which begins with \"=\": "
@@ -99,15 +90,14 @@ std::string written_unit(std::initializer_list<JsonNode> nodes) {
   return "";
 }
 
-ReadExpression read_formula(const JsonNode& node, const std::vector<Symbol>& symbols,
-                            const UnitSystem& units) {
+ReadExpression read_formula(const JsonNode& node, const std::vector<Symbol>& symbols) {
   const std::string text = node.text();
   const auto rule_of = [&](const ExpressionError& error) {
     return fmt::format("has an error at column {} of \"{}\": {}", error.column(), text,
                        error.what());
   };
   try {
-    return read_expression(text, symbols, units);
+    return read_expression(text, symbols);
   } catch (const CaseExpressionError& error) {
     throw NamesCases(node.message(rule_of(error)), text);
   } catch (const ExpressionError& error) {
@@ -115,21 +105,21 @@ ReadExpression read_formula(const JsonNode& node, const std::vector<Symbol>& sym
   }
 }
 
-std::vector<Symbol> read_symbols(const JsonNode& root, const UnitSystem& units) {
+std::vector<Symbol> read_symbols(const JsonNode& root) {
   std::vector<Symbol> constants, variables;
   const auto list = root.find("variables");
   if (const auto node = root.find("constants")) {
     for (const auto& [name, member] : node->members()) {
       if (name == "pi") member.fail("has a name that is taken: pi is 3.14159…");
       if (list && list->find(name)) member.fail("has the name of a design variable");
-      constants.push_back(read_constant(name, member, constants, units));
+      constants.push_back(read_constant(name, member, constants));
     }
   }
   std::vector<Symbol> all = constants;
   if (!list) return all;
   std::size_t index = 0;
   for (const auto& [name, member] : list->members()) {
-    all.push_back({name, dimension_of_variable(member, constants, units), std::nullopt,
+    all.push_back({name, dimension_of_variable(member, constants), std::nullopt,
                    ExpressionArgument{ExpressionArgument::Kind::variable, index++}});
   }
   return all;

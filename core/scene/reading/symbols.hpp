@@ -2,9 +2,6 @@
 
 #include <initializer_list>
 #include <set>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "core/base/error.hpp"
 #include "core/scene/reading/expression_parser.hpp"
@@ -36,14 +33,13 @@ std::string formula_hint(const std::string& text, const std::vector<Symbol>& sym
 
 /// A formula of the document, or another text that is one.
 /// @throws InputError with its column; NamesCases, which is one, where that is its only mistake
-ReadExpression read_formula(const JsonNode& node, const std::vector<Symbol>& symbols,
-                            const UnitSystem& units);
+ReadExpression read_formula(const JsonNode& node, const std::vector<Symbol>& symbols);
 
 /// The names that all formulas of a document may use: its constants (which may be formulas of
 /// constants before them) and its design variables. A design variable has the unit that its
 /// "start" (or else a bound) is written with.
 /// @throws InputError
-std::vector<Symbol> read_symbols(const JsonNode& root, const UnitSystem& units);
+std::vector<Symbol> read_symbols(const JsonNode& root);
 
 /// Names of the constants that do not stand for the same in all documents.
 std::set<std::string> differing_constants(const std::vector<std::vector<Symbol>>& documents);

@@ -2,17 +2,12 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
-#include <optional>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
-#include "core/scene/reading/json_node.hpp"
 #include "core/scene/reading/syntax_error.hpp"
 #include "core/scene/reading/time_function_reader.hpp"
+#include "core/scene/reading/unit_scanner.hpp"
 #include "core/scene/units.hpp"
 
 namespace pleuel {
@@ -27,13 +22,8 @@ struct TableColumns {
 
 namespace fs = std::filesystem;
 
-/// Without blanks around it, and, of a cell, quotes.
-std::string trimmed(std::string text, std::string_view covers = " \t\r\"") {
-  const auto is_cover = [&](char c) { return covers.find(c) != std::string_view::npos; };
-  while (!text.empty() && is_cover(text.back())) text.pop_back();
-  text.erase(text.begin(), std::ranges::find_if_not(text, is_cover));
-  return text;
-}
+/// Around cells.
+constexpr std::string_view covers = " \t\r\"";
 
 std::optional<double> number_of(const std::string& cell) {
   const char* begin = cell.data() + (cell.starts_with('+') ? 1 : 0);
@@ -73,7 +63,7 @@ std::vector<std::string> split(const std::string& line, char separator) {
   std::size_t begin = 0;
   while (begin <= line.size()) {
     const std::size_t end = end_of_cell(line, begin, separator);
-    const std::string cell = trimmed(line.substr(begin, end - begin));
+    const std::string cell = trimmed(line.substr(begin, end - begin), covers);
     if (separator != ' ' || !cell.empty()) cells.push_back(cell);
     begin = end + 1;
   }
@@ -91,7 +81,8 @@ std::vector<Row> rows_of(const std::string& text) {
     const std::string line = trimmed(text.substr(begin, end - begin), " \r");
     ++line_number;
     begin = end + 1;
-    if (trimmed(line).empty() || trimmed(line).starts_with('#')) continue;
+    const std::string content = trimmed(line, covers);
+    if (content.empty() || content.starts_with('#')) continue;
     rows.push_back({line_number, split(line, separator_of(line))});
   }
   return rows;
@@ -106,15 +97,21 @@ Head head_of(const std::string& cell) {
   for (const auto& [open, close] : {std::pair('[', ']'), std::pair('(', ')')}) {
     const std::size_t at = cell.find(open);
     if (at == std::string::npos || !cell.ends_with(close)) continue;
-    return {trimmed(cell.substr(0, at)), trimmed(cell.substr(at + 1, cell.size() - at - 2))};
+    return {trimmed(cell.substr(0, at), covers),
+            trimmed(cell.substr(at + 1, cell.size() - at - 2), covers)};
   }
   return {cell, ""};
 }
 
+/// {"file": "gas_force.csv", "columns": ["angle", "force"], "units": ["deg", "N"]}: a text file
+/// from the folder of the problem file on. Cells are separated by commas, semicolons, tabs or blanks;
+/// decimals have a point; lines that begin with # are left out. Columns have names, which are those
+/// of the first line, or numbers from 1. Units stand in the first line, "angle [deg]", or in "units".
+/// @param node  has the keys "file" and "columns"
+/// @throws InputError with the number of the line
 class TableFile {
  public:
-  TableFile(const JsonNode& node, const UnitSystem& units)
-      : name_(node.at("file")), columns_(node.at("columns")), units_(units) {
+  explicit TableFile(const JsonNode& node) : name_(node.at("file")), columns_(node.at("columns")) {
     if (const auto given = node.find("units")) units_node_.emplace(*given);
     std::string text = read_text_file(name_.named_file());
     if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
@@ -201,7 +198,7 @@ class TableFile {
                       name_.text(), is_head ? heads_[place].name : "value", quantity.unit));
     }
     try {
-      const double scale = units_.scale(unit, quantity);
+      const double scale = unit_scale(unit, quantity);
       check_unit_of_file(at, place, scale, quantity);
       return scale;
     } catch (const UnitError& error) {
@@ -216,7 +213,7 @@ class TableFile {
     if (!units_node_ || place >= heads_.size() || heads_[place].unit.empty()) return;
     const Head& head = heads_[place];
     try {
-      if (units_.scale(head.unit, quantity) == scale) return;
+      if (unit_scale(head.unit, quantity) == scale) return;
     } catch (const UnitError&) {  // a remark in brackets
       return;
     }
@@ -239,21 +236,9 @@ class TableFile {
 
   JsonNode name_, columns_;
   std::optional<JsonNode> units_node_;
-  const UnitSystem& units_;
   std::vector<Row> rows_;
   std::vector<Head> heads_;  ///< none: the file begins with numbers
 };
-
-/// Reads {"file": "gas_force.csv", "columns": ["angle", "force"], "units": ["deg", "N"]}: a text file
-/// from the folder of the problem file on. Cells are separated by commas, semicolons, tabs or blanks;
-/// decimals have a point; lines that begin with # are left out. Columns have names, which are those
-/// of the first line, or numbers from 1. Units stand in the first line, "angle [deg]", or in "units".
-/// @param node  has the keys "file" and "columns"
-/// @throws InputError with the number of the line
-TableColumns read_table_file(const JsonNode& node, const std::array<Quantity, 2>& quantities,
-                             const UnitSystem& units) {
-  return TableFile(node, units).read(quantities);
-}
 
 /// What a table is a function of, and the key of its list.
 struct TableArgument {
@@ -309,8 +294,7 @@ void read_points(const LawSource& source, const TableArgument& argument, NumberR
     }
     return;
   }
-  TableColumns columns =
-      read_table_file(source.node, {argument.quantity, source.value}, numbers.units());
+  TableColumns columns = TableFile(source.node).read({argument.quantity, source.value});
   table.times = std::move(columns.arguments);
   table.values.assign(columns.values.begin(), columns.values.end());
 }

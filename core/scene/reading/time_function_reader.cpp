@@ -4,8 +4,6 @@
 #include <functional>
 #include <iterator>
 #include <memory>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -152,9 +150,9 @@ TableFunction read_trapezoid(const LawSource& source, NumberReader& numbers) {
 using ArgumentKind = ExpressionArgument::Kind;
 
 /// t, and the state where there is one.
-std::vector<Symbol> law_symbols(const LawSource& source, const NumberReader& numbers) {
+std::vector<Symbol> law_symbols(const LawSource& source) {
   const auto symbol = [&](std::string_view name, const Quantity& quantity, ArgumentKind kind) {
-    return Symbol{std::string(name), numbers.dimension_of(quantity), std::nullopt,
+    return Symbol{std::string(name), dimension_of(quantity), std::nullopt,
                   ExpressionArgument{kind, 0}};
   };
   std::vector<Symbol> symbols = {symbol("t", quantities::time, ArgumentKind::time)};
@@ -176,7 +174,7 @@ Number number_of(const ExpressionArgument& variable, const std::string& text) {
 
 TimeFunction read_expression_law(const JsonNode& node, const LawSource& source,
                                  NumberReader& numbers) {
-  const ReadExpression read = numbers.formula_of(node, source.value, law_symbols(source, numbers));
+  const ReadExpression read = numbers.formula_of(node, source.value, law_symbols(source));
   if (read.constant) return ConstantFunction{*read.constant};
   ExpressionFunction function{read.expression, {}};
   bool is_number = true;

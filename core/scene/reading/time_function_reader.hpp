@@ -1,12 +1,7 @@
 #pragma once
 
-#include <optional>
-#include <string_view>
-#include <vector>
-
 #include "core/scene/reading/json_node.hpp"
 #include "core/scene/reading/key_reader.hpp"
-#include "core/scene/reading/number_reader.hpp"
 #include "core/scene/time_function.hpp"
 
 /// Reads functions of time, and of the state of a force element. All throw InputError.

@@ -50,6 +50,12 @@ bool is_digit_character(char c) {
   return std::isdigit(static_cast<unsigned char>(c)) != 0;
 }
 
+std::string trimmed(std::string_view text, std::string_view covers) {
+  const std::size_t first = text.find_first_not_of(covers);
+  if (first == std::string_view::npos) return "";
+  return std::string(text.substr(first, text.find_last_not_of(covers) - first + 1));
+}
+
 bool has_word(const std::string& text, const std::string& word) {
   for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) {
     const std::size_t end = at + word.size();

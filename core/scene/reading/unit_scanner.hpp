@@ -10,6 +10,9 @@ namespace pleuel {
 bool is_name_character(char c);
 bool is_digit_character(char c);
 
+/// Without these around it.
+std::string trimmed(std::string_view text, std::string_view covers = " ");
+
 /// Whether a text has a name as a word of its own.
 bool has_word(const std::string& text, const std::string& word);
 

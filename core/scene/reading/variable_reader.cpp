@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "core/scene/reading/mistakes.hpp"
-#include "core/scene/reading/sample_design.hpp"
 #include "core/scene/reading/symbols.hpp"
 
 namespace pleuel {
@@ -149,6 +148,28 @@ std::vector<std::string> variable_names(const JsonNode& root) {
     for (const auto& [name, variable] : variables->members()) names.push_back(name);
   }
   return names;
+}
+
+Design<double> start_values(const std::vector<DesignVariable>& variables) {
+  Design<double> start;
+  for (const DesignVariable& variable : variables) start.push_back(variable.start);
+  return start;
+}
+
+std::vector<SampleDesign> sample_designs(const std::vector<DesignVariable>& variables) {
+  const SampleDesign start{start_values(variables), ""};
+  std::vector<SampleDesign> samples = {start};
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    for (const auto& [bound, word] :
+         {std::pair(variables[i].lower, "lower"), std::pair(variables[i].upper, "upper")}) {
+      SampleDesign sample = start;
+      sample.design[i] = bound;
+      sample.where =
+          fmt::format(", with the variable \"{}\" at its {} bound", variables[i].name, word);
+      samples.push_back(sample);
+    }
+  }
+  return samples;
 }
 
 }  // namespace pleuel
