@@ -177,6 +177,9 @@ std::vector<double> kinks_in_time(const Expression& expression, double end_time,
     }
   }
   std::ranges::sort(kinks);
+  const auto is_same = [&](double one, double next) { return next - one <= 1e-9 * end_time; };
+  kinks.erase(std::unique(kinks.begin(), kinks.end(), is_same),
+              kinks.end());  // one may occur twice
   return kinks;
 }
 
