@@ -249,9 +249,11 @@ class LawsonHanson {
         z_(kept) = target;
         return;
       }
+      const std::size_t before = kept.size();
       for (Eigen::Index k = target.size() - 1; k >= 0; --k) {
         if (target[k] < 0.0) kept.erase(kept.begin() + k);
       }
+      if (kept.size() == before) return;  // what is no number
     }
   }
 
