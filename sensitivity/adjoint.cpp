@@ -130,11 +130,11 @@ class AdjointRun {
   /// What a step adds at the corner that it sets out from.
   void pass_corner(int step) {
     if (!trajectory_.is_corner(step - 1) || !corner_->find(old_, scheme_.step)) return;
-    const auto v = adjoint_.v.leftCols(active_), a = adjoint_.a.leftCols(active_),
-               w = adjoint_.w.leftCols(active_);
+    auto v = adjoint_.v.leftCols(active_), a = adjoint_.a.leftCols(active_);
+    const auto w = adjoint_.w.leftCols(active_);
     corner_->differentiate_transposed(
         {a + w, trajectory_.weight_of_jerk(step) * v + scheme_.delay * w},
-        adjoint_.q.leftCols(active_), sums_.leftCols(active_));
+        {adjoint_.q.leftCols(active_), v, a, sums_.leftCols(active_)});
   }
 
   /// Leaves the state as it was before the projection.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "core/integration/step_equations.hpp"
 #include "core/mechanism/linear_solver.hpp"
@@ -17,12 +18,14 @@ namespace pleuel {
 /// zigzag about their values for many steps, as the scheme damps little: by as much as the
 /// acceleration jumps, whatever the step, and by O(h) of the jerk. So the step behind such a corner
 /// begins with a, v and w as they are with what acts behind it. (It is to the corner what Arnold,
-/// Brüls & Cardona 2015 is to the start.) What speeds make of an acceleration that jumps is left out of the jerk.
+/// Brüls & Cardona 2015 is to the start.) What speeds make of an acceleration that jumps is left out
+/// of the jerk. Elastic coordinates that are damped so stiffly that they follow within a step have no jump.
 class CornerJump {
  public:
   explicit CornerJump(const Mechanism& mechanism);
 
-  /// Looks for a corner at a state. What is small beside the jerk on both sides is none.
+  /// Looks for a corner at a state: an equation whose acceleration changes by more than it does
+  /// anyway within the step.
   /// @param step  that begins there [s]
   /// @throws SimulationError if the equations are singular
   bool find(const State& state, double step);
@@ -35,35 +38,43 @@ class CornerJump {
   const Jumps<Eigen::VectorXd>& value() const { return jumps_; }
 
   /// Their derivatives.
-  /// @param q  those of the position, n × columns
-  Jumps<Eigen::MatrixXd> differentiate(const Eigen::MatrixXd& q, DerivativesOf of);
+  /// @param state  those of q, v and a
+  Jumps<Eigen::MatrixXd> differentiate(const StateSensitivity& state, DerivativesOf of);
 
+  /// What derivatives are added to, n × columns each.
+  struct Adjoint {
+    Columns q, v, a;
+    Columns sums;  ///< of parameters (System::add_parameter_adjoints)
+  };
   /// The same, transposed.
   /// @param jumps  derivatives with respect to the jumps
-  /// @param q      += those with respect to the position
-  /// @param sums   += those of parameters (System::add_parameter_adjoints)
-  void differentiate_transposed(const Jumps<Eigen::MatrixXd>& jumps, Columns q, Columns sums);
+  void differentiate_transposed(const Jumps<Eigen::MatrixXd>& jumps, Adjoint adjoint);
 
  private:
   /// How a jump follows from what is two and one intervals before the corner, and behind it.
   using Weights = std::array<double, 4>;
   Weights weights_of_acceleration() const { return {1.0, -2.0, 2.0, -1.0}; }
   Weights weights_of_jerk() const;
-  /// The state at these times.
-  template <class Add>
-  void for_each_part(const Weights& weights, const Add& add) const;
+  /// Goes to these times, one after the other.
+  template <class Visit>
+  void at_each_time(const Visit& visit);
+  bool factorize(const std::vector<int>& held);
 
   Eigen::MatrixXd differentiate(const Eigen::VectorXd& jump, const Eigen::VectorXd& multipliers,
-                                const Weights& weights, const Eigen::MatrixXd& q, DerivativesOf of);
+                                const Weights& weights, const StateSensitivity& state,
+                                DerivativesOf of);
   void differentiate_transposed(const Eigen::VectorXd& jump, const Eigen::VectorXd& multipliers,
-                                const Weights& weights, const Eigen::MatrixXd& adjoint, Columns q,
-                                Columns sums);
+                                const Weights& weights, const Eigen::MatrixXd& jumps,
+                                Adjoint adjoint);
 
+  const Mechanism& mechanism_;
   System& system_;
+  ConstraintTerms constraints_;
   State state_;
   double interval_ = 0.0;
+  std::vector<int> held_;  ///< coordinates without a jump
   LinearForces forces_;
-  System::Matrix matrix_, forces_q_;
+  System::Matrix matrix_, rows_;
   LinearSolver solver_;
   Jumps<Eigen::VectorXd> jumps_, multipliers_;
 };

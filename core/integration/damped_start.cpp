@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/base/error.hpp"
 #include "core/integration/newton_corrector.hpp"
@@ -144,6 +145,18 @@ bool uses_accelerations(const Scheme& scheme) {
 
 }  // namespace
 
+std::vector<int> stiffly_damped(const Mechanism& mechanism, const State& state, double step) {
+  System& system = *mechanism.system;
+  System::Matrix mass = system.make_matrix(), damping = system.make_matrix();
+  system.tangent(state, {.a = 1.0}, ConstraintLevel::acceleration, mass);
+  system.tangent(state, {.v = 1.0}, ConstraintLevel::acceleration, damping);
+  std::vector<int> all;
+  std::ranges::copy_if(mechanism.elastic, std::back_inserter(all), [&](int i) {
+    return step * damping.coeff(i, i) > stiff * mass.coeff(i, i);
+  });
+  return all;
+}
+
 DampedStart::DampedStart(Mechanism& mechanism, const State& start, const Scheme& first_step,
                          double weight_of_jerk)
     : mechanism_(mechanism),
@@ -156,7 +169,7 @@ DampedStart::DampedStart(Mechanism& mechanism, const State& start, const Scheme&
       a_(start.a),
       w_(start.a) {
   if (!is_needed_) return;
-  if (!has_stiff_damping()) {
+  if (stiffly_damped(mechanism_, start_, step_).empty()) {
     set_exact();
     return;
   }
@@ -185,16 +198,6 @@ DampedStart::DampedStart(Mechanism& mechanism, const State& start, const Scheme&
   State filtered = start_;
   filtered.a = a_;
   v_ += weight_of_jerk_ * ConstrainedJerk(mechanism_, filtered, step_).value();
-}
-
-bool DampedStart::has_stiff_damping() const {
-  System& system = *mechanism_.system;
-  System::Matrix mass = system.make_matrix(), damping = system.make_matrix();
-  system.tangent(start_, {.a = 1.0}, ConstraintLevel::acceleration, mass);
-  system.tangent(start_, {.v = 1.0}, ConstraintLevel::acceleration, damping);
-  return std::ranges::any_of(mechanism_.elastic, [&](int i) {
-    return step_ * damping.coeff(i, i) > stiff * mass.coeff(i, i);
-  });
 }
 
 bool DampedStart::is_resolved(const Eigen::VectorXd& found) const {

@@ -2,11 +2,15 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "core/integration/simulation_options.hpp"
 #include "core/integration/step_equations.hpp"
 
 namespace pleuel {
+
+/// Elastic coordinates that forget an acceleration well within a step, as they are damped stiffly.
+std::vector<int> stiffly_damped(const Mechanism& mechanism, const State& state, double step);
 
 /// From where the first step sets out: consistent initial values, but only as far as the step can
 /// follow them.
@@ -57,7 +61,6 @@ class DampedStart {
   std::array<double, 2> weights_at(double time) const;
   /// Whether the probes find the acceleration of the start again.
   bool is_resolved(const Eigen::VectorXd& found) const;
-  bool has_stiff_damping() const;
   void set_exact();
 
   Mechanism& mechanism_;

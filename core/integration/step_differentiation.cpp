@@ -50,7 +50,7 @@ bool StepDifferentiation::advance() {
 
 void StepDifferentiation::pass_corner() {
   if (!trajectory_.is_corner(step_ - 1) || !corner_->find(state_, scheme_.step)) return;
-  const auto jumps = corner_->differentiate(sensitivity_.q, of_);
+  const auto jumps = corner_->differentiate(sensitivity_, of_);
   sensitivity_.v += trajectory_.weight_of_jerk(step_) * jumps.jerk;
   sensitivity_.a += jumps.acceleration;
   sensitivity_.w += jumps.acceleration + scheme_.delay * jumps.jerk;

@@ -174,7 +174,7 @@ void TimeLoop::advance_controlled(double end) {
     const double time = is_last ? end : begin + (end - begin) * next / control_.parts();
     const std::optional<StepFailure> failure = make_step(time, NewtonCorrector::Trust::usual);
     const double error = failure ? std::numeric_limits<double>::infinity()
-                                 : control_.relative_error(old_, state_, scheme_);
+                                 : control_.relative_error(*from_, state_, scheme_);
     if (error <= 1.0) {
       accept();
       control_.accept(error);
@@ -185,7 +185,7 @@ void TimeLoop::advance_controlled(double end) {
     } else if (failure) {
       fail(*failure);
     } else {
-      const Eigen::Index worst = control_.worst_coordinate(old_, state_, scheme_);
+      const Eigen::Index worst = control_.worst_coordinate(*from_, state_, scheme_);
       throw_inaccurate(place(), scheme_.step, error,
                        equation_text(worst, mechanism_.equation_names));
     }
@@ -212,16 +212,18 @@ std::optional<StepFailure> TimeLoop::make_step(double time, NewtonCorrector::Tru
   old_ = state_;
   const bool is_start = stored_ == 1 && !is_continued_;
   if (is_start) correct_start();
-  const StepState& from = !is_start && passes_corner() ? behind_corner_ : old_;
-  equations_.begin(from);
-  predictor_.predict(from, time, scheme_, equations_, state_);
+  from_ = !is_start && passes_corner() ? &behind_corner_ : &old_;
+  equations_.begin(*from_);
+  predictor_.predict(*from_, time, scheme_, equations_, state_);
   const bool is_foreseeable = step_ > 2 && step_ % curvature_interval != 1;
-  if (!is_foreseeable || mechanism_.has_laws_of_motion) trust = NewtonCorrector::Trust::none;
+  const bool is_behind_corner = from_ != &old_;
+  if (!is_foreseeable || is_behind_corner || mechanism_.has_laws_of_motion)
+    trust = NewtonCorrector::Trust::none;
   std::optional<StepFailure> failure = corrector_.correct(equations_, state_, trust);
   if (failure && predictor_.looks_ahead()) {
     predictor_.forget();
     state_ = old_;
-    predictor_.predict(from, time, scheme_, equations_, state_);
+    predictor_.predict(*from_, time, scheme_, equations_, state_);
     failure = corrector_.correct(equations_, state_, trust);
   }
   if (failure) return failure;
@@ -273,7 +275,7 @@ bool TimeLoop::passes_corner() {
 void TimeLoop::accept() {
   check_drift();
   const bool is_resolved = corrector_.iterations_of_step() <= most_of_a_resolved_step;
-  is_resolved ? predictor_.record(old_, state_) : predictor_.forget();
+  is_resolved ? predictor_.record(*from_, state_) : predictor_.forget();
   store();
 }
 

@@ -181,6 +181,7 @@ class TimeLoop {
   double damped_start_step_ = 0.0;           ///< [s]
   std::optional<CornerJump> corner_;         ///< from the first break on
   StepState behind_corner_;                  ///< old_ as the step behind a corner takes it
+  const StepState* from_ = nullptr;          ///< the one of both that the last step set out from
   std::vector<double> breaks_;               ///< ascending [s]
   bool is_continued_;                        ///< starts as if a step had led there
   int step_ = 0;                             ///< regular step at work

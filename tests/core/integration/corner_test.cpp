@@ -54,11 +54,32 @@ TEST_P(Corner, LeavesNoZigzagBehind) {
             1e-7);
 }
 
+/// An instant that a law has twice is one.
+TEST_P(Corner, MayOccurTwiceInAFormula) {
+  EXPECT_LE(largest_error("1 m*max(0, t/(1 s) - 0.04)^2 - 1 m*max(0, t/(1 s) - 0.04)^3", GetParam(),
+                          [](double t) { return t > 0.04 ? 2.0 - 6.0 * (t - 0.04) : 0.0; }),
+            0.05);
+}
+
 INSTANTIATE_TEST_SUITE_P(Formulations, Corner, testing::Values("index-3", "stabilized-index-2"),
                          [](const auto& test) {
                            return std::string(test.param).starts_with("index") ? "Index3"
                                                                                : "Index2";
                          });
+
+/// A corner of 1 m/s² beside a wheel that swings by 1 rad with 100 rad/s: 2 N, not twice as many.
+TEST(CornerBesideAFastDrive, IsFound) {
+  const AtStart run(problem_from(R"({"scene": {
+      "bodies": {"mass": {"type": "point-mass", "at": [0, 0, 0], "mass": 2},
+        "wheel": {"type": "rigid", "at": [0, 1, 0], "mass": 1, "inertia": [1, 1, 1, 0, 0, 0]}},
+      "joints": {"guide": {"type": "point-on-line", "bodies": ["ground", "mass"], "at": [0, 0, 0],
+          "axis": [1, 0, 0], "drive": {"type": "expression", "value": "= 0.5 m*max(0, t/(1 s) - 0.04)^2"}},
+        "axle": {"type": "revolute", "bodies": ["ground", "wheel"], "at": [0, 1, 0], "axis": [0, 0, 1],
+          "drive": {"type": "harmonic", "amplitude": 1, "frequency": 100}}}},
+    "simulation": {"end_time": 0.1, "step": 1e-3},
+    "responses": {"force": {"type": "drive-force", "joint": "guide", "over_time": "max"}}})"));
+  EXPECT_NEAR(run.analysis->reductions[0].value, 2.0, 1e-6);
+}
 
 /// A flexible crank and rod, turned by a law that two variables shape: its acceleration jumps, as a
 /// spline ends within the motion, and has corners; the slider's mass is the third.
@@ -109,6 +130,30 @@ TEST(GradientsBehindCorners, AreThoseOfDifferences) {
       EXPECT_LE((direct - adjoint).row(i).lpNorm<Eigen::Infinity>(), 1e-10 * size) << i;
       EXPECT_LE((direct - differences).row(i).lpNorm<Eigen::Infinity>(), 1e-6 * size) << i;
     }
+  }
+}
+
+/// A cylinder that lifts a boom: what it prescribes is multiplied with positions and speeds.
+TEST(GradientsBehindCorners, OfALengthAreThoseOfDifferences) {
+  const ProblemFile problem = problem_from(R"({"scene": {"gravity": [0, -9.81, 0],
+      "bodies": {"boom": {"type": "rigid", "at": [1, 0, 0], "mass": 100, "inertia": [30, 30, 30, 0, 0, 0]}},
+      "joints": {"pin": {"type": "revolute", "bodies": ["ground", "boom"], "at": [0, 0, 0], "axis": [0, 0, 1]},
+        "cylinder": {"type": "distance", "bodies": ["ground", "boom"], "at": [{"variable": "foot"}, -0.5, 0],
+          "to": [0.6, 0, 0], "drive": {"type": "table", "interpolation": "spline",
+            "times": [0, 0.2, 0.5, 0.8], "values": [0, 0.02, 0.06, {"variable": "stroke"}]}}}},
+    "simulation": {"end_time": 0.82, "step": 5e-3, "newton_tolerance": 1e-13},
+    "variables": {"foot": {"start": 0.2, "lower": 0.1, "upper": 0.3},
+      "stroke": {"start": 0.09, "lower": 0, "upper": 0.3}},
+    "responses": {"force": {"type": "drive-force", "joint": "cylinder", "over_time": "final"},
+      "all": {"type": "drive-force", "joint": "cylinder", "over_time": "rms"}}})");
+  const AtStart run(problem);
+  const Eigen::MatrixXd direct = direct_gradients(*run.analysis),
+                        adjoint = gradients(problem, run.x, *run.analysis, GradientMethod::adjoint),
+                        differences = central_differences(problem, run.x, 1e-4);
+  for (Eigen::Index i = 0; i < direct.rows(); ++i) {
+    const double size = direct.row(i).lpNorm<Eigen::Infinity>();
+    EXPECT_LE((direct - adjoint).row(i).lpNorm<Eigen::Infinity>(), 1e-9 * size) << i;
+    EXPECT_LE((direct - differences).row(i).lpNorm<Eigen::Infinity>(), 1e-4 * size) << i;
   }
 }
 
