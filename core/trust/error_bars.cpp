@@ -100,10 +100,9 @@ double small(const Evidence& evidence) {
 }
 
 /// From three values whose finest has a smaller step than the simulation.
-/// @param local  of the finer two
 ErrorPart step_by_finer(const Evidence& evidence, double fine, double middle, double coarse,
-                        double local, std::optional<double>& order) {
-  const Extrapolation found = extrapolate(fine, middle, coarse, evidence.order, local, 0.0);
+                        std::optional<double>& order) {
+  const Extrapolation found = extrapolate(fine, middle, coarse, evidence.order, 0.0, 0.0);
   order = found.order;
   const double change = fine - evidence.value + found.part.change;
   const double bound = std::abs(fine - evidence.value) + found.part.bound;
@@ -113,13 +112,12 @@ ErrorPart step_by_finer(const Evidence& evidence, double fine, double middle, do
 
 ErrorPart step_part(const Evidence& runs, std::optional<double>& order) {
   if (is_there(runs.half_step) && is_there(runs.quarter_step)) {
-    const double local = runs.local_half * std::pow(2.0, -runs.order);
-    return step_by_finer(runs, *runs.quarter_step, *runs.half_step, runs.value, local, order);
+    return step_by_finer(runs, *runs.quarter_step, *runs.half_step, runs.value, order);
   }
   if (!is_there(runs.twice_step)) return unresolved(any_bound);
   const double twice = *runs.twice_step;
   if (is_there(runs.half_step)) {
-    return step_by_finer(runs, *runs.half_step, runs.value, twice, runs.local_half, order);
+    return step_by_finer(runs, *runs.half_step, runs.value, twice, order);
   }
   if (!is_there(runs.four_steps)) {
     return unresolved(std::max(std::abs(runs.value - twice), runs.local));
@@ -199,7 +197,6 @@ void Evidence::add(const Evidence& other, double factor) {
   value += factor * other.value;
   element_order = std::min(element_order, other.element_order);
   local += std::abs(factor) * other.local;
-  local_half += std::abs(factor) * other.local_half;
   add_to(quarter_step, other.quarter_step, factor);
   add_to(half_step, other.half_step, factor);
   add_to(twice_step, other.twice_step, factor);
@@ -218,9 +215,6 @@ Evidence evidence_of(const Analysis& analysis, std::size_t response, const Judgi
   evidence.magnitude = magnitude_of(analysis, response);
   if (runs.twice_step != nullptr && !runs.twice_step->has_failed()) {
     evidence.local = local_difference_of_parts(analysis, response, *runs.twice_step);
-  }
-  if (runs.half_step != nullptr && !runs.half_step->has_failed()) {
-    evidence.local_half = local_difference_of_parts(analysis, response, *runs.half_step);
   }
   evidence.quarter_step = value_of(runs.quarter_step, response);
   evidence.half_step = value_of(runs.half_step, response);

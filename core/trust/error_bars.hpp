@@ -83,8 +83,7 @@ struct Evidence {
   double element_order = 2.0;  ///< element_order()
   double value = 0.0;          ///< of the simulation that is judged
   double magnitude = 0.0;      ///< what errors are small beside
-  double local = 0.0;          ///< of extrapolate(), beside twice the step
-  double local_half = 0.0;     ///< the same beside half the step
+  double local = 0.0;          ///< of extrapolate()
   std::optional<double> quarter_step, half_step, twice_step, four_steps;  ///< values of these runs
   /// Differences of both runs of a comparison.
   std::optional<double> more_elements, fewer_elements, modes, newton;
