@@ -135,8 +135,10 @@ std::string damage_of(const OlderRun& run) {
   const std::string command = text_at(run.card, "/command");
   if (command.empty()) return damaged(card_name, "it names no command");
   if (!run.result.is_object()) {
-    return fmt::format("{}: is missing, or is no JSON document",
-                       (run.folder / result_name).string());
+    const fs::path file = run.folder / result_name;
+    return file.string() + (fs::exists(file)
+                                ? ": is not a JSON document"
+                                : ": there is no such file: not the folder of a finished run");
   }
   for (const auto& [key, type] : needed_in(command)) {
     if (run.result.value(key, Json()).type() != type) {
