@@ -33,7 +33,7 @@ CornerJump::CornerJump(const Mechanism& mechanism)
       rows_(matrix_),
       solver_(matrix_, mechanism.elastic) {}
 
-CornerJump::Weights CornerJump::weights_of_jerk() const {
+CornerJump::TimeWeights CornerJump::weights_of_jerk() const {
   const double rate = 1.0 / interval_;
   return {rate, -rate, -rate, rate};
 }
@@ -60,7 +60,7 @@ bool CornerJump::find(const State& state, double step) {
     constraints_.residual(state_, of_accelerations, residual);
     accelerations.col(static_cast<Eigen::Index>(i)) = residual.tail(m);
   });
-  const auto combined = [&](const Weights& weights) -> Eigen::VectorXd {
+  const auto combined = [&](const TimeWeights& weights) -> Eigen::VectorXd {
     return accelerations * Eigen::Map<const Eigen::Vector4d>(weights.data());
   };
   const Eigen::VectorXd of_acceleration = combined(weights_of_acceleration()),
@@ -101,13 +101,13 @@ bool CornerJump::factorize(const std::vector<int>& held) {
 // d depends on the state, too, where what a drive prescribes is multiplied with it (lengths).
 Eigen::MatrixXd CornerJump::differentiate(const Eigen::VectorXd& jump,
                                           const Eigen::VectorXd& multipliers,
-                                          const Weights& weights, const StateSensitivity& state,
+                                          const TimeWeights& weights, const StateSensitivity& state,
                                           DerivativesOf of) {
   const int n = system_.coordinates(), m = system_.multipliers();
   Eigen::MatrixXd rhs = Eigen::MatrixXd::Zero(n + m, state.q.cols()), columns;
   const bool is_of_design = of == DerivativesOf::design;
   at_each_time([&](std::size_t i) {
-    const auto add = [&](const pleuel::Weights& by, const Eigen::MatrixXd& change) {
+    const auto add = [&](const Weights& by, const Eigen::MatrixXd& change) {
       constraints_.tangent(state_, by, of_accelerations, rows_);
       rhs.bottomRows(m) -= weights[i] * (rows_.leftCols(n) * change).bottomRows(m);
     };
@@ -136,7 +136,7 @@ CornerJump::Jumps<Eigen::MatrixXd> CornerJump::differentiate(const StateSensitiv
 
 void CornerJump::differentiate_transposed(const Eigen::VectorXd& jump,
                                           const Eigen::VectorXd& multipliers,
-                                          const Weights& weights, const Eigen::MatrixXd& jumps,
+                                          const TimeWeights& weights, const Eigen::MatrixXd& jumps,
                                           Adjoint adjoint) {
   const int n = system_.coordinates(), m = system_.multipliers();
   Eigen::MatrixXd mu = Eigen::MatrixXd::Zero(n + m, jumps.cols());
@@ -151,7 +151,7 @@ void CornerJump::differentiate_transposed(const Eigen::VectorXd& jump,
   Eigen::MatrixXd constraints = Eigen::MatrixXd::Zero(n + m, jumps.cols());
   at_each_time([&](std::size_t i) {
     constraints.bottomRows(m) = weights[i] * mu.bottomRows(m);
-    const auto add = [&](const pleuel::Weights& by, Columns& sum) {
+    const auto add = [&](const Weights& by, Columns& sum) {
       constraints_.tangent(state_, by, of_accelerations, rows_);
       sum += rows_.leftCols(n).transpose() * constraints;
     };

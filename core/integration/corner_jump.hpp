@@ -52,19 +52,19 @@ class CornerJump {
 
  private:
   /// How a jump follows from what is two and one intervals before the corner, and behind it.
-  using Weights = std::array<double, 4>;
-  Weights weights_of_acceleration() const { return {1.0, -2.0, 2.0, -1.0}; }
-  Weights weights_of_jerk() const;
+  using TimeWeights = std::array<double, 4>;
+  TimeWeights weights_of_acceleration() const { return {1.0, -2.0, 2.0, -1.0}; }
+  TimeWeights weights_of_jerk() const;
   /// Goes to these times, one after the other.
   template <class Visit>
   void at_each_time(const Visit& visit);
   bool factorize(const std::vector<int>& held);
 
   Eigen::MatrixXd differentiate(const Eigen::VectorXd& jump, const Eigen::VectorXd& multipliers,
-                                const Weights& weights, const StateSensitivity& state,
+                                const TimeWeights& weights, const StateSensitivity& state,
                                 DerivativesOf of);
   void differentiate_transposed(const Eigen::VectorXd& jump, const Eigen::VectorXd& multipliers,
-                                const Weights& weights, const Eigen::MatrixXd& jumps,
+                                const TimeWeights& weights, const Eigen::MatrixXd& jumps,
                                 Adjoint adjoint);
 
   const Mechanism& mechanism_;

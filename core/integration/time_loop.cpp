@@ -217,8 +217,9 @@ std::optional<StepFailure> TimeLoop::make_step(double time, NewtonCorrector::Tru
   predictor_.predict(*from_, time, scheme_, equations_, state_);
   const bool is_foreseeable = step_ > 2 && step_ % curvature_interval != 1;
   const bool is_behind_corner = from_ != &old_;
-  if (!is_foreseeable || is_behind_corner || mechanism_.has_laws_of_motion)
+  if (!is_foreseeable || is_behind_corner || mechanism_.has_laws_of_motion) {
     trust = NewtonCorrector::Trust::none;
+  }
   std::optional<StepFailure> failure = corrector_.correct(equations_, state_, trust);
   if (failure && predictor_.looks_ahead()) {
     predictor_.forget();
