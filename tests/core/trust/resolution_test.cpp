@@ -485,7 +485,9 @@ TEST(ErrorBars, CompareBothSidesOfAPeak) {
     Eigen::MatrixXd history = run.histories[tip];
     if (changed >= 0) history(sample.channel, changed) += 0.3 * peak.value;
     run.histories.set(tip, history);
-    return evidence_of(*start.analysis, tip, {.twice_step = &run}, 2.0).local;
+    JudgingRuns runs;
+    runs.twice_step = &run;
+    return evidence_of(*start.analysis, tip, runs, 2.0).local;
   };
   EXPECT_LE(local_with(-1), 0.02 * peak.value);
   // The peak is that of a parabola, of which the instants beside it have a share.
