@@ -16,6 +16,7 @@
 #include "core/model/state_in_space.hpp"
 #include "core/response/full_mechanism.hpp"
 #include "core/response/lateral_buckling_signal.hpp"
+#include "core/system/term.hpp"
 
 namespace pleuel {
 
@@ -72,8 +73,6 @@ class PressedBeams {
     }
   }
 
-  bool is_empty() const { return beams_.empty(); }
-
   void see(const State& state) {
     double sum = 0.0;
     for (PressedBeam& beam : beams_) {
@@ -126,6 +125,44 @@ class PressedBeams {
   std::vector<double> sums_;  ///< of shares of Euler loads, one an instant
 };
 
+/// The largest of some values, and when it was.
+struct Largest {
+  double value = 0.0;
+  int when = -1;
+
+  void see(double other, int instant) {
+    constexpr double more = 1.0 + 1e-6;  // of values that are alike the first
+    if (other <= more * value) return;
+    value = other;
+    when = instant;
+  }
+};
+
+/// When joints and drives bear most, and when springs and loads push most.
+class LargestForces {
+ public:
+  explicit LargestForces(const Mechanism& mechanism) : mechanism_(mechanism) {}
+
+  void see(const State& state, int instant) {
+    Eigen::VectorXd pushed = Eigen::VectorXd::Zero(mechanism_.system->size());
+    for (const std::vector<Term*>* terms : {&mechanism_.loads, &mechanism_.springs}) {
+      for (Term* term : *terms) term->add_residual(state, ConstraintLevel::position, pushed);
+    }
+    pushed_.see(pushed.norm(), instant);
+    borne_.see(state.lambda.norm(), instant);
+  }
+
+  void add_to(std::set<int>& instants) const {
+    for (const Largest& one : {borne_, pushed_}) {
+      if (one.when >= 0) instants.insert(one.when);
+    }
+  }
+
+ private:
+  const Mechanism& mechanism_;
+  Largest borne_, pushed_;
+};
+
 /// The largest share at which  ½ ∫ max(−ṡ, 0)/(1 − s) dt  leaves disturbances below harmful growth, as
 /// their elastic energy is at most 1/(1 − s) of that with loads.
 /// @param slowed  by how much the square of the fastest turn falls, of its largest
@@ -141,30 +178,31 @@ double harmless_share_of(const PressedBeams& beams, double slowed) {
 }  // namespace
 
 CriticalInstants critical_instants(const Scene& scene, const Analysis& analysis) {
-  PressedBeams beams(scene, analysis.model);
-  if (beams.is_empty()) return {};
   const Mechanism& mechanism = analysis.model.mechanism;
-  double fastest = 0.0, last = 0.0, falls = 0.0;
-  int when = -1;
+  if (mechanism.elastic.empty() && mechanism.springs.empty()) return {};
+  const bool is_any_imported = std::ranges::any_of(
+      analysis.model.bodies, [](const BodyModel& body) { return body.is_imported(); });
+  const bool is_of_beams = mechanism.springs.empty() && !is_any_imported;
+  PressedBeams beams(scene, analysis.model);
+  LargestForces forces(mechanism);
+  Largest turn;
+  double last = 0.0, falls = 0.0;
   for (int i = 0; i < int_size(analysis.trajectory.time); ++i) {
-    constexpr double more = 1.0 + 1e-6;
     const State state = analysis.trajectory.state_at(i);
     beams.see(state);
+    if (!is_of_beams) forces.see(state, i);
     const double speed = fastest_turn(mechanism, state).omega.norm();
     falls += std::max(0.0, last * last - speed * speed);
     last = speed;
-    if (speed <= more * fastest) continue;
-    fastest = speed;
-    when = i;
+    turn.see(speed, i);
   }
   CriticalInstants found{beams.instants(), beams.may_buckle(), harmless_share};
-  if (when < 0) return found;
-  found.all.insert(when);
-  const bool is_any_imported = std::ranges::any_of(
-      analysis.model.bodies, [](const BodyModel& body) { return body.is_imported(); });
-  if (!mechanism.loads.empty() || !mechanism.springs.empty() || is_any_imported) return found;
-  if (is_rotor(mechanism, analysis.trajectory.state_at(when))) return found;
-  found.harmless = harmless_share_of(beams, falls / (fastest * fastest));
+  forces.add_to(found.all);
+  if (turn.when < 0) return found;
+  found.all.insert(turn.when);
+  if (!is_of_beams || !mechanism.loads.empty()) return found;
+  if (is_rotor(mechanism, analysis.trajectory.state_at(turn.when))) return found;
+  found.harmless = harmless_share_of(beams, falls / (turn.value * turn.value));
   return found;
 }
 

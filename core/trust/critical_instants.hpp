@@ -11,7 +11,8 @@ namespace pleuel {
 constexpr double harmful_growth = 10.0;
 
 /// Instants at which it is worth while to ask whether the members of a mechanism are stable: where each elastic
-/// beam is pressed most, and all of them together, and of the fastest turn.
+/// beam is pressed most, and all of them together, and of the fastest turn. With springs or bodies of meshes
+/// also where joints bear most, and where springs and loads push most.
 struct CriticalInstants {
   std::set<int> all;
   /// By what presses alone: whether a beam is pressed beyond a twentieth of the Euler load of a column as

@@ -32,7 +32,7 @@ namespace pleuel {
 
 namespace {
 
-/// How a small disturbance of the members of a mechanism grows along its motion.
+/// How a small disturbance of a mechanism grows along its motion.
 struct DisturbanceGrowth {
   double factor = 0.0;                ///< by which it is larger than where it began
   double begin = 0.0, largest = 0.0;  ///< when it began, and when it is largest [s]
@@ -46,8 +46,23 @@ constexpr Eigen::Index modes_of_a_kind = 4;
 constexpr int stretches = 16;
 constexpr std::array<int, 3> renewals = {1, 4, 16};
 constexpr double followed_growth = 1e6;
-/// What turns or moves bodies by so many times as much as it deforms them is no matter of elasticity.
+/// What turns or moves bodies by so many times as much as it deforms them is no deformation.
 constexpr double rigid_ratio = 10.0;
+/// What a motion that does not go along a disturbance moves that way while it grows e-fold, of a length or a
+/// radian.
+constexpr double hardly = 0.01;
+
+/// The largest growth of disturbances that deform bodies, and of those that move them against springs.
+struct LargestGrowth {
+  DisturbanceGrowth of_members, of_springs;
+
+  double factor() const { return std::max(of_members.factor, of_springs.factor); }
+  /// That of members, unless that of springs alone does harm.
+  const DisturbanceGrowth& worst() const {
+    if (of_members.factor > harmful_growth) return of_members;
+    return of_springs.factor > of_members.factor ? of_springs : of_members;
+  }
+};
 
 /// Disturbances of a mechanism, one a column, and how large they are.
 class Disturbances {
@@ -89,18 +104,23 @@ class Disturbances {
   }
 
   bool is_rigid(const StateSensitivity& disturbance, Eigen::Index column) const {
-    const Eigen::VectorXd x =
-        mechanism_.scale.cwiseInverse().asDiagonal() * disturbance.q.col(column);
-    Eigen::VectorXd frames = x;
+    Eigen::VectorXd frames = relative(disturbance, column);
+    const double deformed = Eigen::VectorXd(frames(mechanism_.elastic)).lpNorm<Eigen::Infinity>();
     frames(mechanism_.elastic).setZero();
-    const double deformed = Eigen::VectorXd(x(mechanism_.elastic)).lpNorm<Eigen::Infinity>();
     return frames.lpNorm<Eigen::Infinity>() > rigid_ratio * deformed;
   }
 
-  /// What one deforms most.
+  /// Of one in coordinates relative to their scales.
+  Eigen::VectorXd relative(const StateSensitivity& disturbance, Eigen::Index column) const {
+    return mechanism_.scale.cwiseInverse().asDiagonal() * disturbance.q.col(column);
+  }
+
+  double energy(const Eigen::VectorXd& x) const { return x.dot(stiffness_ * x); }
+
+  /// What one deforms most, or moves most if bodies are rigid.
   std::string owner(const StateSensitivity& disturbance, Eigen::Index column) const {
-    const Eigen::VectorXd x =
-        mechanism_.scale.cwiseInverse().asDiagonal() * disturbance.q.col(column);
+    const Eigen::VectorXd x = relative(disturbance, column);
+    if (is_rigid(disturbance, column)) return owner_of(mechanism_, x);
     Eigen::VectorXd deformed = Eigen::VectorXd::Zero(x.size());
     deformed(mechanism_.elastic) = x(mechanism_.elastic);
     return owner_of(mechanism_, deformed);
@@ -128,6 +148,36 @@ class Disturbances {
   AxialStrains strains_;
   Eigen::MatrixXd
       stiffness_;  ///< of coordinates relative to their scales, where the last ones began
+};
+
+/// What springs hold at a state, so that it is a member of the mechanism as an elastic body is.
+class HeldBySprings {
+ public:
+  HeldBySprings(const Mechanism& mechanism, const State& at)
+      : resistance_(resistance_of_springs(mechanism, at)),
+        v_(at.v.cwiseQuotient(mechanism.scale)),
+        a_(at.a.cwiseQuotient(mechanism.scale)) {
+    const int n = mechanism.system->coordinates();
+    mass_ = scaled_tangent(mechanism, at, {.a = 1.0}).topLeftCorner(n, n);
+  }
+
+  /// Whether most of the energy of a disturbance is that of springs, and the motion itself hardly goes that way
+  /// while it grows e-fold: else, as in a pendulum with a spring, the motion shows it.
+  /// @param x       relative to the scales of coordinates
+  /// @param energy  of all that is elastic
+  /// @param rate    of its growth [1/s]
+  bool holds(const Eigen::VectorXd& x, double energy, double rate) const {
+    if (x.dot(resistance_ * x) < energy / 2.0) return false;
+    const Eigen::VectorXd momentum = mass_.transpose() * x;
+    const double size = x.lpNorm<Eigen::Infinity>() / momentum.dot(x);
+    const double way =
+        std::abs(momentum.dot(v_)) / rate + std::abs(momentum.dot(a_)) / (rate * rate);
+    return size * way <= hardly;
+  }
+
+ private:
+  Eigen::MatrixXd resistance_, mass_;
+  Eigen::VectorXd v_, a_;  ///< relative to the scales of coordinates
 };
 
 /// The groups of disturbances while they are propagated.
@@ -170,9 +220,9 @@ struct Groups {
 /// or the angle. Those that have not grown begin anew several times in the motion.
 ///
 /// The size of a disturbance is the root of its elastic energy, of springs, too: a vibration keeps it.
-/// One that mostly turns or moves bodies is no matter of elasticity (a pendulum that falls). What it
-/// grows beyond 1e6 is not followed.
-DisturbanceGrowth disturbance_growth(const Mechanism& mechanism, const Trajectory& trajectory) {
+/// One that mostly turns or moves bodies counts where springs hold them and the motion goes elsewhere; else it
+/// is a pendulum that falls. What it grows beyond 1e6 is not followed.
+LargestGrowth disturbance_growth(const Mechanism& mechanism, const Trajectory& trajectory) {
   const State at = trajectory.state_at(0);
   Disturbances disturbances(mechanism);
   const StateSensitivity first = disturbances.at_rest(at);
@@ -180,14 +230,25 @@ DisturbanceGrowth disturbance_growth(const Mechanism& mechanism, const Trajector
   StepDifferentiation motion(mechanism, trajectory, DerivativesOf::old_state);
   motion.begin(groups.all(first));
   const int stretch = std::max(1, trajectory.steps() / stretches);
-  DisturbanceGrowth growth{0.0, at.time, at.time, ""};
-  while (first.q.cols() > 0 && growth.factor < followed_growth && motion.advance()) {
+  const DisturbanceGrowth none{0.0, at.time, at.time, ""};
+  LargestGrowth growth{none, none};
+  while (first.q.cols() > 0 && growth.factor() < followed_growth && motion.advance()) {
     StateSensitivity now = motion.sensitivity();
     const Eigen::VectorXd sizes = disturbances.sizes(motion.state(), now);
+    std::optional<HeldBySprings> springs;
     for (Eigen::Index i = 0; i < sizes.size(); ++i) {
-      if (sizes(i) <= growth.factor || disturbances.is_rigid(now, i)) continue;
-      growth = {sizes(i), groups.begun[static_cast<std::size_t>(i)], motion.state().time,
-                disturbances.owner(now, i)};
+      const bool is_rigid = disturbances.is_rigid(now, i);
+      DisturbanceGrowth& largest = is_rigid ? growth.of_springs : growth.of_members;
+      if (sizes(i) <= largest.factor) continue;
+      const double begun = groups.begun[static_cast<std::size_t>(i)], time = motion.state().time;
+      if (is_rigid) {
+        if (mechanism.springs.empty()) continue;
+        if (!springs) springs.emplace(mechanism, motion.state());
+        const Eigen::VectorXd x = disturbances.relative(now, i);
+        const double rate = std::log(sizes(i)) / (time - begun);
+        if (!springs->holds(x, disturbances.energy(x), rate)) continue;
+      }
+      largest = {sizes(i), begun, time, disturbances.owner(now, i)};
     }
     if (motion.step() % stretch != 0 || motion.step() == trajectory.steps()) continue;
     const State here = motion.state();
@@ -294,7 +355,7 @@ std::vector<Finding> judge_motion(const Scene& scene, const Analysis& analysis, 
     frozen = elastic_stability(mechanism, state);
     if (!frozen.is_stable) break;
   }
-  const DisturbanceGrowth growth = disturbance_growth(mechanism, trajectory);
+  const DisturbanceGrowth growth = disturbance_growth(mechanism, trajectory).worst();
   if (growth.factor > harmful_growth) return {grown(growth, frozen)};
   if (frozen.is_stable) trajectory.states->load(*first, state);
   const std::optional<GrowingMode> grows =
@@ -303,7 +364,11 @@ std::vector<Finding> judge_motion(const Scene& scene, const Analysis& analysis, 
   if (is_of_members && !grows->is_followed && grows->exponent > std::log(harmful_growth)) {
     return {unfollowed(*grows, state.time, step)};
   }
-  if (!frozen.is_stable) return {passing(frozen, state.time, growth)};
+  const bool is_shown =
+      mechanism.elastic.empty() && growth.factor <= 1.0;  // by the motion: it falls
+  if (!frozen.is_stable) {
+    return is_shown ? std::vector<Finding>() : std::vector{passing(frozen, state.time, growth)};
+  }
   if (!grows || grows->exponent < std::numbers::ln2) return {};
   if (growth.factor <= 1.0 || std::log(growth.factor) < 0.5 * grows->exponent) return {};
   frozen.where = growth.where;
