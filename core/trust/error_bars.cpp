@@ -44,10 +44,6 @@ std::optional<double> difference(const Comparison& comparison, std::size_t respo
          value_of(comparison.beside, response).value_or(unknown);
 }
 
-bool is_there(const RefinedRun* run) {
-  return run != nullptr && !run->has_failed();
-}
-
 bool is_there(const std::optional<double>& value) {
   return value && std::isfinite(*value);
 }
@@ -89,76 +85,27 @@ double local_difference(const Analysis& analysis, std::size_t response, const Re
   return std::max(std::abs(before), std::abs(after));
 }
 
-/// Orders from here on say what is left.
-constexpr double least_order = 0.7;
-
-struct Curve {
-  Eigen::VectorXd time, values;
-};
-
-/// |fine − coarse| at the instants of the coarse one.
-Curve difference(const Curve& fine, const Curve& coarse) {
-  Curve curve = coarse;
-  for (Eigen::Index i = 0; i < curve.time.size(); ++i) {
-    curve.values(i) = std::abs(value_at(fine.time, fine.values, coarse.time(i)) - coarse.values(i));
-  }
-  return curve;
-}
-
-double root_mean_square(const Curve& curve) {
-  return std::sqrt(curve.values.squaredNorm() / static_cast<double>(curve.values.size()));
-}
-
-/// The order that the histories show as wholes, up to the promised one.
-double observed_order(const Curve& of_twice, const Curve& of_four, double promised) {
-  const double now = root_mean_square(of_twice), before = root_mean_square(of_four);
-  return now > 0.0 && before > 0.0 ? std::min(std::log2(before / now), promised) : 0.0;
-}
-
-Curve curve_of(const Response& response, const RefinedRun& run, std::size_t index) {
-  return {run.time, shown_history(response, run.histories[index])};
-}
-
-/// Whether the history of a response, as a whole, approaches a limit.
-bool converges(const Analysis& analysis, std::size_t response, const JudgingRuns& runs) {
-  const Eigen::MatrixXd& history = analysis.histories[response];
-  if (history.size() == 0 || !is_there(runs.four_steps)) return true;
-  const Response& asked = analysis.responses[response];
-  const Curve now{analysis.trajectory.time, shown_history(asked, history)};
-  const Curve twice = curve_of(asked, *runs.twice_step, response),
-              four = curve_of(asked, *runs.four_steps, response);
-  return observed_order(difference(now, twice), difference(twice, four), least_order) >=
-         least_order;
-}
-
 /// Of an expression, what its parts differ by, without regard to signs.
-void compare_locally(const Analysis& analysis, std::size_t response, const JudgingRuns& runs,
-                     Evidence& evidence) {
+double local_difference_of_parts(const Analysis& analysis, std::size_t response,
+                                 const RefinedRun& other) {
+  double sum = 0.0;
   for (const WeightedResponse& part : linearized(analysis, response).parts) {
-    const double difference =
-        std::abs(part.weight) * local_difference(analysis, part.response, *runs.twice_step);
-    evidence.local += difference;
-    const bool matters = runs.half_step != nullptr && difference > 0.0;
-    if (matters && !converges(analysis, part.response, runs)) evidence.erratic += difference;
+    sum += std::abs(part.weight) * local_difference(analysis, part.response, other);
   }
+  return sum;
 }
 
 double small(const Evidence& evidence) {
   return small_share * evidence.magnitude;
 }
 
-/// Whether differences fall at least as those of a scheme of first order.
-bool falls(const Extrapolation& found) {
-  return found.order && *found.order >= 1.0;
-}
-
-/// From three values whose finest has a smaller step than the simulation.
+/// From three values whose finest has a smaller step than the simulation. Where they agree to round-off, but
+/// histories do not where the value comes from, that is an accident: what happens there may be of the step.
 ErrorPart step_by_finer(const Evidence& evidence, double fine, double middle, double coarse,
                         std::optional<double>& order) {
-  Extrapolation found = extrapolate(fine, middle, coarse, evidence.order, 0.0, 0.0);
-  if (!falls(found)) {
-    found = extrapolate(fine, middle, coarse, evidence.order, evidence.erratic, 0.0);
-  }
+  const double apart = std::max(std::abs(fine - middle), std::abs(middle - coarse));
+  const double local = apart <= value_round_off * std::abs(fine) ? evidence.local : 0.0;
+  const Extrapolation found = extrapolate(fine, middle, coarse, evidence.order, local, 0.0);
   order = found.order;
   const double change = fine - evidence.value + found.part.change;
   const double bound = std::abs(fine - evidence.value) + found.part.bound;
@@ -242,7 +189,8 @@ Extrapolation extrapolate(double fine, double middle, double coarse, double orde
     found.part.bound = safety::of_order * remaining * std::max(std::abs(last), local);
     return found;
   }
-  found.part.bound = (falls(found) ? safety::of_falling : safety::of_difference) *
+  const bool falls = found.order && *found.order >= 1.0;
+  found.part.bound = (falls ? safety::of_falling : safety::of_difference) *
                      std::max({std::abs(last), share * std::abs(before), local});
   found.part.is_resolved = found.part.bound <= small;
   return found;
@@ -252,7 +200,6 @@ void Evidence::add(const Evidence& other, double factor) {
   value += factor * other.value;
   element_order = std::min(element_order, other.element_order);
   local += std::abs(factor) * other.local;
-  erratic += std::abs(factor) * other.erratic;
   add_to(quarter_step, other.quarter_step, factor);
   add_to(half_step, other.half_step, factor);
   add_to(twice_step, other.twice_step, factor);
@@ -269,7 +216,9 @@ Evidence evidence_of(const Analysis& analysis, std::size_t response, const Judgi
   evidence.order = order;
   evidence.value = analysis.reductions[response].value;
   evidence.magnitude = magnitude_of(analysis, response);
-  if (is_there(runs.twice_step)) compare_locally(analysis, response, runs, evidence);
+  if (runs.twice_step != nullptr && !runs.twice_step->has_failed()) {
+    evidence.local = local_difference_of_parts(analysis, response, *runs.twice_step);
+  }
   evidence.quarter_step = value_of(runs.quarter_step, response);
   evidence.half_step = value_of(runs.half_step, response);
   evidence.twice_step = value_of(runs.twice_step, response);
@@ -340,8 +289,41 @@ ErrorBar error_bar(const Evidence& evidence) {
 
 namespace {
 
+/// Orders from here on say what is left.
+constexpr double least_order = 0.7;
 /// The bound at an instant is the largest within so many instants of twice the step.
 constexpr Eigen::Index reach = 2;
+
+struct Curve {
+  Eigen::VectorXd time, values;
+};
+
+/// |fine − coarse| at the instants of the coarse one.
+Curve difference(const Curve& fine, const Curve& coarse) {
+  Curve curve = coarse;
+  for (Eigen::Index i = 0; i < curve.time.size(); ++i) {
+    curve.values(i) = std::abs(value_at(fine.time, fine.values, coarse.time(i)) - coarse.values(i));
+  }
+  return curve;
+}
+
+double root_mean_square(const Curve& curve) {
+  return std::sqrt(curve.values.squaredNorm() / static_cast<double>(curve.values.size()));
+}
+
+/// The order that the histories show as wholes, up to the promised one.
+double observed_order(const Curve& of_twice, const Curve& of_four, double promised) {
+  const double now = root_mean_square(of_twice), before = root_mean_square(of_four);
+  return now > 0.0 && before > 0.0 ? std::min(std::log2(before / now), promised) : 0.0;
+}
+
+Curve curve_of(const Response& response, const RefinedRun& run, std::size_t index) {
+  return {run.time, shown_history(response, run.histories[index])};
+}
+
+bool is_there(const RefinedRun* run) {
+  return run != nullptr && !run->has_failed();
+}
 
 /// The largest of a curve near each instant.
 Eigen::VectorXd envelope(const Curve& curve, const Eigen::VectorXd& time) {

@@ -84,8 +84,6 @@ struct Evidence {
   double value = 0.0;          ///< of the simulation that is judged
   double magnitude = 0.0;      ///< what errors are small beside
   double local = 0.0;          ///< of extrapolate()
-  /// What of it finer steps need not lessen, as histories as wholes do not converge there.
-  double erratic = 0.0;
   std::optional<double> quarter_step, half_step, twice_step, four_steps;  ///< values of these runs
   /// Differences of both runs of a comparison.
   std::optional<double> more_elements, fewer_elements, modes, newton;
