@@ -13,7 +13,7 @@ namespace pleuel {
 
 namespace {
 
-/// The shift σ as a share of the largest frequency.
+/// The shift σ as a share of the largest frequency without damping.
 constexpr double shift_share = 1e-4;
 /// Below this share of σ a motion counts as free: its double eigenvalue 0 comes out of the solver
 /// as σ √(machine precision), some 1e-8 σ.
@@ -119,6 +119,13 @@ Pencil pencil_at(const Linearization& linearized, std::complex<double> s) {
 
 namespace {
 
+/// Of vibrations without damping, which may be faster by far than what is slow beside them; of motions without
+/// stiffness that of gyroscopic forces.
+double largest_frequency(double stiffness, double gyroscopic) {
+  const double vibrations = std::sqrt(stiffness);
+  return vibrations > free_motion * shift_share * gyroscopic ? vibrations : gyroscopic;
+}
+
 /// s of ω² = 1/θ − σ² for the eigenvalues θ of a symmetric F.
 Eigen::VectorXcd conservative_eigenvalues(const Eigen::MatrixXd& flexibility, double sigma) {
   const Eigen::VectorXd theta =
@@ -151,7 +158,7 @@ Eigen::VectorXcd modes_of(const Linearization& linearized) {
   if (motions.count() == 0) return {};
   const Eigen::MatrixXd gyroscopic = motions.project(linearized.G),
                         stiffness = motions.project(linearized.K);
-  const double largest = std::max(std::sqrt(stiffness.norm()), gyroscopic.norm());
+  const double largest = largest_frequency(stiffness.norm(), gyroscopic.norm());
   if (largest == 0.0) return {};
   const double sigma = shift_share * largest;
   const Eigen::MatrixXd flexibility = motions.flexibility(sigma);

@@ -49,7 +49,7 @@ Pencil pencil_at(const Linearization& linearized, std::complex<double> s);
 ///     [ −F (G + σ)  −σF ; −F (G + σ) + 1/σ  −σF ]
 /// The inverse, taken from the pencil, keeps low frequencies exact beside high ones: in K itself
 /// they are below round-off. Where damping counts, motions that decay without vibrating are among them,
-/// ordered by their rate. σ is 1e-4 of the largest frequency. Without gyroscopic forces, where K
+/// ordered by their rate. σ is 1e-4 of the largest frequency without damping. Without gyroscopic forces, where K
 /// is symmetric, the eigenvalues 1/(σ² + ω²) of F itself are enough. Free motions without stiffness
 /// (|s| < 1e-4 σ) are not among the modes.
 /// @throws SimulationError if a free motion has no inertia, or if it has neither that nor stiffness

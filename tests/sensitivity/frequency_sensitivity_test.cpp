@@ -149,6 +149,33 @@ TEST(DampedMode, WithoutVibrationHasARateAndTheRatioOne) {
               HasSubstr("the response \"first\" cannot be computed"));
 }
 
+/// A wheel on a soft spring with a motor that feeds it, c = −1 N m s/rad, and a short steel rod on it. The rod's
+/// damping goes with its stiffness and makes rates of 1e8 1/s and more, the finer the mesh; the wheel grows
+/// as exp(−c t/(2J)) all the same, ζ = c/(2√(kJ)), as the rod hardly bends.
+TEST(DampedMode, OfAWheelIsFoundBesideAStiffRodWithDamping) {
+  constexpr double d = 0.01, area = std::numbers::pi * d * d / 4.0, length = 0.1;
+  const double mass = 7850.0 * area * length;
+  const double inertia = 10.0 + mass * (0.45 * 0.45 + length * length / 12.0 + d * d / 16.0);
+  for (const int elements : {1, 10, 20}) {
+    const Found found = found_of(fmt::format(R"({{"scene": {{"gravity": [0, 0, 0],
+        "bodies": {{"wheel": {{"type": "rigid", "at": [0, 0, 0], "mass": 50, "inertia": [5, 5, 10, 0, 0, 0]}},
+          "rod": {{"type": "beam", "from": [0.4, 0, 0], "to": [0.5, 0, 0], "elements": {},
+            "material": "steel",
+            "section": {{"type": "circle", "diameter": {{"variable": "d"}}}}, "damping": {{"stiffness": 1e-4}}}}}},
+        "joints": {{"a": {{"type": "revolute", "bodies": ["ground", "wheel"], "at": [0, 0, 0], "axis": [0, 0, 1]}},
+                    "f": {{"type": "fixed", "bodies": ["wheel", "rod"], "at": [0.4, 0, 0]}}}},
+        "loads": {{"s": {{"type": "joint", "joint": "a", "stiffness": 10,
+                          "motor": {{"type": "expression", "value": "= 1 N m s/rad*speed"}}}}}}}},
+      "simulation": {{"end_time": 0.01, "step": 0.01}},
+      "variables": {{"d": {{"start": 0.01, "lower": 0.005, "upper": 0.02}}}},
+      "responses": {{"zeta": {{"type": "damping-ratio"}}, "rate": {{"type": "growth-rate"}}}}}})",
+                                             elements));
+    const double rate = 0.5 / inertia, zeta = -0.5 / std::sqrt(10.0 * inertia);
+    EXPECT_NEAR(found.values(0), zeta, 1e-6 * std::abs(zeta)) << elements;
+    EXPECT_NEAR(found.values(1), rate, 1e-6 * rate) << elements;
+  }
+}
+
 /// A cantilever whose damping goes with its stiffness, C = β K: ζ = β ω/2 of each mode, and the first
 /// decays most slowly, with β ω²/2; so do their derivatives follow from those of the frequency.
 TEST(DampedMode, OfACantileverWithDampingByStiffnessFollowsFromItsFrequencies) {
