@@ -74,6 +74,10 @@ constexpr double least_condition = 1e-13;
 /// Growth of disturbances in a period that is more than round-off: motions without damping neither
 /// grow nor die.
 constexpr double unstable = 1.0 + 1e-5;
+/// A map is that of a motion on the way, whose disturbances may grow otherwise. Its growth is taken for that of the
+/// motion found where corrections with it converge as fast as this, the second of a similar motion, and
+/// where so many times as much of it would not make the motion unstable.
+constexpr double nearly_found = 1e-3, near_enough = 0.1, safety_of_growth = 4.0;
 /// Growth below which a motion surely forgets how it began.
 constexpr double forgetful = 1.0 - 1e-5;
 
@@ -171,8 +175,8 @@ class PeriodicSearch {
   PeriodicStart found(const Attempt& attempt) {
     const bool is_of_similar = is_known() && map_ == one_.similar->periodic->map;
     double growth = is_of_similar ? one_.similar->periodic->growth : map_->growth();
-    if (growth > unstable) {
-      // The map may be that of a motion on the way, whose disturbances grow otherwise.
+    const bool is_near = contraction_ <= (is_of_similar ? near_enough : nearly_found);
+    if (!is_near || growth + safety_of_growth * contraction_ > unstable) {
       make_map(attempt.trajectory);
       growth = map_->growth();
     }
@@ -201,6 +205,7 @@ class PeriodicSearch {
       if (is_fresh && !is_small) make_map(attempt.trajectory);
       Attempt next = corrected(attempt, is_fresh && !is_small ? most_halvings_of_corrections : 0);
       rate = next.gap / attempt.gap;
+      if (next.gap > gap_of_round_off) contraction_ = std::max(contraction_, rate);
       if (rate < 1.0) attempt = std::move(next);
       const bool is_stagnant = is_fresh && attempt.gap <= gap_of_stagnation;
       if (rate > no_progress && (is_small || is_stagnant)) break;
@@ -284,6 +289,7 @@ class PeriodicSearch {
   void make_map(const Trajectory& trajectory) {
     ++differentiations_;
     map_ = std::make_shared<PeriodMap>(mechanism_, trajectory, trajectory.steps());
+    contraction_ = 0.0;
     if (map_->reciprocal_condition() >= least_condition) return;
     if (map_->growth() < forgetful) {
       throw SimulationError(fmt::format(
@@ -316,6 +322,8 @@ class PeriodicSearch {
   const SimulationOptions& one_;
   StackedStates states_;
   std::shared_ptr<const PeriodMap> map_;
+  /// By how much the largest gap shrank least with this map: how far it is from that of the motion found.
+  double contraction_ = 0.0;
   int simulations_ = 0, differentiations_ = 0;
   std::string complaint_;  ///< about what does not repeat itself
   std::string advice_;     ///< besides, from a period that begins as the file says

@@ -240,6 +240,29 @@ TEST(SteadyOscillator, ForgetsAsItsDampingSays) {
   }
 }
 
+/// A mass of 2 kg on a hardening spring with friction, hit every 0.349 s: of its motions with this period one is
+/// unstable. From v = 0.211937 m/s on a disturbance turns its sign and grows by 1.0128 in each period (by an
+/// integrator of order 8 and differences), wherever the search began.
+TEST(SteadyOscillator, IsUnstableWhereverTheSearchBegan) {
+  for (const double guess : {0.1, 0.15, 0.4}) {
+    const ProblemFile file = problem_from(fmt::format(R"({{"scene": {{"gravity": [0, 0, 0],
+        "bodies": {{"m": {{"type": "point-mass", "at": [1, 0, 0], "mass": 2, "velocity": [{}, 0, 0]}}}},
+        "joints": {{"g": {{"type": "point-on-line", "bodies": ["ground", "m"], "at": [1, 0, 0], "axis": [1, 0, 0]}}}},
+        "loads": {{
+          "s": {{"type": "spring", "bodies": ["ground", "m"], "at": [[0, 0, 0], [1, 0, 0]], "stiffness": 800,
+                 "damping": 4, "resistance": "= 400 kN/m^3*elongation^3"}},
+          "fr": {{"type": "joint", "joint": "g", "resistance": {{"type": "friction", "value": 0.8, "speed": 0.02}}}},
+          "F": {{"type": "force", "body": "m", "at": [1, 0, 0], "direction": [1, 0, 0], "value":
+            {{"type": "half-sine", "amplitude": 40, "duration": 0.1, "period": 0.3490658503988659}}}}}}}},
+      "simulation": {{"end_time": 0.3490658503988659, "step": 2e-4, "initial_state": "periodic"}},
+      "responses": {{"m": {{"type": "mass"}}}}}})",
+                                                      guess));
+    EXPECT_THAT(thrown<SimulationError>([&] { analyze(file, start_design(file)); }),
+                HasSubstr("is unstable: disturbances grow by 1.3 %"))
+        << guess;
+  }
+}
+
 /// The mass of a counterweight on the driven end of an arm changes no motion, whose derivatives are
 /// round-off then: only the weight that the bearing carries, one g a kilogram, and with its lever
 /// of 0.1 m the largest torque, as long as the arm's is larger and turns the other way.
