@@ -23,7 +23,8 @@ namespace {
 
 constexpr double far_away = 100.0;       // of the size of the rest
 constexpr double most_slender = 5000.0;  // lengths over depths; wires included
-constexpr double largest_body = 10.0;    // radius of gyration, of the mechanism's size
+// Radii of gyration and lengths of springs, of the mechanism's size.
+constexpr double largest_length = 10.0;
 // From foams to osmium, from rubber to what is meant as rigid, from the moon's third to Jupiter's
 // tenfold.
 constexpr double least_density = 10.0, most_density = 25e3;  // [kg/m³]
@@ -61,6 +62,11 @@ class Proportions {
     }
     for (const Material& material : scene_.materials) check_material(material);
     for (const Joint& joint : scene_.joints) check_speed(joint);
+    for (const Load& load : scene_.loads) {
+      if (const auto* spring = std::get_if<SpringDamper>(&load.element)) {
+        check_spring(load.name, *spring);
+      }
+    }
     check_gravity();
     return std::move(findings_);
   }
@@ -229,7 +235,7 @@ class Proportions {
     }
     const double radius = std::sqrt(inertia / resolve(rigid.mass, design_));
     const double size = mechanism_size();
-    if (size == 0.0 || !(radius > largest_body * size)) return;
+    if (size == 0.0 || !(radius > largest_length * size)) return;
     add(
         fmt::format("/scene/bodies/{}/inertia is that of a body of {:.3g} m (radius of gyration), "
                     "in a mechanism of {:.3g} m",
@@ -277,6 +283,14 @@ class Proportions {
     const auto* beam = body ? std::get_if<BeamBody>(&body->shape) : nullptr;
     if (beam == nullptr) return mechanism_size();
     return (resolve_point(beam->to, design_) - resolve_point(beam->from, design_)).norm();
+  }
+
+  void check_spring(const std::string& name, const SpringDamper& spring) {
+    if (!spring.free_length) return;
+    const double length = resolve(*spring.free_length, design_), size = mechanism_size();
+    if (size == 0.0 || length <= largest_length * size) return;
+    add(fmt::format("/scene/loads/{}/free_length is {:.3g} m, in a mechanism of {:.3g} m", name,
+                    length, size));
   }
 
   void check_gravity() {

@@ -130,6 +130,21 @@ TEST(SizesOutOfProportion, BeginAtTenTimesTheInertiaAndAHundredTimesTheDistance)
   EXPECT_EQ(findings(1.0, 1.0 + 101.0), 1u);
 }
 
+/// A free length of ten times the mechanism's size.
+TEST(SizesOutOfProportion, AreSpringsThatAreMuchLongerThanTheMechanism) {
+  const auto findings = [](double length) {
+    return findings_of(read_scene(fmt::format(R"({{"scene": {{
+          "bodies": {{"m": {{"type": "point-mass", "at": [1, 0, 0], "mass": 1}}}},
+          "loads": {{"s": {{"type": "spring", "bodies": ["ground", "m"], "at": [[0, 0, 0], [1, 0, 0]],
+                            "stiffness": 1e-3, "free_length": {}}}}}}},
+        "simulation": {{"end_time": 2e-3, "step": 1e-3}}, "responses": {{"m": {{"type": "mass"}}}}}})",
+                                              length)),
+                       check_proportions);
+  };
+  EXPECT_THAT(findings(9.9), IsEmpty());
+  EXPECT_THAT(only(findings(10.1)).text, HasSubstr("/scene/loads/s/free_length"));
+}
+
 TEST(SizesOutOfProportion, AreSectionsThatAreLargerThanTheBeamIsLong) {
   const auto with_diameter = [](double diameter) {
     return findings_of(
