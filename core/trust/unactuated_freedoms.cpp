@@ -280,7 +280,7 @@ class IdleFreedoms {
   Finding describe_hanging(const std::vector<int>& hanging) const {
     const std::vector<std::string> names = names_of(hanging);
     return {fmt::format("beside the drives {} can move freely ({}), with nothing but weight that "
-                        "acts on {}. Is a joint missing?",
+                        "acts on {}: a pendulum, or is a joint missing?",
                         quoted(names), count_text(hanging), names.size() == 1 ? "it" : "them"),
             false, concerned(names), names};
   }
