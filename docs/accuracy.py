@@ -6,7 +6,8 @@
 
 Runs `PROGRAM accuracy problems/NAME.json --optimum -o FOLDER/NAME` for some of the problems,
 where FOLDER/NAME holds no result yet: some two minutes of processor time. Takes the tables from
-there. They stand in docs/accuracy.md between lines `<!-- NAME -->` and `<!-- end of NAME -->`.
+there. Those of costs and knobs stand in docs/accuracy.md between lines `<!-- NAME -->` and
+`<!-- end of NAME -->`; its sentences sum up the others.
 """
 import json
 import pathlib
@@ -135,35 +136,14 @@ def knob_table(results):
         )
 
 
-def exudyn_table(result):
-    """Runs than which no other is faster and more accurate in the deflection of the rod."""
-    yield "| steps, elements of crank and rod | time | error of the deflection |"
-    yield "|---|---|---|"
-    runs = [run for run in result["runs"] if "failure" not in run]
-    least = float("inf")
-    for run in sorted(runs, key=lambda run: run["simulation_seconds"]):
-        error = run["errors"]["rod_bow"]
-        if error >= least:
-            continue
-        least = error
-        elements = f"{8 * run['settings']['element_factor']:g}"
-        floor = "≤ " if error <= result["reference"]["errors"]["rod_bow"] else ""
-        yield (
-            f"| {run['work']['steps']}, {elements} + {elements} | "
-            f"{milliseconds(run['simulation_seconds'])} | {floor}{error:.1e} |"
-        )
-
-
 def main():
     program, folder = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
     results = {name: study(program, folder, name, "--optimum") for name in PROBLEMS}
-    compared = study(program, folder, "slider_crank_exudyn")
     tables = {
         "costs": cost_table(results),
         "references": reference_table(results),
         "effects": effect_table(results),
         "knobs": knob_table(results),
-        "exudyn": exudyn_table(compared),
     }
     tables = {name: "\n".join(table) for name, table in tables.items()}
     if "--write" not in sys.argv:

@@ -11,7 +11,7 @@
 #include "tests/support/test.hpp"
 
 /// Whether the setting that an accuracy chooses is right and cheap: beside a grid of 39 settings whose
-/// true errors are known. Prints a table of docs/accuracy.md. Work is steps × unknowns, which does not
+/// true errors are known. Prints a table. Work is steps × unknowns, which does not
 /// depend on the machine.
 namespace pleuel::test::chosen_setting_test {
 namespace {

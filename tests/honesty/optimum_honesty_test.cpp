@@ -6,7 +6,7 @@
 #include "tests/honesty/shipped_problems.hpp"
 #include "tests/support/test.hpp"
 
-/// The error bars of optima beside optima of finer simulations. Prints a table of docs/accuracy.md.
+/// The error bars of optima beside optima of finer simulations. Prints a table, which docs/accuracy.md sums up.
 namespace pleuel::test::optimum_honesty_test {
 namespace {
 
