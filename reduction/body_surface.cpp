@@ -9,7 +9,6 @@
 #include <Eigen/Geometry>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/base/error.hpp"
 #include "core/base/int_size.hpp"
 
 namespace pleuel {
@@ -102,14 +101,6 @@ std::vector<Triangle> joined(const std::vector<Triangle>& triangles,
   return found;
 }
 
-const SolidMaterial& material_of(const SolidMesh& mesh) {
-  const int material = mesh.elements.front().material;
-  if (material < 0 || mesh.materials[material].young <= 0.0) {
-    throw InputError("/surface needs *ELASTIC and *SOLID SECTION for all elements of the mesh");
-  }
-  return mesh.materials[material];
-}
-
 }  // namespace
 
 BodySurface body_surface(const SolidMesh& mesh, const Eigen::MatrixXd& shape, int most) {
@@ -130,8 +121,9 @@ BodySurface body_surface(const SolidMesh& mesh, const Eigen::MatrixXd& shape, in
     ++point;
   }
   surface.triangles = joined(triangles, point_of);
-  surface.young = material_of(mesh).young;
-  surface.poisson = material_of(mesh).poisson;
+  const SolidMaterial& material = material_of(mesh, mesh.elements.front(), "/surface");
+  surface.young = material.young;
+  surface.poisson = material.poisson;
   return surface;
 }
 

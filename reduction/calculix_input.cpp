@@ -1,7 +1,6 @@
 #include "reduction/calculix_input.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <fstream>
 #include <optional>
 #include <unordered_map>
@@ -12,6 +11,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/base/int_size.hpp"
+#include "core/scene/reading/unit_scanner.hpp"
 #include "reduction/element_shape.hpp"
 
 namespace pleuel {
@@ -25,17 +25,13 @@ std::string capitals(std::string text) {
   return text;
 }
 
-std::string trimmed(const std::string& text) {
-  const auto begin = text.find_first_not_of(" \t\r");
-  if (begin == std::string::npos) return "";
-  return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
-}
+constexpr std::string_view blanks_of_lines = " \t\r";
 
 std::vector<std::string> fields_of(const std::string& line) {
   std::vector<std::string> fields;
   for (std::size_t begin = 0; begin <= line.size();) {
     const std::size_t end = std::min(line.find(',', begin), line.size());
-    fields.push_back(trimmed(line.substr(begin, end - begin)));
+    fields.push_back(trimmed(line.substr(begin, end - begin), blanks_of_lines));
     begin = end + 1;
   }
   while (!fields.empty() && fields.back().empty()) fields.pop_back();
@@ -85,7 +81,7 @@ class InputReader {
     const int outer_line = std::exchange(line_, 0);
     for (std::string line; std::getline(stream, line);) {
       ++line_;
-      read_line(trimmed(line));
+      read_line(trimmed(line, blanks_of_lines));
     }
     end_element();
     path_ = outer;
@@ -106,12 +102,9 @@ class InputReader {
   }
 
   double number(const std::string& text) const {
-    double value = 0.0;
-    const char *begin = text.c_str() + (text.starts_with('+') ? 1 : 0),
-               *end = text.c_str() + text.size();
-    const auto [rest, error] = std::from_chars(begin, end, value);
-    if (error != std::errc() || rest != end) fail(fmt::format("\"{}\" must be a number", text));
-    return value;
+    const std::optional<double> value = plain_number(text);
+    if (!value) fail(fmt::format("\"{}\" must be a number", text));
+    return *value;
   }
 
   int whole(const std::string& text) const { return static_cast<int>(number(text)); }

@@ -32,31 +32,11 @@ Eigen::Vector3d corner(SolidShape shape, int i) {
   return {right ? 1.0 : -1.0, far ? 1.0 : -1.0, i >= 4 ? 1.0 : -1.0};
 }
 
-/// Barycentric coordinates and their derivatives.
-struct Barycentric {
-  Eigen::Vector4d values;
-  Eigen::Matrix<double, 4, 3> derivatives;
-};
-
-Barycentric barycentric(const Eigen::Vector3d& at) {
-  Barycentric b;
-  b.values << 1.0 - at.sum(), at;
-  b.derivatives << Eigen::RowVector3d::Constant(-1.0), Eigen::Matrix3d::Identity();
-  return b;
-}
-
-Eigen::VectorXd tetrahedron_functions(SolidShape shape, const Eigen::Vector3d& at) {
-  const Eigen::Vector4d l = barycentric(at).values;
-  if (shape == SolidShape::tetrahedron4) return l;
-  Eigen::VectorXd n(10);
-  for (int i = 0; i < 4; ++i) n(i) = l(i) * (2.0 * l(i) - 1.0);
-  const Edges& edges = edges_of(shape);
-  for (int k = 0; k < 6; ++k) n(4 + k) = 4.0 * l(edges[k][0]) * l(edges[k][1]);
-  return n;
-}
-
 Eigen::MatrixX3d tetrahedron_derivatives(SolidShape shape, const Eigen::Vector3d& at) {
-  const auto [l, d] = barycentric(at);
+  Eigen::Vector4d l;  // barycentric coordinates, and their derivatives
+  l << 1.0 - at.sum(), at;
+  Eigen::Matrix<double, 4, 3> d;
+  d << Eigen::RowVector3d::Constant(-1.0), Eigen::Matrix3d::Identity();
   if (shape == SolidShape::tetrahedron4) return d;
   Eigen::MatrixX3d n(10, 3);
   for (int i = 0; i < 4; ++i) n.row(i) = (4.0 * l(i) - 1.0) * d.row(i);
@@ -77,19 +57,7 @@ double factor_derivative(double p, double r) {
   return p == 0.0 ? -2.0 * r : p;
 }
 
-/// N = c Π fₖ, for corners of 20 nodes times (p·r − 2), with c = 1/8, or 1/4 in the middle of edges.
-Eigen::VectorXd hexahedron_functions(SolidShape shape, const Eigen::Vector3d& at) {
-  const bool is_quadratic = shape == SolidShape::hexahedron20;
-  Eigen::VectorXd n(node_count(shape));
-  for (int i = 0; i < int_size(n); ++i) {
-    const Eigen::Vector3d p = local_node(shape, i);
-    n(i) = i < 8 ? 0.125 : 0.25;
-    for (int k = 0; k < 3; ++k) n(i) *= factor(p(k), at(k));
-    if (is_quadratic && i < 8) n(i) *= p.dot(at) - 2.0;
-  }
-  return n;
-}
-
+/// Of N = c Π fₖ, for corners of 20 nodes times (p·r − 2), with c = 1/8, or 1/4 in the middle of edges.
 Eigen::MatrixX3d hexahedron_derivatives(SolidShape shape, const Eigen::Vector3d& at) {
   const bool is_quadratic = shape == SolidShape::hexahedron20;
   Eigen::MatrixX3d n(node_count(shape), 3);
@@ -151,11 +119,6 @@ Eigen::Vector3d local_node(SolidShape shape, int node) {
   if (node < corners) return corner(shape, node);
   const auto [a, b] = edges_of(shape)[node - corners];
   return 0.5 * (corner(shape, a) + corner(shape, b));
-}
-
-Eigen::VectorXd shape_functions(SolidShape shape, const Eigen::Vector3d& local) {
-  return is_tetrahedron(shape) ? tetrahedron_functions(shape, local)
-                               : hexahedron_functions(shape, local);
 }
 
 Eigen::MatrixX3d shape_derivatives(SolidShape shape, const Eigen::Vector3d& local) {

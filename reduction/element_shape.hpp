@@ -21,10 +21,7 @@ struct QuadraturePoint {
 int node_count(SolidShape shape);
 int corner_count(SolidShape shape);
 
-/// N of all nodes.
-Eigen::VectorXd shape_functions(SolidShape shape, const Eigen::Vector3d& local);
-
-/// dN/d(r, s, t), nodes × 3.
+/// dN/d(r, s, t) of all nodes, nodes × 3.
 Eigen::MatrixX3d shape_derivatives(SolidShape shape, const Eigen::Vector3d& local);
 
 /// Where a node is, in local coordinates.

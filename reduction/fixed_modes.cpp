@@ -84,11 +84,8 @@ class KrylovSpace {
 /// The same in every run: no chance decides over a result.
 Eigen::MatrixXd starting_block(Eigen::Index rows) {
   Eigen::MatrixXd block(rows, block_size);
-  std::uint32_t state = 12345;
-  for (double& number : block.reshaped()) {
-    state = state * 1664525u + 1013904223u;  // Numerical Recipes, §7.1
-    number = double(state) / 4294967296.0 - 0.5;
-  }
+  RepeatedChance chance(12345);
+  for (double& number : block.reshaped()) number = chance() / 4294967296.0 - 0.5;
   return block;
 }
 

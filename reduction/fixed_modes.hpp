@@ -1,10 +1,15 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <random>
 
 #include "reduction/solid_matrices.hpp"
 
 namespace pleuel {
+
+/// Whole numbers up to 2³², the same in every run: no chance decides over a result (Numerical Recipes, §7.1).
+using RepeatedChance = std::linear_congruential_engine<std::uint32_t, 1664525U, 1013904223U, 0>;
 
 /// Modes K φ = ω² M φ, the lowest first; φᵀ M φ = 1.
 struct LowestModes {

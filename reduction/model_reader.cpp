@@ -9,7 +9,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/find_named.hpp"
 #include "core/base/int_size.hpp"
-#include "core/scene/reading/number_reader.hpp"
+#include "core/scene/reading/key_reader.hpp"
 #include "core/scene/reading/syntax_error.hpp"
 #include "reduction/calculix_input.hpp"
 
@@ -29,28 +29,32 @@ constexpr Choice<MeshUnits> unit_choices[] = {{"m-kg-s", {1.0, 1.0, 1.0}},
                                               {"mm-kg-ms", {1e-3, 1.0, 1e-3}},
                                               {"mm-kg-s", {1e-3, 1.0, 1.0}}};
 
+constexpr Choice<int> planes[] = {{"x = 0", 0}, {"y = 0", 1}, {"z = 0", 2}};
+
+/// β of D = β K
+constexpr Measure damping_time = {quantities::time, Range::not_negative};
+
 /// Numbers of a model file: in SI, or texts with a unit.
 class ModelReader {
  public:
   explicit ModelReader(const JsonNode& root) : root_(root), numbers_({}) {}
 
   ReductionModel read() {
-    root_.allow_keys({"body", "description", "mesh", "matrices", "units", "interfaces", "places",
-                      "modes", "damping", "stress", "stiffening", "surface", "plane"});
-    model_.body = root_.at("body").text();
-    if (const auto text = root_.find("description")) model_.description = text->text();
+    const auto describe = [&](Keys& keys) {
+      keys.text("body", model_.body, "");
+      keys.text(optional_key("description"), model_.description, "");
+      keys.fixed(optional_key("damping"), model_.damping, damping_time, "");
+      keys.choice(optional_key("plane"), model_.plane, planes, "");
+      keys.whole(optional_key("surface"), model_.surface, {4, 100000}, "");
+    };
+    read_keys(
+        root_, numbers_, describe,
+        {"mesh", "matrices", "units", "interfaces", "places", "modes", "stress", "stiffening"});
     read_mesh();
     read_interfaces();
     read_modes(root_.at("modes"));
-    if (const auto beta = root_.find("damping")) {
-      model_.damping = numbers_.fixed(*beta, quantities::time, Range::not_negative);
-    }
-    if (const auto plane = root_.find("plane")) {
-      model_.plane = read_choice<int>(*plane, {{"x = 0", 0}, {"y = 0", 1}, {"z = 0", 2}});
-    }
     if (const auto stress = root_.find("stress")) read_stress(*stress);
     if (const auto line = root_.find("stiffening")) read_stiffening(*line);
-    if (const auto most = root_.find("surface")) model_.surface = most->whole_number(4, 100000);
     return std::move(model_);
   }
 
@@ -217,40 +221,34 @@ class ModelReader {
   }
 
   void read_stress(const JsonNode& node) {
-    std::vector<std::string_view> keys = {"nodes", "most", fatigue_exponent_word};
-    for (const auto& [word, member] : strength_members<double>) keys.push_back(word);
-    node.allow_keys(keys);
     StressChoice& stress = model_.stress.emplace();
-    stress.groups = stress_groups(node.at("nodes"));
-    if (const auto most = node.find("most")) stress.most = most->whole_number(1, 100000);
-    for (const auto& [word, member] : strength_members<double>) {
-      if (const auto strength = node.find(std::string(word))) {
-        stress.strengths.*member = numbers_.fixed(*strength, quantities::stress, Range::positive);
+    const auto describe = [&](Keys& keys) {
+      keys.whole(optional_key("most"), stress.most, {1, 100000}, "");
+      for (const auto& [word, member] : strength_members<double>) {
+        keys.fixed(optional_key(word.data()), stress.strengths.*member,
+                   {quantities::stress, Range::positive}, "");
       }
-    }
-    if (const auto exponent = node.find(std::string(fatigue_exponent_word))) {
-      stress.strengths.fatigue_exponent =
-          numbers_.fixed(*exponent, quantities::pure_number, Range::positive);
-    }
+      keys.fixed(optional_key(fatigue_exponent_word.data()), stress.strengths.fatigue_exponent,
+                 {quantities::pure_number, Range::positive}, "");
+    };
+    read_keys(node, numbers_, describe, {"nodes"});
+    stress.groups = stress_groups(node.at("nodes"));
   }
 
   void read_stiffening(const JsonNode& node) {
-    node.allow_keys({"from", "to", "elements", "damping"});
-    std::vector<std::string> names;
-    for (const InterfaceSet& interface : model_.interfaces) names.push_back(interface.name);
-    const auto end = [&](const char* key) {
-      return *find_named(model_.interfaces, read_known_name(node.at(key), "interface", names));
-    };
     StiffeningLine& line = model_.stiffening.emplace();
-    line.begin = end("from");
-    line.end = end("to");
-    if (line.begin.name == line.end.name)
-      node.at("to").fail("must be another interface than \"from\"");
-    line.elements = node.at("elements").whole_number(1, 1000);
     line.damping = model_.damping;
-    if (const auto beta = node.find("damping")) {
-      line.damping = numbers_.fixed(*beta, quantities::time, Range::not_negative);
-    }
+    const std::vector<std::string> names = names_of(model_.interfaces);
+    std::string begin, end;
+    read_keys(node, numbers_, [&](Keys& keys) {
+      keys.name("from", "interface", names, begin, "");
+      keys.name("to", "interface", names, end, "");
+      keys.must("to", begin != end, "must be another interface than \"from\"");
+      keys.whole("elements", line.elements, {1, 1000}, "");
+      keys.fixed(optional_key("damping"), line.damping, damping_time, "");
+    });
+    line.begin = *find_named(model_.interfaces, begin);
+    line.end = *find_named(model_.interfaces, end);
   }
 
   JsonNode root_;

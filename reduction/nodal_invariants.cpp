@@ -54,16 +54,7 @@ Eigen::MatrixXd symmetric_part(const Eigen::MatrixXd& matrix) {
 }  // namespace
 
 SparseMatrix sparse_of(const Eigen::MatrixXd& matrix) {
-  const double largest = matrix.size() == 0 ? 0.0 : matrix.cwiseAbs().maxCoeff();
-  Entries entries;
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
-      if (std::abs(matrix(i, j)) > 1e-15 * largest) entries.emplace_back(i, j, matrix(i, j));
-    }
-  }
-  SparseMatrix sparse(matrix.rows(), matrix.cols());
-  sparse.setFromTriplets(entries.begin(), entries.end());
-  return sparse;
+  return matrix.sparseView(matrix.size() == 0 ? 0.0 : matrix.cwiseAbs().maxCoeff(), 1e-15);
 }
 
 BodyConstants nodal_invariants(const SolidMatrices& matrices, const Eigen::Matrix3Xd& positions,

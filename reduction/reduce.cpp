@@ -105,36 +105,15 @@ void add_unit_findings(const ReductionModel& model, double mass,
   }
 }
 
-/// @throws InputError where a rigid motion costs force (K r ≠ 0), or interfaces are not on one connected
-///         part
-void check_model(const ReductionModel& model) {
-  check_connection(model);
-  check_rigid_motions(model);
-}
-
-/// What is possible, but hardly meant: mass against the mesh, density and stiffness against those of
-/// materials, with the units that were understood.
-std::vector<std::string> findings_about(const ReductionModel& model,
-                                        const BodyConstants& constants) {
-  std::vector<std::string> findings;
-  add_mass_finding(model, constants.mass, findings);
-  add_unit_findings(model, constants.mass, findings);
-  return findings;
-}
-
-/// The motion of a place per coordinate; interfaces have theirs in the coordinates.
-BodyPlace place_of(const InterfaceSet& set, const Eigen::MatrixXd& motion) {
-  return {set.name, set.at, sparse_of(motion.topRows<3>()), sparse_of(motion.bottomRows<3>())};
-}
-
+/// The motion of interfaces and other places per coordinate; those of interfaces are in the coordinates, too.
 std::vector<BodyPlace> places_of(const ReductionModel& model, const Eigen::MatrixXd& shape) {
   std::vector<BodyPlace> places;
-  const std::vector<InterfaceSet>& interfaces = model.interfaces;
-  for (const InterfaceSet& interface : interfaces) {
-    places.push_back(place_of(interface, mean_motion(interface, model.mesh.positions, shape)));
-  }
-  for (const InterfaceSet& place : model.places) {
-    places.push_back(place_of(place, mean_motion(place, model.mesh.positions, shape)));
+  for (const auto* sets : {&model.interfaces, &model.places}) {
+    for (const InterfaceSet& set : *sets) {
+      const Eigen::MatrixXd motion = mean_motion(set, model.mesh.positions, shape);
+      places.push_back(
+          {set.name, set.at, sparse_of(motion.topRows<3>()), sparse_of(motion.bottomRows<3>())});
+    }
   }
   return places;
 }
@@ -248,7 +227,8 @@ BodyConstants constants_of(const ReductionModel& model, const Eigen::MatrixXd& s
 }  // namespace
 
 ReducedBody reduce(const ReductionModel& model) {
-  check_model(model);
+  check_connection(model);
+  check_rigid_motions(model);
   const ComponentModes modes = model.plane ? modes_in_plane(model)
                                            : component_modes(model.matrices, model.mesh.positions,
                                                              model.interfaces, model.modes);
@@ -264,7 +244,8 @@ ReducedBody reduce(const ReductionModel& model) {
   body.file.coordinates = modes.names;
   body.file.constants = constants_of(model, modes.shape);
   if (model.surface > 0) body.file.surface = body_surface(model.mesh, modes.shape, model.surface);
-  body.findings = findings_about(model, body.file.constants);
+  add_mass_finding(model, body.file.constants.mass, body.findings);
+  add_unit_findings(model, body.file.constants.mass, body.findings);
   if (model.plane) body.asymmetry = clear_across_plane(body.file.constants, *model.plane);
   return body;
 }

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <fstream>
 #include <iterator>
+#include <numeric>
 #include <unordered_map>
 
 #include <fmt/format.h>
@@ -17,8 +18,6 @@ namespace pleuel {
 namespace {
 
 namespace fs = std::filesystem;
-using Entry = Eigen::Triplet<double>;
-
 /// Numbers of a text, one after the other: files have millions.
 class NumberScanner {
  public:
@@ -79,12 +78,6 @@ fs::path with_ending(const fs::path& job, const std::string& ending) {
   return job.string() + ending;
 }
 
-SolidMatrix matrix_of(const std::vector<Entry>& entries, int size) {
-  SolidMatrix matrix(size, size);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
-}
-
 /// For each row of the matrices of CalculiX the row of ours.
 std::vector<int> read_rows(const fs::path& path, const SolidMesh& mesh) {
   std::unordered_map<int, int> nodes;
@@ -111,10 +104,11 @@ std::vector<int> read_rows(const fs::path& path, const SolidMesh& mesh) {
   return rows;
 }
 
-/// One triangle of a symmetric matrix: row, column, value.
-SolidMatrix read_triangle(const fs::path& path, const std::vector<int>& rows) {
-  NumberScanner scanner(path);
-  std::vector<Entry> entries;
+/// What follows: row, column, value.
+/// @param rows     where each row of the file belongs
+/// @param is_half  whether it is one triangle of a symmetric matrix
+SolidMatrix read_entries(NumberScanner& scanner, const std::vector<int>& rows, bool is_half) {
+  std::vector<Eigen::Triplet<double>> entries;
   const int size = int_size(rows);
   while (scanner.has_more()) {
     const int i = scanner.next<int>() - 1, j = scanner.next<int>() - 1;
@@ -124,9 +118,16 @@ SolidMatrix read_triangle(const fs::path& path, const std::vector<int>& rows) {
     }
     if (value == 0.0) continue;
     entries.emplace_back(rows[i], rows[j], value);
-    if (i != j) entries.emplace_back(rows[j], rows[i], value);
+    if (is_half && i != j) entries.emplace_back(rows[j], rows[i], value);
   }
-  return matrix_of(entries, size);
+  SolidMatrix matrix(size, size);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+SolidMatrix read_triangle(const fs::path& path, const std::vector<int>& rows) {
+  NumberScanner scanner(path);
+  return read_entries(scanner, rows, true);
 }
 
 SolidMatrix read_market(const fs::path& path, const SolidMesh& mesh) {
@@ -145,17 +146,9 @@ SolidMatrix read_market(const fs::path& path, const SolidMesh& mesh) {
     scanner.fail(fmt::format("must have {} rows, three for each of {} nodes, got \"{}\"", size,
                              mesh.size(), line));
   }
-  std::vector<Entry> entries;
-  while (scanner.has_more()) {
-    const int i = scanner.next<int>() - 1, j = scanner.next<int>() - 1;
-    const double value = scanner.next<double>();
-    if (i < 0 || j < 0 || i >= size || j >= size) {
-      scanner.fail(fmt::format("rows and columns must be from 1 to {}", size));
-    }
-    entries.emplace_back(i, j, value);
-    if (is_symmetric && i != j) entries.emplace_back(j, i, value);
-  }
-  return matrix_of(entries, size);
+  std::vector<int> rows(size);
+  std::iota(rows.begin(), rows.end(), 0);
+  return read_entries(scanner, rows, is_symmetric);
 }
 
 }  // namespace

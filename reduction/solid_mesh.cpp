@@ -4,9 +4,11 @@
 #include <set>
 
 #include <Eigen/Geometry>
+#include <fmt/format.h>
 
 #include "core/base/disjoint_sets.hpp"
 #include "core/base/eager_matrices.hpp"
+#include "core/base/error.hpp"
 #include "reduction/element_shape.hpp"
 
 namespace pleuel {
@@ -35,6 +37,17 @@ std::vector<int> outward_face(const SolidMesh& mesh, const SolidElement& element
 }
 
 }  // namespace
+
+const SolidMaterial& material_of(const SolidMesh& mesh, const SolidElement& element,
+                                 const char* what) {
+  if (element.material >= 0 && mesh.materials[element.material].young > 0.0) {
+    return mesh.materials[element.material];
+  }
+  throw InputError(fmt::format(
+      "{} needs *ELASTIC and *SOLID SECTION for all elements of the mesh: one has no modulus of "
+      "elasticity",
+      what));
+}
 
 Eigen::Matrix3Xd element_positions(const SolidMesh& mesh, const SolidElement& element) {
   Eigen::Matrix3Xd positions(3, int_size(element.nodes));

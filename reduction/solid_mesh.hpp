@@ -33,6 +33,11 @@ struct SolidMesh {
   int size() const { return static_cast<int>(positions.cols()); }
 };
 
+/// @param what  needs it, for the message
+/// @throws InputError if it is not given, or has no modulus
+const SolidMaterial& material_of(const SolidMesh& mesh, const SolidElement& element,
+                                 const char* what);
+
 /// Of the nodes of an element, 3 × nodes.
 Eigen::Matrix3Xd element_positions(const SolidMesh& mesh, const SolidElement& element);
 

@@ -6,26 +6,15 @@
 #include <set>
 #include <unordered_map>
 
-#include <fmt/format.h>
-
 #include "core/base/dense_solvers.hpp"
 #include "core/base/eager_matrices.hpp"
-#include "core/base/error.hpp"
 #include "core/base/int_size.hpp"
 #include "reduction/element_shape.hpp"
+#include "reduction/fixed_modes.hpp"
 
 namespace pleuel {
 
 namespace {
-
-const SolidMaterial& material_of(const SolidMesh& mesh, const SolidElement& element) {
-  if (element.material < 0 || mesh.materials[element.material].young <= 0.0) {
-    throw InputError(
-        "stress needs *ELASTIC and *SOLID SECTION for all elements of the mesh: one has no "
-        "modulus of elasticity");
-  }
-  return mesh.materials[element.material];
-}
 
 /// Displacements of the nodes of an element in one direction, nodes × n.
 Eigen::MatrixXd displacements_of(const SolidElement& element, const Eigen::MatrixXd& shape,
@@ -40,7 +29,7 @@ Eigen::MatrixXd displacements_of(const SolidElement& element, const Eigen::Matri
 /// σ = λ tr ε 1 + 2 μ ε at a node of an element, 6 × n.
 Eigen::MatrixXd element_stress(const SolidMesh& mesh, const SolidElement& element,
                                const Eigen::MatrixXd& shape, int node) {
-  const SolidMaterial& material = material_of(mesh, element);
+  const SolidMaterial& material = material_of(mesh, element, "stress");
   const double nu = material.poisson, mu = material.young / (2.0 * (1.0 + nu));
   const double lambda = material.young * nu / ((1.0 + nu) * (1.0 - 2.0 * nu));
   const Eigen::MatrixX3d gradient = shape_gradient(element.shape, element_positions(mesh, element),
@@ -83,13 +72,10 @@ int largest_of(const Eigen::VectorXd& stress) {
 /// recurrences made normal numbers by sums.
 Eigen::MatrixXd directions(int size, int count) {
   Eigen::MatrixXd d(size, count);
-  std::uint32_t state = 54321;
+  RepeatedChance chance(54321);
   for (double& number : d.reshaped()) {
     number = -6.0;
-    for (int i = 0; i < 12; ++i) {
-      state = state * 1664525u + 1013904223u;
-      number += double(state) / 4294967296.0;
-    }
+    for (int i = 0; i < 12; ++i) number += chance() / 4294967296.0;
   }
   return d;
 }

@@ -1,7 +1,5 @@
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -24,15 +22,6 @@ namespace fs = std::filesystem;
 
 /// Around cells.
 constexpr std::string_view covers = " \t\r\"";
-
-std::optional<double> number_of(const std::string& cell) {
-  const char* begin = cell.data() + (cell.starts_with('+') ? 1 : 0);
-  const char* end = cell.data() + cell.size();
-  double value = 0.0;
-  const auto [rest, status] = std::from_chars(begin, end, value);
-  if (status != std::errc() || rest != end || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
 
 struct Row {
   int line = 0;  ///< from 1
@@ -117,7 +106,7 @@ class TableFile {
     if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
     rows_ = rows_of(text);
     if (rows_.empty()) name_.fail(fmt::format("names the file {}, which is empty", name_.text()));
-    const auto is_number = [](const std::string& cell) { return number_of(cell).has_value(); };
+    const auto is_number = [](const std::string& cell) { return plain_number(cell).has_value(); };
     const std::vector<std::string>& first = rows_.front().cells;
     if (std::ranges::none_of(first, is_number)) {
       for (const std::string& cell : first) heads_.push_back(head_of(cell));
@@ -227,7 +216,7 @@ class TableFile {
     if (place >= row.cells.size()) {
       fail(row, fmt::format("there is no column {}", place + 1));
     }
-    const std::optional<double> number = number_of(row.cells[place]);
+    const std::optional<double> number = plain_number(row.cells[place]);
     if (!number) {
       fail(row, fmt::format("\"{}\" is no number (decimals have a point)", row.cells[place]));
     }
@@ -299,23 +288,29 @@ void read_points(const LawSource& source, const TableArgument& argument, NumberR
   table.values.assign(columns.values.begin(), columns.values.end());
 }
 
-Interpolation read_interpolation(const JsonNode& node, LawPurpose purpose, LawArgument argument) {
-  if (purpose == LawPurpose::load && argument == LawArgument::time) {
-    return read_choice<Interpolation>(node, {{"linear", Interpolation::linear},
-                                             {"step", Interpolation::step},
-                                             {"monotone", Interpolation::monotone},
-                                             {"spline", Interpolation::spline}});
+constexpr Choice<Interpolation> of_any_table[] = {{"monotone", Interpolation::monotone},
+                                                  {"spline", Interpolation::spline},
+                                                  {"linear", Interpolation::linear}};
+constexpr Choice<Interpolation> of_load_over_time[] = {{"linear", Interpolation::linear},
+                                                       {"step", Interpolation::step},
+                                                       {"monotone", Interpolation::monotone},
+                                                       {"spline", Interpolation::spline}};
+
+/// How a table goes from point to point; by default as the first of its choices.
+Interpolation read_interpolation(const LawSource& source, LawArgument argument) {
+  const auto node = source.node.find("interpolation");
+  if (source.purpose == LawPurpose::load && argument == LawArgument::time) {
+    return node ? read_choice(*node, of_load_over_time) : Interpolation::linear;
   }
-  if (node.value() == "step") {
-    node.fail_with_value(
-        purpose == LawPurpose::drive
+  if (!node) return Interpolation::monotone;
+  if (node->value() == "step") {
+    node->fail_with_value(
+        source.purpose == LawPurpose::drive
             ? "would move a drive in no time; take \"monotone\", \"spline\" or \"linear\""
             : "is for tables over time: a force that jumps with the motion has no tangent; take "
               "\"monotone\", \"spline\" or \"linear\"");
   }
-  return read_choice<Interpolation>(node, {{"monotone", Interpolation::monotone},
-                                           {"spline", Interpolation::spline},
-                                           {"linear", Interpolation::linear}});
+  return read_choice(*node, of_any_table);
 }
 
 bool are_same(const Number& one, const Number& other) {
@@ -362,12 +357,7 @@ TableFunction read_table_law(const LawSource& source, NumberReader& numbers) {
   TableFunction table;
   table.argument = argument.argument;
   read_points(source, argument, numbers, table);
-  const bool is_straight =
-      source.purpose == LawPurpose::load && argument.argument == LawArgument::time;
-  table.interpolation = is_straight ? Interpolation::linear : Interpolation::monotone;
-  if (const auto interpolation = source.node.find("interpolation")) {
-    table.interpolation = read_interpolation(*interpolation, source.purpose, argument.argument);
-  }
+  table.interpolation = read_interpolation(source, argument.argument);
   if (const auto period = source.node.find("period")) {
     read_table_period(*period, argument, numbers, table);
   }

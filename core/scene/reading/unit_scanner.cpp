@@ -1,6 +1,8 @@
 #include "core/scene/reading/unit_scanner.hpp"
 
 #include <cctype>
+#include <charconv>
+#include <cmath>
 
 namespace pleuel {
 
@@ -54,6 +56,15 @@ std::string trimmed(std::string_view text, std::string_view covers) {
   const std::size_t first = text.find_first_not_of(covers);
   if (first == std::string_view::npos) return "";
   return std::string(text.substr(first, text.find_last_not_of(covers) - first + 1));
+}
+
+std::optional<double> plain_number(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  double value = 0.0;
+  const char* end = text.data() + text.size();
+  const auto [rest, status] = std::from_chars(text.data(), end, value);
+  if (status != std::errc() || rest != end || !std::isfinite(value)) return std::nullopt;
+  return value;
 }
 
 bool has_word(const std::string& text, const std::string& word) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -12,6 +13,9 @@ bool is_digit_character(char c);
 
 /// Without these around it.
 std::string trimmed(std::string_view text, std::string_view covers = " ");
+
+/// A text that is a finite number and nothing else, in the notation of C, with "+" or not.
+std::optional<double> plain_number(std::string_view text);
 
 /// Whether a text has a name as a word of its own.
 bool has_word(const std::string& text, const std::string& word);
