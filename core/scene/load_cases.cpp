@@ -42,20 +42,6 @@ std::string case_list(const ProblemFile& problem) {
   return quoted_list(names, "and");
 }
 
-std::vector<const ProblemFile*> simulated_problems(const ProblemFile& problem) {
-  std::vector<const ProblemFile*> problems;
-  for (const ProblemFile& one : problem.cases) problems.push_back(&one);
-  if (problems.empty()) problems.push_back(&problem);
-  return problems;
-}
-
-std::vector<ProblemFile*> simulated_problems(ProblemFile& problem) {
-  std::vector<ProblemFile*> problems;
-  for (ProblemFile& one : problem.cases) problems.push_back(&one);
-  if (problems.empty()) problems.push_back(&problem);
-  return problems;
-}
-
 OfCase case_of_response(const ProblemFile& problem, std::size_t response) {
   return problem.has_cases() ? problem.case_responses[response] : OfCase{0, response};
 }

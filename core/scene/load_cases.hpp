@@ -30,10 +30,13 @@ ProblemFile problem_of_case(const ProblemFile& problem, const std::string& name)
 std::string case_list(const ProblemFile& problem);
 
 /// The problems that are simulated: those of the cases, or the problem itself.
-std::vector<const ProblemFile*> simulated_problems(const ProblemFile& problem);
-
-/// The same, to be changed.
-std::vector<ProblemFile*> simulated_problems(ProblemFile& problem);
+template <class Problem>
+std::vector<Problem*> simulated_problems(Problem& problem) {
+  std::vector<Problem*> problems;
+  for (auto& one : problem.cases) problems.push_back(&one);
+  if (problems.empty()) problems.push_back(&problem);
+  return problems;
+}
 
 /// Where a response of a problem is simulated; itself where there are no cases.
 OfCase case_of_response(const ProblemFile& problem, std::size_t response);

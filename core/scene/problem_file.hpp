@@ -124,6 +124,7 @@ struct SimulationSettings : TimeIntegration {
 struct SizeChoice {
   double value = 0.0;  ///< [SI]; of a section its place in the list, from 0
   std::string text;    ///< "25 mm", or the name of a section: as the user wrote it
+  bool operator==(const SizeChoice&) const = default;
 };
 
 struct DesignVariable {

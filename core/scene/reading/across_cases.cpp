@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/int_size.hpp"
 #include "core/scene/case_goals.hpp"
 #include "core/scene/load_cases.hpp"
 #include "core/scene/reading/case_suffix.hpp"
@@ -69,16 +70,10 @@ void read_across_constraints(const JsonNode& node, NumberReader& numbers, Proble
 }
 
 /// Variables are what the cases use them as.
-void check_mentions(const NumberReader& numbers, const std::vector<Symbol>& symbols,
-                    const ProblemFile& joined) {
-  for (const VariableMention& mention : numbers.mentions()) {
-    const DesignVariable& variable = joined.variables[mention.variable];
-    const Dimension dimension = find_named(symbols, variable.name)->dimension;
-    if (dimension == dimension_of(variable.quantity)) continue;
-    mention.node.fail(fmt::format(
-        "takes the variable \"{}\" for {}, as its start is written, but the scene uses it as {}; "
-        "give the start of the variable its unit",
-        variable.name, describe(dimension), describe(variable.quantity)));
+void add_uses(const JsonNode& root, const ProblemFile& joined, NumberReader& numbers) {
+  const JsonNode scene(root.value(), root.file(), "", "the scene");
+  for (int i = 0; i < int_size(joined.variables); ++i) {
+    numbers.add_use({Number::bound(i), joined.variables[i].quantity, Range::any, scene});
   }
 }
 
@@ -109,8 +104,8 @@ void ask_for_accuracies(const JsonNode& root, ProblemFile& joined) {
 void read_across_cases(const JsonNode& root, const std::vector<std::vector<Symbol>>& of_cases,
                        ProblemFile& joined) {
   NumberReader numbers(variable_names(root));
-  const std::vector<Symbol> symbols = symbols_across(of_cases, joined);
-  numbers.declare(symbols);
+  numbers.declare(symbols_across(of_cases, joined));
+  add_uses(root, joined, numbers);
   if (const auto node = root.find("responses")) read_across_responses(*node, numbers, joined);
   const auto objective = root.find("objective");
   if (objective && !joined.objective) {
@@ -119,7 +114,7 @@ void read_across_cases(const JsonNode& root, const std::vector<std::vector<Symbo
   }
   if (const auto node = root.find("constraints")) read_across_constraints(*node, numbers, joined);
   joined.case_responses.resize(joined.responses.size(), {several_cases, 0});
-  check_mentions(numbers, symbols, joined);
+  for (const VariableMention& mention : numbers.mentions()) numbers.check_mention(mention);
   joined.pareto.reset();
   if (const auto pareto = root.find("pareto"))
     joined.pareto = read_pareto(*pareto, joined, numbers);

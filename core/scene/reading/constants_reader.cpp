@@ -212,7 +212,41 @@ void read_change_of_stiffening(const JsonNode& node, Stretching& change) {
   }
 }
 
+std::vector<std::array<int, 3>> read_triangles(const JsonNode& node, int points) {
+  std::vector<std::array<int, 3>> triangles;
+  for (const JsonNode& item : node.items()) {
+    const std::vector<JsonNode> corners = item.items(3);
+    std::array<int, 3>& triangle = triangles.emplace_back();
+    for (std::size_t i = 0; i < 3; ++i) triangle[i] = corners[i].whole_number(0, points - 1);
+  }
+  return triangles;
+}
+
 }  // namespace
+
+BodySurface read_surface(const JsonNode& node, int coordinates) {
+  node.allow_keys({"positions", "triangles", "displacement", "young", "poisson"});
+  BodySurface surface;
+  const auto read_rows = [&](const char* key, int columns) {
+    Eigen::MatrixXd rows(node.at(key).items().size(), columns);
+    read_numbers(node.at(key), rows);
+    return rows;
+  };
+  surface.positions = read_rows("positions", 3).transpose();
+  const int points = static_cast<int>(surface.positions.cols());
+  surface.triangles = read_triangles(node.at("triangles"), points);
+  surface.displacement = read_rows("displacement", coordinates);
+  if (surface.displacement.rows() != 3 * points) {
+    node.at("displacement").fail("must have three rows for each of the \"positions\"");
+  }
+  surface.young = node.at("young").number();
+  surface.poisson = node.at("poisson").number();
+  if (!(surface.young > 0.0)) node.at("young").fail_with_value("must be positive [Pa]");
+  if (!(std::abs(surface.poisson) < 1.0)) {
+    node.at("poisson").fail_with_value("must be between -1 and 1");
+  }
+  return surface;
+}
 
 BodyConstants read_constants(const JsonNode& node, int coordinates) {
   BodyConstants constants;
@@ -264,6 +298,12 @@ void check_symmetry(const JsonNode& block, const std::string& key, const SparseM
                                  largest(difference)));
 }
 
+void check_symmetry(const JsonNode& node, const Eigen::MatrixXd& matrix) {
+  const double size = matrix.cwiseAbs().maxCoeff();
+  if ((matrix - matrix.transpose()).cwiseAbs().maxCoeff() <= tolerance * size) return;
+  node.fail_with_value("must be symmetric");
+}
+
 /// By the pivots of the matrix with a diagonal of ones.
 bool is_positive_definite(const SparseMatrix& matrix) {
   constexpr double least_pivot = 1e-14;
@@ -293,13 +333,10 @@ void check_moments(const JsonNode& block, const BodyConstants& constants) {
 void check_rigid_inertia(const JsonNode& block, const BodyConstants& constants) {
   if (constants.mass <= 0.0) block.at("mass").fail_with_value("must be positive [kg]");
   const Eigen::Matrix3d& second = constants.second_moment;
-  const double size = second.cwiseAbs().maxCoeff();
-  if ((second - second.transpose()).cwiseAbs().maxCoeff() > tolerance * size) {
-    block.at("second_moment").fail_with_value("must be symmetric");
-  }
+  check_symmetry(block.at("second_moment"), second);
   const Eigen::Matrix3d central =
       second - constants.first_moment * constants.first_moment.transpose() / constants.mass;
-  if (symmetric_eigenvalues(central)(0) < -tolerance * size) {
+  if (symmetric_eigenvalues(central)(0) < -tolerance * second.cwiseAbs().maxCoeff()) {
     block.at("second_moment")
         .fail_with_value("must be at least first_moment first_momentᵀ / mass in every direction");
   }
@@ -340,11 +377,7 @@ void check_constants(const JsonNode& node, const BodyConstants& constants) {
   if (!constants.stretching) return;
   const std::vector<JsonNode> elements = node.at("stiffening").at("elements").items();
   for (std::size_t i = 0; i < elements.size(); ++i) {
-    const Eigen::MatrixXd& slopes = constants.stretching->elements[i].slopes;
-    const double size = slopes.cwiseAbs().maxCoeff();
-    if ((slopes - slopes.transpose()).cwiseAbs().maxCoeff() > tolerance * size) {
-      elements[i].at("slopes").fail_with_value("must be symmetric");
-    }
+    check_symmetry(elements[i].at("slopes"), constants.stretching->elements[i].slopes);
   }
 }
 

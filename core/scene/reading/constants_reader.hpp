@@ -13,6 +13,10 @@ BodyConstants read_constants(const JsonNode& node, int coordinates);
 /// The same blocks of a derivative; what is missing is zero. @throws InputError
 BodyConstants read_derivative(const JsonNode& node, const BodyConstants& of);
 
+/// @param coordinates  of the body
+/// @throws InputError
+BodySurface read_surface(const JsonNode& node, int coordinates);
+
 /// What the numbers of a body must fulfil, whoever wrote them.
 /// @param node  the file, to say where it is wrong
 /// @throws InputError

@@ -23,6 +23,136 @@ std::string without_blanks_at_powers(const std::string& unit) {
   return text;
 }
 
+std::string described(const KnownNumber& number) {
+  return describe(number.dimension);
+}
+
+// What operations make of units. What is wrong is a UnitError.
+
+Dimension common(const KnownNumber& a, const KnownNumber& b, const char* what) {
+  if (a.dimension == b.dimension) return a.dimension;
+  if (a.is_zero()) return b.dimension;
+  if (b.is_zero()) return a.dimension;
+  const bool is_plain = a.dimension.is_number() || b.dimension.is_number();
+  const Dimension ratio = a.dimension / b.dimension;
+  const bool differs_by_angle = ratio.is_angle() || (Dimension{} / ratio).is_angle();
+  std::string more;
+  if (differs_by_angle) {
+    more =
+        "; angles never come or go silently: multiply or divide by 1 rad (a cycle is 1 rev, and Hz "
+        "counts cycles)";
+  } else if (is_plain) {
+    more = "; here a number needs its unit, as in \"5 mm\"";
+  }
+  throw UnitError(fmt::format("units differ: {} {} {}{}", described(a), what, described(b), more));
+}
+
+Dimension power(const KnownNumber& base, const KnownNumber& exponent) {
+  if (!exponent.dimension.is_number()) {
+    throw UnitError(fmt::format("an exponent has no unit, got {}", described(exponent)));
+  }
+  if (base.dimension.is_number()) return {};
+  if (!exponent.constant) {
+    throw UnitError(fmt::format("the exponent of {} must be a fixed number", described(base)));
+  }
+  return base.dimension.to_the(*exponent.constant);
+}
+
+void require_number(const KnownNumber& number) {
+  if (number.dimension.is_number()) return;
+  throw UnitError(fmt::format("needs a number without unit, got {}", described(number)));
+}
+
+Dimension dimension_of(Operation operation, const KnownNumber& a, const KnownNumber& b) {
+  switch (operation) {
+    case Operation::plus:
+      return common(a, b, "+");
+    case Operation::minus:
+      return common(a, b, "-");
+    case Operation::smaller:
+    case Operation::larger:
+      return common(a, b, "compared with");
+    case Operation::arc_tangent_2:
+      common(a, b, "over");
+      return Dimension::angle();
+    case Operation::times:
+      return a.dimension * b.dimension;
+    case Operation::over:
+      return a.dimension / b.dimension;
+    case Operation::power:
+      return power(a, b);
+    case Operation::square_root:
+      return a.dimension.to_the(0.5);
+    case Operation::sine:
+    case Operation::cosine:
+    case Operation::tangent:
+      if (a.dimension.is_angle() || a.is_zero()) return {};
+      throw UnitError(
+          fmt::format("needs an angle, got {}; give a number its unit, as in "
+                      "\"30 deg\" or \"pi rad\"",
+                      described(a)));
+    case Operation::exponential:
+    case Operation::logarithm:
+    case Operation::hyperbolic_tangent:
+      require_number(a);
+      return {};
+    case Operation::arc_sine:
+    case Operation::arc_cosine:
+    case Operation::arc_tangent:
+      require_number(a);
+      return Dimension::angle();
+    default:
+      return a.dimension;
+  }
+}
+
+/// f/(60 Hz) looks like a ratio, but would be 2π times as large, as an angle [rad] whose unit no
+/// limit asks for; so would f*(1/(60 Hz)), and (60 Hz)/f as much smaller.
+void check_no_ratio_of_frequencies(const KnownNumber& a, const KnownNumber& b,
+                                   const Dimension& result) {
+  const double angles = result.powers[3];
+  const bool is_angle = angles != 0.0 && result == Dimension::angle().to_the(angles);
+  if (!is_angle || a.counts_cycles == b.counts_cycles) return;
+  const KnownNumber& cycles = a.counts_cycles ? a : b;
+  if (cycles.dimension.is_number()) return;  // cycles themselves, which "1 rad" makes an angle
+  throw UnitError(
+      fmt::format("{} and {} make no ratio but an angle: frequencies are angular ones "
+                  "here, and Hz counts cycles; write \"rev/s\" in place of \"Hz\"",
+                  described(a), described(b)));
+}
+
+/// Of one operand `b` is `a`.
+KnownNumber result_of(Operation operation, const KnownNumber& a, const KnownNumber& b) {
+  KnownNumber result{dimension_of(operation, a, b)};
+  result.counts_cycles = (a.counts_cycles || b.counts_cycles) && result.dimension.powers[3] == 0.0;
+  if (operation == Operation::times || operation == Operation::over) {
+    check_no_ratio_of_frequencies(a, b, result.dimension);
+  }
+  return result;
+}
+
+/// Load cases that a name is known with: "fast" where there is a symbol "bow [fast]".
+std::vector<std::string> cases_with(const std::string& name, const std::vector<Symbol>& symbols) {
+  std::vector<std::string> cases;
+  for (const Symbol& symbol : symbols) {
+    const auto split = split_case(symbol.name);
+    if (split && split->name == name) cases.push_back(split->load_case);
+  }
+  return cases;
+}
+
+/// "bow", where there are symbols "bow [fast]" …
+std::vector<std::string> names_with_cases(const std::vector<Symbol>& symbols) {
+  std::vector<std::string> names;
+  for (const Symbol& symbol : symbols) {
+    const auto split = split_case(symbol.name);
+    if (split && std::ranges::find(names, split->name) == names.end()) {
+      names.push_back(split->name);
+    }
+  }
+  return names;
+}
+
 }  // namespace
 
 std::size_t ExpressionBuilder::column_of(std::size_t position) const {
@@ -62,17 +192,15 @@ int ExpressionBuilder::add_name(std::size_t position, const std::string& name) {
 }
 
 int ExpressionBuilder::apply(std::size_t position, Operation operation, int first, int second) {
-  KnownNumber facts;
-  facts.dimension = dimension_of(position, operation, first, second);
-  const bool has_cycles = fact(first).counts_cycles || (second >= 0 && fact(second).counts_cycles);
-  facts.counts_cycles = has_cycles && facts.dimension.powers[3] == 0.0;
-  if (operation == Operation::times || operation == Operation::over) {
-    check_no_ratio_of_frequencies(position, facts, first, second);
+  const KnownNumber &a = facts_[first], &b = facts_[second < 0 ? first : second];
+  const bool is_constant = a.constant && b.constant;
+  try {
+    const int step = add({operation, 0.0, first, second}, result_of(operation, a, b));
+    if (is_constant) fold(position, step);
+    return step;
+  } catch (const UnitError& error) {
+    fail(position, error.what());
   }
-  const bool is_constant = fact(first).constant && (second < 0 || fact(second).constant);
-  const int step = add({operation, 0.0, first, second}, facts);
-  if (is_constant) fold(position, step);
-  return step;
 }
 
 bool ExpressionBuilder::is_unit(const std::string& name) const {
@@ -116,133 +244,17 @@ int ExpressionBuilder::add_symbol(const Symbol& symbol) {
 void ExpressionBuilder::fold(std::size_t position, int step) {
   const auto& [operation, unused, first, second] = expression_.steps[step];
   Expression alone;
-  alone.steps = {{Operation::constant, *fact(first).constant},
-                 {Operation::constant, second < 0 ? 0.0 : *fact(second).constant},
+  alone.steps = {{Operation::constant, *facts_[first].constant},
+                 {Operation::constant, second < 0 ? 0.0 : *facts_[second].constant},
                  {operation, 0.0, 0, second < 0 ? -1 : 1}};
   const double value = evaluate(alone, {}).value;
   if (!std::isfinite(value)) fail(position, "the result is no finite number");
   facts_[step].constant = value;
 }
 
-Dimension ExpressionBuilder::dimension_of(std::size_t position, Operation operation, int first,
-                                          int second) const {
-  switch (operation) {
-    case Operation::plus:
-      return common(position, first, second, "+");
-    case Operation::minus:
-      return common(position, first, second, "-");
-    case Operation::smaller:
-    case Operation::larger:
-      return common(position, first, second, "compared with");
-    case Operation::arc_tangent_2:
-      common(position, first, second, "over");
-      return Dimension::angle();
-    case Operation::times:
-      return fact(first).dimension * fact(second).dimension;
-    case Operation::over:
-      return fact(first).dimension / fact(second).dimension;
-    case Operation::power:
-      return power(position, first, second);
-    case Operation::square_root:
-      return fact(first).dimension.to_the(0.5);
-    case Operation::sine:
-    case Operation::cosine:
-    case Operation::tangent:
-      if (!fact(first).dimension.is_angle() && !fact(first).is_zero()) {
-        fail(position, fmt::format("needs an angle, got {}; give a number its unit, as in "
-                                   "\"30 deg\" or \"pi rad\"",
-                                   described(first)));
-      }
-      return {};
-    case Operation::exponential:
-    case Operation::logarithm:
-    case Operation::hyperbolic_tangent:
-      check_number(position, first);
-      return {};
-    case Operation::arc_sine:
-    case Operation::arc_cosine:
-    case Operation::arc_tangent:
-      check_number(position, first);
-      return Dimension::angle();
-    default:
-      return fact(first).dimension;
-  }
-}
-
-/// f/(60 Hz) looks like a ratio, but would be 2π times as large, as an angle [rad] whose unit no
-/// limit asks for; so would f*(1/(60 Hz)), and (60 Hz)/f as much smaller.
-void ExpressionBuilder::check_no_ratio_of_frequencies(std::size_t position,
-                                                      const KnownNumber& result, int first,
-                                                      int second) const {
-  const double angles = result.dimension.powers[3];
-  const bool is_angle = angles != 0.0 && result.dimension == Dimension::angle().to_the(angles);
-  if (!is_angle || fact(first).counts_cycles == fact(second).counts_cycles) return;
-  const KnownNumber& cycles = fact(first).counts_cycles ? fact(first) : fact(second);
-  if (cycles.dimension.is_number()) return;  // cycles themselves, which "1 rad" makes an angle
-  fail(position, fmt::format("{} and {} make no ratio but an angle: frequencies are angular ones "
-                             "here, and Hz counts cycles; write \"rev/s\" in place of \"Hz\"",
-                             described(first), described(second)));
-}
-
-void ExpressionBuilder::check_number(std::size_t position, int step) const {
-  if (fact(step).dimension.is_number()) return;
-  fail(position, fmt::format("needs a number without unit, got {}", described(step)));
-}
-
-Dimension ExpressionBuilder::common(std::size_t position, int first, int second,
-                                    const char* what) const {
-  if (fact(first).dimension == fact(second).dimension) return fact(first).dimension;
-  if (fact(first).is_zero()) return fact(second).dimension;
-  if (fact(second).is_zero()) return fact(first).dimension;
-  const bool is_plain = fact(first).dimension.is_number() || fact(second).dimension.is_number();
-  const Dimension ratio = fact(first).dimension / fact(second).dimension;
-  const bool differs_by_angle = ratio.is_angle() || (Dimension{} / ratio).is_angle();
-  std::string more;
-  if (differs_by_angle) {
-    more =
-        "; angles never come or go silently: multiply or divide by 1 rad (a cycle is 1 rev, and Hz "
-        "counts cycles)";
-  } else if (is_plain) {
-    more = "; here a number needs its unit, as in \"5 mm\"";
-  }
-  fail(position,
-       fmt::format("units differ: {} {} {}{}", described(first), what, described(second), more));
-}
-
-Dimension ExpressionBuilder::power(std::size_t position, int base, int exponent) const {
-  if (!fact(exponent).dimension.is_number()) {
-    fail(position, fmt::format("an exponent has no unit, got {}", described(exponent)));
-  }
-  if (fact(base).dimension.is_number()) return {};
-  if (!fact(exponent).constant) {
-    fail(position, fmt::format("the exponent of {} must be a fixed number", described(base)));
-  }
-  return fact(base).dimension.to_the(*fact(exponent).constant);
-}
-
-std::vector<std::string> ExpressionBuilder::cases_with(const std::string& name) const {
-  std::vector<std::string> cases;
-  for (const Symbol& symbol : symbols_) {
-    const auto split = split_case(symbol.name);
-    if (split && split->name == name) cases.push_back(split->load_case);
-  }
-  return cases;
-}
-
-std::vector<std::string> ExpressionBuilder::names_with_cases() const {
-  std::vector<std::string> names;
-  for (const Symbol& symbol : symbols_) {
-    const auto split = split_case(symbol.name);
-    if (split && std::ranges::find(names, split->name) == names.end()) {
-      names.push_back(split->name);
-    }
-  }
-  return names;
-}
-
 void ExpressionBuilder::fail_unknown_case(std::size_t position, const NameInCase& wanted) const {
   const auto& [name, load_case] = wanted;
-  const std::vector<std::string> names = names_with_cases();
+  const std::vector<std::string> names = names_with_cases(symbols_);
   if (names.empty()) {
     throw CaseExpressionError(
         column_of(position),
@@ -254,7 +266,7 @@ void ExpressionBuilder::fail_unknown_case(std::size_t position, const NameInCase
     fail(position,
          fmt::format("\"{}\" is no number of one load case: leave \"[{}]\" out", name, load_case));
   }
-  const std::vector<std::string> cases = cases_with(name);
+  const std::vector<std::string> cases = cases_with(name, symbols_);
   if (cases.empty()) fail(position, fmt::format("unknown name \"{}\"{}", name, hint(name, names)));
   fail(position,
        fmt::format("\"{}\" has no case \"{}\"{}", name, load_case, hint(load_case, cases)));
@@ -267,7 +279,7 @@ void ExpressionBuilder::fail_unknown(std::size_t position, const std::string& na
     }
   }
   if (const auto split = split_case(name)) fail_unknown_case(position, *split);
-  const std::vector<std::string> cases = cases_with(name);
+  const std::vector<std::string> cases = cases_with(name, symbols_);
   if (!cases.empty()) {
     fail(position, fmt::format("\"{}\" differs from case to case: name one of them, as in "
                                "\"{}[{}]\"; there are {}",

@@ -89,27 +89,13 @@ class ExpressionBuilder {
 
  private:
   std::size_t column_of(std::size_t position) const;
-  const KnownNumber& fact(int step) const { return facts_[step]; }
-  std::string described(int step) const { return describe(fact(step).dimension); }
 
   int add(const ExpressionStep& step, const KnownNumber& facts);
   int add_constant(const KnownNumber& known);
   int add_symbol(const Symbol& symbol);
   void fold(std::size_t position, int step);
-
-  Dimension dimension_of(std::size_t position, Operation operation, int first, int second) const;
-  void check_number(std::size_t position, int step) const;
-  void check_no_ratio_of_frequencies(std::size_t position, const KnownNumber& result, int first,
-                                     int second) const;
-  Dimension common(std::size_t position, int first, int second, const char* what) const;
-  Dimension power(std::size_t position, int base, int exponent) const;
-
   [[noreturn]] void fail_unknown(std::size_t position, const std::string& name) const;
   [[noreturn]] void fail_unknown_case(std::size_t position, const NameInCase& wanted) const;
-  /// "bow", where there are symbols "bow [fast]" …
-  std::vector<std::string> names_with_cases() const;
-  /// Load cases that a name is known with: "fast" where there is a symbol "bow [fast]".
-  std::vector<std::string> cases_with(const std::string& name) const;
 
   std::string_view text_;
   const std::vector<Symbol>& symbols_;

@@ -189,10 +189,8 @@ std::vector<ConstraintSettings> read_constraints(const JsonNode& node,
 std::vector<std::string> names_of_cases(const std::vector<ProblemFile>& cases) {
   std::vector<std::string> names;
   for (const ProblemFile& one : cases) {
-    if (!one.case_range.empty() && (names.empty() || names.back() != one.case_range)) {
-      const bool is_new = std::ranges::find(names, one.case_range) == names.end();
-      if (is_new) names.push_back(one.case_range);
-    }
+    const bool is_new = std::ranges::find(names, one.case_range) == names.end();
+    if (is_new && !one.case_range.empty()) names.push_back(one.case_range);
   }
   for (const ProblemFile& one : cases) names.push_back(one.load_case);
   return names;

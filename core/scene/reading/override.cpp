@@ -33,14 +33,9 @@ Json read_value(const std::string& text) {
 
 /// Of a number with a unit, "0.2 mm": "mm"; empty if the text is something else.
 std::string unit_of_text(const std::string& text) {
-  double number = 0.0;
-  const char* end = text.data() + text.size();
-  const auto [rest, status] = std::from_chars(text.data(), end, number);
-  if (status != std::errc()) return "";
-  const std::string unit(std::find_if(rest, end, [](char c) { return c != ' '; }), end);
-  if (unit.empty()) return "";
   try {
-    measure_unit(unit);
+    const std::string unit = split_quantity(text).unit;
+    if (!unit.empty()) measure_unit(unit);
     return unit;
   } catch (const UnitError&) {
     return "";
@@ -103,16 +98,12 @@ class Override {
 
   std::vector<std::string> split(const std::string& pointer) const {
     std::vector<std::string> keys;
-    for (std::size_t i = 0; i < pointer.size(); ++i) {
-      if (pointer[i] == '/') {
-        keys.emplace_back();
-      } else if (pointer[i] == '~') {
-        const char code = i + 1 < pointer.size() ? pointer[++i] : ' ';
-        if (code != '0' && code != '1') fail("has a \"~\" that is neither ~0 (~) nor ~1 (/)");
-        keys.back() += code == '0' ? '~' : '/';
-      } else {
-        keys.back() += pointer[i];
+    try {
+      for (Json::json_pointer left(pointer); !left.empty(); left.pop_back()) {
+        keys.insert(keys.begin(), left.back());
       }
+    } catch (const Json::exception&) {
+      fail("has a \"~\" that is neither ~0 (~) nor ~1 (/)");
     }
     return keys;
   }

@@ -63,34 +63,25 @@ void check_catalogue(const JsonNode& root, const CaseChanges& changes, const Jso
   }
 }
 
-[[noreturn]] void fail_changed(const JsonNode& node, const ProblemFile& load_case) {
-  node.fail(fmt::format(
-      "must be the same in all cases, but follows from a constant that the case \"{}\" changes: "
-      "write a number, or a constant that no case changes",
-      load_case.load_case));
-}
-
-/// The member of the node, or the node itself where it has none.
-JsonNode member_or_self(const JsonNode& node, const char* key) {
+/// Of the member of the node, or of the node itself where it has none.
+void require_same(bool is_same, const JsonNode& node, const char* key, const ProblemFile& other) {
+  if (is_same) return;
   const auto member = node.find(key);
-  return member ? *member : node;
-}
-
-bool are_same(const std::vector<SizeChoice>& one, const std::vector<SizeChoice>& other) {
-  return std::equal(one.begin(), one.end(), other.begin(), other.end(),
-                    [](const SizeChoice& a, const SizeChoice& b) {
-                      return a.value == b.value && a.text == b.text;
-                    });
+  (member ? *member : node)
+      .fail(fmt::format("must be the same in all cases, but follows from a constant that the case "
+                        "\"{}\" changes: "
+                        "write a number, or a constant that no case changes",
+                        other.load_case));
 }
 
 void check_variables(const JsonNode& root, const ProblemFile& first, const ProblemFile& other) {
   for (std::size_t i = 0; i < first.variables.size(); ++i) {
     const DesignVariable &one = first.variables[i], &two = other.variables[i];
     const JsonNode node = root.at("variables").at(one.name);
-    if (!are_same(one.choices, two.choices)) fail_changed(member_or_self(node, "choices"), other);
-    if (one.start != two.start) fail_changed(member_or_self(node, "start"), other);
-    if (one.lower != two.lower) fail_changed(member_or_self(node, "lower"), other);
-    if (one.upper != two.upper) fail_changed(member_or_self(node, "upper"), other);
+    require_same(one.choices == two.choices, node, "choices", other);
+    require_same(one.start == two.start, node, "start", other);
+    require_same(one.lower == two.lower, node, "lower", other);
+    require_same(one.upper == two.upper, node, "upper", other);
     if (!(one.quantity == two.quantity)) {
       node.fail(fmt::format(
           "must stand for the same in all cases, but is {} in the case \"{}\" and {} in \"{}\"",
@@ -108,8 +99,8 @@ void check_limits(const JsonNode& root, const ProblemFile& joined, const Problem
     if (!is_once) continue;
     const ConstraintSettings* two = find_named(other.constraints, one.name);
     const JsonNode node = root.at("constraints").at(one.name);
-    if (one.lower != two->lower) fail_changed(member_or_self(node, "lower"), other);
-    if (one.upper != two->upper) fail_changed(member_or_self(node, "upper"), other);
+    require_same(one.lower == two->lower, node, "lower", other);
+    require_same(one.upper == two->upper, node, "upper", other);
   }
 }
 
@@ -120,8 +111,8 @@ void check_uncertainty(const JsonNode& root, const ProblemFile& first, const Pro
     const UncertainParameter& one = first.uncertainty->parameters[i];
     const UncertainParameter& two = other.uncertainty->parameters[i];
     const JsonNode node = parameters.at(first.variables[one.variable].name);
-    if (one.deviation != two.deviation) fail_changed(member_or_self(node, "deviation"), other);
-    if (one.interval != two.interval) fail_changed(member_or_self(node, "interval"), other);
+    require_same(one.deviation == two.deviation, node, "deviation", other);
+    require_same(one.interval == two.interval, node, "interval", other);
   }
 }
 
@@ -130,7 +121,8 @@ void check_starts(const JsonNode& root, const ProblemFile& first, const ProblemF
   for (std::size_t i = 0; i < one.size(); ++i) {
     for (std::size_t j = 0; j < first.variables.size(); ++j) {
       if (one[i][j] == two[i][j]) continue;
-      fail_changed(root.at("optimizer").at("starts").items()[i].at(first.variables[j].name), other);
+      require_same(false, root.at("optimizer").at("starts").items()[i],
+                   first.variables[j].name.c_str(), other);
     }
   }
 }

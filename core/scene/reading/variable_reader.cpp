@@ -91,29 +91,21 @@ DesignVariable read_variable(const std::string& name, const JsonNode& node,
 }
 
 /// At the start, and with each variable at either bound.
-void check_formula(const VariableUse& use, const std::vector<SampleDesign>& samples) {
-  for (const SampleDesign& sample : samples) {
-    const double value = resolve(use.number, sample.design);
+void check_range(const VariableUse& use, const std::vector<SampleDesign>& samples,
+                 const std::vector<DesignVariable>& variables) {
+  for (const auto& [design, where] : samples) {
+    const double value = resolve(use.number, design);
     if (is_within(use.range, value)) continue;
-    use.node.fail_with_value(rule_of(use.range, use.quantity),
-                             fmt::format(", which is {:g}{}", value,
-                                         sample.where.empty() ? " at the start" : sample.where));
-  }
-}
-
-void check_range(const VariableUse& use, const DesignVariable& variable) {
-  struct Bound {
-    double value;
-    const char* where;
-  };
-  for (const Bound& sample :
-       {Bound{variable.start, "start value"}, Bound{variable.lower, "lower bound"},
-        Bound{variable.upper, "upper bound"}}) {
-    const double value = use.number.constant + use.number.factor * sample.value;
-    if (is_within(use.range, value)) continue;
-    use.node.fail(fmt::format("{}, got {:g} with the variable \"{}\" at its {}",
-                              rule_of(use.range, use.quantity), value, variable.name,
-                              sample.where));
+    const std::string rule = rule_of(use.range, use.quantity);
+    if (use.number.expression) {
+      use.node.fail_with_value(
+          rule, fmt::format(", which is {:g}{}", value, where.empty() ? " at the start" : where));
+    }
+    use.node.fail(fmt::format("{}, got {:g}{}", rule, value,
+                              where.empty()
+                                  ? fmt::format(" with the variable \"{}\" at its start value",
+                                                variables[use.number.variable].name)
+                                  : where.substr(1)));
   }
 }
 
@@ -132,13 +124,7 @@ std::vector<DesignVariable> read_variables(const JsonNode& node, const NumberRea
     variables.push_back(read_variable(name, member, *quantity, numbers));
   });
   const std::vector<SampleDesign> samples = sample_designs(variables);
-  for (const VariableUse& use : numbers.uses()) {
-    if (use.number.expression) {
-      check_formula(use, samples);
-    } else {
-      check_range(use, variables[use.number.variable]);
-    }
-  }
+  for (const VariableUse& use : numbers.uses()) check_range(use, samples, variables);
   return variables;
 }
 
