@@ -208,6 +208,12 @@ struct Body {
   std::vector<InitialDeflection> initial_deflections = {};   ///< elastic bodies start straight else
 };
 
+/// Whether a body bends, if effects let it.
+inline bool is_elastic(const Body& body) {
+  const auto* beam = std::get_if<BeamBody>(&body.shape);
+  return std::holds_alternative<ImportedBody>(body.shape) || (beam != nullptr && !beam->is_rigid);
+}
+
 /// What a drive prescribes: a coordinate of the second body of a joint against the first.
 enum class DrivenCoordinate {
   angle,        ///< about the axis [rad]: revolute, cylindrical, universal (first axis), planar

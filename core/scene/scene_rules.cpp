@@ -54,8 +54,11 @@ std::optional<std::string> find_point_moved_along(const Scene& scene, const Desi
                                                   std::size_t variable, double change) {
   PlacesOnBodies places(scene, start);
   for (const double by : changes_of(start[variable], change)) {
+    Design<double> moved = start;
+    moved[variable] += by;
     for (const PlacedPoint& placed : placed_points(scene)) {
-      if (!places.leaves(placed, variable, by)) continue;
+      const bool is_on_elastic = placed.body != nullptr && is_elastic(*placed.body);
+      if (!is_on_elastic || !places.find_misplaced(placed, moved, false)) continue;
       return fmt::format(
           "moves {} along the elastic body \"{}\", or the body under it, where nothing follows it: "
           "what that changes is not known",

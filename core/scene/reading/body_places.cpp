@@ -138,18 +138,13 @@ std::optional<std::string> BeamPlaces::find_misplaced(const Point& at, const Des
       body_.name, pleuel::describe(point_at(beam_, modelled, design)));
 }
 
-bool BeamPlaces::leaves(const Point& at, std::size_t variable, double change) const {
-  Design<Dual> seeded(start_.begin(), start_.end());
-  seeded[variable].derivatives()[0] = 1.0;
-  const Dual share =
-      modelled_share(nearest_share(beam_, resolve_point(at, start_), start_), seeded);
-  const Eigen::Matrix<Dual, 3, 1> from = resolve_point(beam_.from, seeded);
-  const Eigen::Matrix<Dual, 3, 1> modelled =
-      from + share * (resolve_point(beam_.to, seeded) - from);
-  const Eigen::Matrix<Dual, 3, 1> off = resolve_point(at, seeded) - modelled;
-  const double length =
-      (resolve_point(beam_.to, start_) - resolve_point(beam_.from, start_)).norm();
-  return std::abs(change) * derivative_matrix(off).norm() > placement_tolerance * length;
+double BeamPlaces::modelled_share(double at_start, const Design<double>& design) const {
+  if (!mesh_.depends_on_design()) return at_start;
+  const ElementPlace place = find_place(mesh_, at_start);
+  const std::vector<double> shares = element_shares(beam_, mesh_, design);
+  double share = place.xi * shares[place.element];
+  for (int e = 0; e < place.element; ++e) share += shares[e];
+  return share;
 }
 
 std::string BeamPlaces::describe(int node) const {
@@ -199,20 +194,6 @@ std::optional<Misplaced> PlacesOnBodies::find_misplaced(const PlacedPoint& place
   }
   const auto* imported = std::get_if<ImportedBody>(&placed.body->shape);
   return imported != nullptr ? find_off_place(placed, *imported, design) : std::nullopt;
-}
-
-bool PlacesOnBodies::leaves(const PlacedPoint& placed, std::size_t variable, double change) {
-  if (placed.body == nullptr) return false;
-  if (const auto* beam = std::get_if<BeamBody>(&placed.body->shape)) {
-    return !beam->is_rigid && of_beam(*placed.body).leaves(*placed.point, variable, change);
-  }
-  const auto* imported = std::get_if<ImportedBody>(&placed.body->shape);
-  if (imported == nullptr) return false;
-  Design<double> moved = start_;
-  moved[variable] += change;
-  const Eigen::Vector3d before = local_point(*imported, *placed.point, start_);
-  const Eigen::Vector3d after = local_point(*imported, *placed.point, moved);
-  return (after - before).stableNorm() > placement_tolerance * size_of(imported->file->constants);
 }
 
 /// The mesh is made where something varies only.

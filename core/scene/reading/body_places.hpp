@@ -45,21 +45,9 @@ class BeamPlaces {
   std::optional<std::string> find_misplaced(const Point& at, const Design<double>& design,
                                             bool looks_at_axis) const;
 
-  /// Whether a change of a variable would make it another place of the body than the mesh follows,
-  /// to first order.
-  bool leaves(const Point& at, std::size_t variable, double change) const;
-
  private:
   /// The share of the length where the model has at a design what is at a share at the start.
-  template <class Scalar>
-  Scalar modelled_share(double at_start, const Design<Scalar>& design) const {
-    if (!mesh_.depends_on_design()) return Scalar(at_start);
-    const ElementPlace place = find_place(mesh_, at_start);
-    const std::vector<Scalar> shares = element_shares(beam_, mesh_, design);
-    Scalar share = place.xi * shares[static_cast<std::size_t>(place.element)];
-    for (int e = 0; e < place.element; ++e) share += shares[static_cast<std::size_t>(e)];
-    return share;
-  }
+  double modelled_share(double at_start, const Design<double>& design) const;
 
   /// The same of the order of places alone.
   std::optional<std::string> find_disorder(const Point& at, const Design<double>& design) const;
@@ -86,10 +74,6 @@ class PlacesOnBodies {
   ///                            so between those of plain ones
   std::optional<Misplaced> find_misplaced(const PlacedPoint& placed, const Design<double>& design,
                                           bool is_known_at_bounds);
-
-  /// Whether a change of a variable makes it another place of an elastic body, which the model does not
-  /// follow.
-  bool leaves(const PlacedPoint& placed, std::size_t variable, double change);
 
  private:
   const BeamPlaces& of_beam(const Body& body) {
