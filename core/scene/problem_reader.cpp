@@ -16,7 +16,7 @@ namespace pleuel {
 namespace {
 
 ProblemFile read_expanded(Json document, const std::string& file) {
-  expand_catalogue(document, file);
+  expand_names(document, file);
   const JsonNode root(document, file);
   NumberReader numbers(variable_names(root));
   return read_document(root, numbers);

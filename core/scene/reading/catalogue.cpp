@@ -1,7 +1,10 @@
 #include "core/scene/reading/catalogue.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
+#include "core/scene/material_library.hpp"
 #include "core/scene/reading/scene_reader.hpp"
 #include "core/scene/reading/section_choices.hpp"
 #include "core/scene/reading/syntax_error.hpp"
@@ -60,12 +63,45 @@ std::vector<SectionReference> find_references(Json& scene, const char* key) {
   return found;
 }
 
+/// The scene, where there is one: what is wrong with it is for its reader to say.
+Json* find_scene(Json& document) {
+  if (!document.is_object() || !document.contains("scene")) return nullptr;
+  return document["scene"].is_object() ? &document["scene"] : nullptr;
+}
+
+bool is_used(const Json& scene, const std::string& material) {
+  if (!scene.contains("bodies") || !scene["bodies"].is_object()) return false;
+  return std::ranges::any_of(scene["bodies"], [&](const Json& body) {
+    return body.is_object() && body.contains("material") && body["material"] == material;
+  });
+}
+
+Json material_document(const Material& material) {
+  Json document = {{"young", material.young.constant},
+                   {"poisson", material.poisson.constant},
+                   {"density", material.density.constant}};
+  if (material.strength) document["strength"] = material.strength->constant;
+  return document;
+}
+
+void expand_materials(Json& scene) {
+  for (const Material& material : material_library()) {
+    if (!is_used(scene, material.name)) continue;
+    if (!scene.contains("materials")) scene["materials"] = Json::object();
+    Json& materials = scene["materials"];
+    if (materials.is_object() && !materials.contains(material.name)) {
+      materials[material.name] = material_document(material);
+    }
+  }
+}
+
 }  // namespace
 
-void expand_catalogue(Json& document, const std::string& file) {
-  if (!document.is_object() || !document.contains("scene")) return;
-  Json& scene = document["scene"];
-  if (!scene.is_object()) return;
+void expand_names(Json& document, const std::string& file) {
+  Json* found = find_scene(document);
+  if (found == nullptr) return;
+  Json& scene = *found;
+  expand_materials(scene);
   const Json catalogue = find_catalogue(JsonNode(scene, file, "/scene"));
   for (const auto& [section, pointer] : find_references(scene, catalogue_key)) {
     const JsonNode node(*section, file, pointer);
@@ -79,11 +115,11 @@ void expand_catalogue(Json& document, const std::string& file) {
 }
 
 std::vector<std::string> section_variables(const Json& document) {
-  if (!document.is_object() || !document.contains("scene")) return {};
-  Json scene = document["scene"];
-  if (!scene.is_object()) return {};
+  Json copy = document;
+  Json* scene = find_scene(copy);
+  if (scene == nullptr) return {};
   std::vector<std::string> names;
-  for (const SectionReference& reference : find_references(scene, "variable")) {
+  for (const SectionReference& reference : find_references(*scene, "variable")) {
     const Json& name = (*reference.section)["variable"];
     if (name.is_string()) names.push_back(name.get<std::string>());
   }

@@ -42,9 +42,8 @@ void read_settings(const JsonNode& root, NumberReader& numbers, ProblemFile& pro
       if (const auto node = root.find(key)) read_block(*node);
     });
   };
-  read("effects", [&](const JsonNode& node) { problem.effects = read_effects(node, numbers); });
-  read("sensitivity",
-       [&](const JsonNode& node) { problem.sensitivity = read_sensitivity(node, numbers); });
+  read("effects", [&](const JsonNode& node) { read_keys(node, numbers, problem.effects); });
+  read("sensitivity", [&](const JsonNode& node) { read_keys(node, numbers, problem.sensitivity); });
   read("optimizer", [&](const JsonNode& node) {
     problem.optimizer = read_optimizer(node, problem.variables, numbers);
   });
@@ -103,7 +102,7 @@ std::vector<CaseChanges> cases_of(const Json& document, const std::string& file)
 
 Json whole_document(const ProblemText& text) {
   Json document = overridden_document(text);
-  expand_catalogue(document, text.file);
+  expand_names(document, text.file);
   return document;
 }
 
