@@ -34,9 +34,9 @@ class SizeTexts : public Keys {
  public:
   explicit SizeTexts(const Values& design) : design_(design) {}
 
-  void number(const Key& key, Number& size, const Measure&, std::string_view) override {
+  void number(const Key& key, KeyMember<Number> size, const Measure&, std::string_view) override {
     text += fmt::format(", {} {} {}", words_of(std::string(key.word)),
-                        significant(unit_.shown(resolve(size, design_)), 4), unit_.name);
+                        significant(unit_.shown(resolve(size.get(), design_)), 4), unit_.name);
   }
 
   std::string text;

@@ -10,6 +10,7 @@
 #include "core/model/resolve_beam.hpp"
 #include "core/scene/beam_mesh.hpp"
 #include "core/scene/held_points.hpp"
+#include "core/scene/visit_numbers.hpp"
 
 namespace pleuel {
 

@@ -7,6 +7,7 @@
 #include "core/model/scene_geometry.hpp"
 #include "core/scene/held_points.hpp"
 #include "core/scene/joint_kind.hpp"
+#include "core/scene/visit_numbers.hpp"
 
 namespace pleuel {
 

@@ -255,9 +255,7 @@ class JointBuilder {
   std::set<int> variables() const {
     std::set<int> all;
     for (const Attachment& side : sides_) side.add_variables(all);
-    visit_numbers(joint_, [&](const Number& number, const Quantity&) {
-      for (const int variable : number.variables()) all.insert(variable);
-    });
+    add_variables_of(joint_, all);
     return context_.differentiated(std::move(all));
   }
 

@@ -205,11 +205,8 @@ class LoadBuilder {
   std::set<int> variables() const {
     std::set<int> all;
     for (const Attachment& place : places_) place.add_variables(all);
-    const auto add = [&](const Number& number, const Quantity&) {
-      for (const int variable : number.variables()) all.insert(variable);
-    };
-    visit_numbers(load_, add);
-    if (visit_joint_) visit_numbers(*visit_joint_, add);
+    add_variables_of(load_, all);
+    if (visit_joint_) add_variables_of(*visit_joint_, all);
     return context_.differentiated(std::move(all));
   }
 

@@ -6,12 +6,9 @@ namespace pleuel {
 
 std::set<int> variables_of(const Body& body, const Scene& scene) {
   std::set<int> variables;
-  const auto collect = [&](const Number& number, const Quantity&) {
-    for (const int variable : number.variables()) variables.insert(variable);
-  };
-  visit_numbers(body, collect);
+  add_variables_of(body, variables);
   if (const auto* beam = std::get_if<BeamBody>(&body.shape)) {
-    visit_numbers(find_material(scene, beam->material), collect);
+    add_variables_of(find_material(scene, beam->material), variables);
   }
   return variables;
 }

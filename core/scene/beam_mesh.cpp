@@ -7,6 +7,7 @@
 
 #include "core/base/int_size.hpp"
 #include "core/scene/held_points.hpp"
+#include "core/scene/visit_numbers.hpp"
 
 namespace pleuel {
 

@@ -9,7 +9,6 @@
 #include "core/scene/load_cases.hpp"
 #include "core/scene/reading/body_places.hpp"
 #include "core/scene/reading/variable_reader.hpp"
-#include "core/scene/visit_numbers.hpp"
 
 namespace pleuel {
 

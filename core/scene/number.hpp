@@ -87,8 +87,9 @@ enum class Range {
   positive,
   not_negative,
   poisson,
-  fraction,  ///< from 0 to 1
-  below_one  ///< from 0 to less than 1
+  fraction,   ///< from 0 to 1
+  below_one,  ///< from 0 to less than 1
+  tolerance   ///< a relative error: 0 would ask for too much, 1 for nothing
 };
 
 struct RangeKind {
@@ -111,7 +112,9 @@ inline constexpr RangeKind range_kinds[] = {
     {Range::fraction, [](double x) { return x >= 0.0 && x <= 1.0; }, "be from 0 to 1",
      R"({"minimum": 0, "maximum": 1})"},
     {Range::below_one, [](double x) { return x >= 0.0 && x < 1.0; },
-     "be at least 0 and less than 1", R"({"minimum": 0, "exclusiveMaximum": 1})"}};
+     "be at least 0 and less than 1", R"({"minimum": 0, "exclusiveMaximum": 1})"},
+    {Range::tolerance, [](double x) { return x > 0.0 && x < 1.0; },
+     "be greater than 0 and less than 1", R"({"exclusiveMinimum": 0, "exclusiveMaximum": 1})"}};
 static_assert(are_in_order(range_kinds));
 
 constexpr const RangeKind& kind_of(Range range) {

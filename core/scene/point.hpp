@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <set>
 
 #include <Eigen/Core>
 
@@ -14,13 +13,6 @@ namespace pleuel {
 /// Whether it depends on design variables.
 inline bool is_bound(const Point& point) {
   return std::ranges::any_of(point, [](const Number& number) { return number.is_bound(); });
-}
-
-/// Adds the design variables that it depends on.
-inline void add_variables_of(const Point& point, std::set<int>& variables) {
-  for (const Number& number : point) {
-    for (const int variable : number.variables()) variables.insert(variable);
-  }
 }
 
 /// [m], global axes

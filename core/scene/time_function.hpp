@@ -91,9 +91,9 @@ struct FrictionLaw {
 
 /// A spring that begins to act where a clearance ends (TimeLaw::clearance_at).
 struct ClearanceLaw {
-  Number lower, upper;  ///< ends of the clearance [m] or [rad]
-  Number stiffness;     ///< [N/m] or [N m/rad]
-  Number rounding;      ///< [m] or [rad], positive
+  Number lower = -1e30, upper = 1e30;  ///< ends of the clearance [m] or [rad]
+  Number stiffness;                    ///< [N/m] or [N m/rad]
+  Number rounding;                     ///< [m] or [rad], positive
 };
 
 using TimeFunction = std::variant<ConstantFunction, ConstantSpeedDrive, RampToSpeedDrive,

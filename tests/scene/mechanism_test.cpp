@@ -323,7 +323,7 @@ TEST_F(Mechanism, RepeatsItselfOnlyWithoutDriftAndWithEqualSteps) {
 
 TEST_F(Mechanism, HasEveryBoundNumberVisited) {
   std::set<int> variables;
-  visit_numbers(problem_.scene, [&variables](const Number& number, const Quantity&) {
+  visit_numbers(problem_.scene, [&variables](const Number& number) {
     if (number.is_bound()) variables.insert(number.variable);
   });
   EXPECT_THAT(variables, ElementsAre(0, 1, 2));
@@ -334,7 +334,7 @@ TEST_F(Mechanism, MayHaveTheLongestPolynomial) {
                               R"([0, 1, 2, 3, 4, 5, 6, 7, 8, 9, "10 rad/s^10"])");
   const Scene scene = read(longest).scene;
   int numbers = 0;
-  visit_numbers(scene.joints[0], [&numbers](const Number&, const Quantity&) { ++numbers; });
+  visit_numbers(scene.joints[0], [&numbers](const Number&) { ++numbers; });
   EXPECT_EQ(numbers, 6 + 11);  // two points and the coefficients
 }
 

@@ -27,6 +27,14 @@ void describe(Keys& keys, Material& s) {
   keys.must("fatigue_exponent", s.fatigue_exponent.value_or(1.0) >= 1.0,
             "must be at least 1 (k of Basquin's line, 5 to 15 for metals; its slope b is -1/k)",
             Shown::rule_and_value);
+  const std::optional<Number>& ultimate = s.ultimate_strength;
+  for (const auto& [word, strength] :
+       {std::pair("strength", &s.strength), std::pair("endurance_limit", &s.endurance_limit)}) {
+    const bool are_numbers =
+        *strength && ultimate && !(*strength)->is_bound() && !ultimate->is_bound();
+    keys.must(word, !are_numbers || (*strength)->constant <= ultimate->constant,
+              "must not be more than the \"ultimate_strength\"", Shown::rule_and_value);
+  }
 }
 
 void describe(Keys& keys, Damping& s) {
@@ -40,6 +48,24 @@ void describe(Keys& keys, Damping& s) {
               "{}.");
   keys.number(optional_key("modal"), s.modal, {quantities::pure_number, Range::below_one},
               "Damping ratio of every mode, {}; needs a reduction.");
+}
+
+void describe(Keys& keys, BeamBody& s, const std::vector<std::string>& materials) {
+  constexpr const char* not_rigid = "is not for a rigid beam";
+  keys.point("from", s.from, quantities::length, "");
+  keys.point("to", s.to, quantities::length, "");
+  keys.name("material", "material", materials, s.material, "");
+  keys.choice(optional_key("frame"), s.frame, reference_conditions, "");
+  keys.flag(optional_key("rigid"), s.is_rigid, "");
+  keys.must("damping", !s.is_rigid, not_rigid);
+  keys.must("reduction", !s.is_rigid, not_rigid);
+  keys.object(optional_key("damping"), s.damping);
+  keys.object(optional_key("reduction"), s.reduction);
+  keys.flag(optional_key("shear"), s.has_shear, "");
+  keys.must("shear", !s.is_rigid || !s.has_shear, not_rigid);
+  keys.whole(optional_key("frames"), s.frames, {1, 1000}, "");
+  keys.must("frames", !s.is_rigid || s.frames == 1, not_rigid);
+  keys.direction(optional_key("reference"), s.reference, "");
 }
 
 void describe(Keys& keys, RigidBody& s) {

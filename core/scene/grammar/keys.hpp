@@ -14,22 +14,40 @@
 ///       keys.number("diameter", section.diameter, {quantities::length, Range::positive}, "{}");
 ///     }
 ///
-/// Whoever goes through a table is a `Keys`: the reader (reading/key_reader.hpp), the writer of the
-/// schema (reading/key_schema.hpp), the visit of all numbers (visit_numbers.hpp).
+/// Whoever goes through a table is a `Keys`: the reader (reading/key_reader.hpp), and the writer of the
+/// schema (reading/key_schema.hpp).
 namespace pleuel {
 
-/// A word, and whether an object may be without it: its member has its default then.
+/// A word, and whether an object may be without it: its member has its default then, or no value.
 struct Key {
   constexpr Key(const char* key_word) : word(key_word) {}  // NOLINT: a word is a key
   constexpr Key(const char* key_word, bool is_needed) : word(key_word), is_required(is_needed) {}
 
   std::string_view word;
   bool is_required = true;
-  bool has_default = true;  ///< if it is left out; else it has no value at all then
 };
 constexpr Key optional_key(const char* word) {
   return {word, false};
 }
+
+/// A member that a key fills, and that may have no value without it.
+template <class Value>
+class KeyMember {
+ public:
+  KeyMember(Value& member) : value_(&member) {}                    // NOLINT: a member is one
+  KeyMember(std::optional<Value>& member) : optional_(&member) {}  // NOLINT
+
+  bool has_default() const { return optional_ == nullptr; }
+  /// It has a value from now on.
+  Value& get() const {
+    if (value_ != nullptr) return *value_;
+    return *optional_ ? **optional_ : optional_->emplace();
+  }
+
+ private:
+  Value* value_ = nullptr;
+  std::optional<Value>* optional_ = nullptr;
+};
 
 /// What a number measures, and what it may be.
 struct Measure {
@@ -59,23 +77,32 @@ class Keys {
   virtual void each(const Key&) {}
 
   /// That a design variable may stand for.
-  virtual void number(const Key& key, Number&, const Measure&, std::string_view) { each(key); }
+  virtual void number(const Key& key, KeyMember<Number>, const Measure&, std::string_view) {
+    each(key);
+  }
   /// That only the choice of a whole section changes (reading/section_choices.hpp).
-  virtual void fixed(const Key& key, Number&, const Measure&, std::string_view) { each(key); }
-  virtual void fixed(const Key& key, double&, const Measure&, std::string_view) { each(key); }
-  virtual void whole(const Key& key, int&, const WholeRange&, std::string_view) { each(key); }
+  virtual void fixed(const Key& key, KeyMember<Number>, const Measure&, std::string_view) {
+    each(key);
+  }
+  virtual void fixed(const Key& key, KeyMember<double>, const Measure&, std::string_view) {
+    each(key);
+  }
+  virtual void whole(const Key& key, KeyMember<int>, const WholeRange&, std::string_view) {
+    each(key);
+  }
   /// A number that is written without unit or formula.
   virtual void plain(const Key& key, double&, Range, std::string_view) { each(key); }
-  /// A relative error, between 0 and 1.
-  virtual void tolerance(const Key& key, double&, std::string_view) { each(key); }
   virtual void flag(const Key& key, bool&, std::string_view) { each(key); }
   virtual void text(const Key& key, std::string&, std::string_view) { each(key); }
   /// Three numbers that design variables may stand for.
-  virtual void point(const Key& key, std::array<Number, 3>&, const Quantity&, std::string_view) {
+  virtual void point(const Key& key, KeyMember<std::array<Number, 3>>, const Quantity&,
+                     std::string_view) {
     each(key);
   }
   /// Three plain numbers, not all zero.
-  virtual void direction(const Key& key, std::array<double, 3>&, std::string_view) { each(key); }
+  virtual void direction(const Key& key, KeyMember<std::array<double, 3>>, std::string_view) {
+    each(key);
+  }
   virtual void unit_vector(const Key& key, std::array<double, 3>&, std::string_view) { each(key); }
   /// @param chosen  index among the words
   virtual void chosen(const Key& key, std::size_t&, const std::vector<std::string_view>&,
@@ -88,7 +115,7 @@ class Keys {
     each(key);
   }
   /// A place along a beam, from 0 to 1.
-  virtual void place(const Key& key, double&, std::string_view) { each(key); }
+  virtual void place(const Key& key, KeyMember<double>, std::string_view) { each(key); }
   /// One of the known names.
   /// @param kind  of thing
   virtual void name(const Key& key, const char* /*kind*/, const std::vector<std::string>& /*known*/,
@@ -107,10 +134,8 @@ class Keys {
     each(key);
   }
   virtual void object(const Key& key, const Table&) { each(key); }
-  /// @param item   what one of them is called
-  /// @param count  that there are before anything is read
-  virtual void items(const Key& key, std::string_view /*item*/, std::size_t /*count*/,
-                     const ItemTable&, std::string_view) {
+  /// @param item  what one of them is called
+  virtual void items(const Key& key, const char* /*item*/, const ItemTable&, std::string_view) {
     each(key);
   }
   /// That needs to know more than this object: its reader stands elsewhere.
@@ -136,52 +161,17 @@ class Keys {
   virtual void refused_choice(const char* /*key*/, const char* /*word*/,
                               const std::string& /*rule*/) {}
 
-  /// Whether a member that may have no value is to have one.
-  virtual bool gives(const Key&, bool has_value) { return has_value; }
-
-  // Members that may have no value.
-
-  void number(Key key, std::optional<Number>& member, const Measure& measure,
-              std::string_view sentence) {
-    if (Number* value = optional_member(key, member)) number(key, *value, measure, sentence);
-  }
-  void fixed(Key key, std::optional<double>& member, const Measure& measure,
-             std::string_view sentence) {
-    if (double* value = optional_member(key, member)) fixed(key, *value, measure, sentence);
-  }
-  void whole(Key key, std::optional<int>& member, const WholeRange& range,
-             std::string_view sentence) {
-    if (int* value = optional_member(key, member)) whole(key, *value, range, sentence);
-  }
-  void point(Key key, std::optional<std::array<Number, 3>>& member, const Quantity& quantity,
-             std::string_view sentence) {
-    if (auto* value = optional_member(key, member)) point(key, *value, quantity, sentence);
-  }
-  void direction(Key key, std::optional<std::array<double, 3>>& member, std::string_view sentence) {
-    if (auto* value = optional_member(key, member)) direction(key, *value, sentence);
-  }
-
-  void place(Key key, std::optional<double>& member, std::string_view sentence) {
-    if (double* value = optional_member(key, member)) place(key, *value, sentence);
-  }
-
-  template <class Meaning, std::size_t count>
-  void choice(const Key& key, Meaning& member, const Choice<Meaning> (&choices)[count],
+  template <class Member, class Meaning, std::size_t count>
+  void choice(const Key& key, Member& member, const Choice<Meaning> (&choices)[count],
               std::string_view sentence) {
     std::vector<std::string_view> words;
     std::size_t index = count;
     for (const Choice<Meaning>& one : choices) {
-      if (one.meaning == member) index = words.size();
+      if (member == one.meaning) index = words.size();
       words.push_back(one.word);
     }
     chosen(key, index, words, sentence);
     if (index < count) member = choices[index].meaning;
-  }
-
-  template <class Meaning, std::size_t count>
-  void choice(Key key, std::optional<Meaning>& member, const Choice<Meaning> (&choices)[count],
-              std::string_view sentence) {
-    if (Meaning* value = optional_member(key, member)) choice(key, *value, choices, sentence);
   }
   template <class Meaning, std::size_t count>
   void choice_or_vector(const Key& key, Meaning& member, const Choice<Meaning> (&choices)[count],
@@ -199,26 +189,17 @@ class Keys {
     object(key, [&](Keys& keys) { describe(keys, member, measures...); });
   }
   template <class Struct>
-  void object(Key key, std::optional<Struct>& member) {
-    if (Struct* value = optional_member(key, member)) object(key, *value);
+  void object(const Key& key, std::optional<Struct>& member) {
+    object(key, [&](Keys& keys) { describe(keys, KeyMember<Struct>(member).get()); });
   }
   template <class Struct>
-  void list(const Key& key, std::string_view item, std::vector<Struct>& members,
+  void list(const Key& key, const char* item, std::vector<Struct>& members,
             std::string_view sentence) {
     const auto table = [&](std::size_t i, Keys& keys) {
       if (i == members.size()) members.emplace_back();
       describe(keys, members[i]);
     };
-    items(key, item, members.size(), table, sentence);
-  }
-
- private:
-  template <class Value>
-  Value* optional_member(Key& key, std::optional<Value>& member) {
-    key.has_default = false;
-    if (!gives(key, member.has_value())) return nullptr;
-    if (!member) member.emplace();
-    return &*member;
+    items(key, item, table, sentence);
   }
 };
 

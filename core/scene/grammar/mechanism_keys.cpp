@@ -1,3 +1,4 @@
+#include <Eigen/Core>
 #include <fmt/format.h>
 
 #include "core/scene/grammar/tables.hpp"
@@ -14,6 +15,12 @@ std::string refusal(const JointKey& key, const JointKind& kind) {
   }
   if (owners.size() == 1) return fmt::format("is for {} joints only", owners.front());
   return fmt::format("is not for a {} joint, which has no {}", kind.word, key.word);
+}
+
+/// Up to rounding.
+bool are_normal(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  const Eigen::Vector3d first(a.data()), second(b.data());
+  return std::abs(first.stableNormalized().dot(second.stableNormalized())) <= 1e-9;
 }
 
 const char* drive_definition(const JointKind& kind) {
@@ -47,6 +54,8 @@ void describe(Keys& keys, Joint& s) {
   }
   if (kind.has_second_axis()) {
     keys.direction("second_axis", s.second_axis, "Fixed in the second body, normal to \"axis\".");
+    keys.must("second_axis", are_normal(s.axis, s.second_axis), "must be normal to \"axis\"",
+              Shown::rule_and_value);
   }
   keys.other(optional_key("drive"), drive_definition(kind), "");
 }
@@ -126,6 +135,9 @@ void describe(Keys& keys, ClearanceLaw& s, const AlongCoordinate& along) {
   keys.one_at_least({"lower", "upper"});
   keys.number(optional_key("lower"), s.lower, {along.coordinate}, "{}; default: no stop there.");
   keys.number(optional_key("upper"), s.upper, {along.coordinate}, "{}; default: no stop there.");
+  const bool is_bound = s.lower.is_bound() || s.upper.is_bound();
+  keys.must("upper", is_bound || s.lower.constant <= s.upper.constant,
+            "must not be less than \"lower\"", Shown::rule_and_value);
   keys.number("stiffness", s.stiffness, {along.stiffness, Range::positive}, "{}.");
   keys.number("rounding", s.rounding, {along.coordinate, Range::positive}, "{}.");
 }
@@ -168,9 +180,6 @@ void describe(Keys& keys, RampFunction& s, const Quantity& value) {
   keys.fixed(optional_key("begin"), s.begin, instant, "{}.");
   keys.fixed("end", s.end, instant, "{}.");
   keys.must("end", s.end > s.begin, "must be later than \"begin\"", Shown::rule_and_value);
-  keys.other(optional_key("rounding"), "quantity",
-             "How long the rate rises behind the beginning, and falls before the end [s]; at most "
-             "half of the duration; default 0; drives need it.");
 }
 
 void describe(Keys& keys, HalfSineFunction& s, const Quantity& value) {
@@ -179,8 +188,15 @@ void describe(Keys& keys, HalfSineFunction& s, const Quantity& value) {
   keys.number(optional_key("offset"), s.offset, {value}, "");
   keys.fixed(optional_key("begin"), s.begin, instant, "{}.");
   keys.fixed("duration", s.duration, duration, "{}.");
-  keys.other(optional_key("period"), "quantity",
+  describe_period(keys, s.period, s.duration);
+}
+
+void describe_period(Keys& keys, double& period, double least) {
+  keys.fixed(optional_key("period"), period, duration,
              "After which it is repeated [s], at least the duration; default: once.");
+  keys.must("period", period >= least * (1.0 - 1e-9),
+            fmt::format("must be at least as long as what is repeated, {:g} s", least),
+            Shown::rule_and_value);
 }
 
 namespace {

@@ -40,10 +40,10 @@ void describe_step_control(Keys& keys, SimulationSettings& s) {
             "is for the scheme \"generalized-alpha\" only");
   keys.must("local_error", s.formulation.constraints != ConstraintForm::index_3,
             "is for the formulations \"stabilized-index-2\" and \"index-1\" only");
-  keys.tolerance(optional_key("local_error"), s.local_error,
-                 "Of generalized-alpha with stabilized-index-2 or index-1: what the local errors "
-                 "of each coordinate within one step may add up to, relative to its scale. Steps "
-                 "are halved until that holds; by default all steps are equal.");
+  keys.plain(optional_key("local_error"), s.local_error, Range::tolerance,
+             "Of generalized-alpha with stabilized-index-2 or index-1: what the local errors "
+             "of each coordinate within one step may add up to, relative to its scale. Steps "
+             "are halved until that holds; by default all steps are equal.");
   keys.must("smallest_step", s.local_error > 0.0, "is for a simulation with \"local_error\" only");
   keys.fixed(optional_key("smallest_step"), s.smallest_step, time_span,
              "To which halving with local_error may lead {}; default a 1024th of the step.");
@@ -71,9 +71,9 @@ void describe(Keys& keys, SimulationSettings& s) {
              {quantities::pure_number, Range::fraction},
              "Of the scheme at infinite frequency (not of implicit-euler, whose is 0), {}: 1 keeps "
              "all vibrations, 0 kills the fast ones.");
-  keys.tolerance(optional_key("newton_tolerance"), s.newton_tolerance,
-                 "A Newton iteration is the last one when the error left, relative to the scale of "
-                 "each coordinate, is estimated to be below this.");
+  keys.plain(optional_key("newton_tolerance"), s.newton_tolerance, Range::tolerance,
+             "A Newton iteration is the last one when the error left, relative to the scale of "
+             "each coordinate, is estimated to be below this.");
   keys.whole(optional_key("max_newton_iterations"), s.max_newton_iterations, iterations, "");
   keys.other(optional_key("initial_state"), "initial_state", "");
   keys.flag(optional_key("moves_by_bending"), s.moves_by_bending,
@@ -88,8 +88,8 @@ void describe(Keys& keys, SensitivitySettings& s) {
   keys.about("How gradients are computed.");
   keys.choice(optional_key("method"), s.method, gradient_methods,
               "auto: direct differentiation or the adjoint, whichever is faster.");
-  keys.tolerance(optional_key("difference_step"), s.difference_step,
-                 "Relative step of the differences of simulations.");
+  keys.plain(optional_key("difference_step"), s.difference_step, Range::tolerance,
+             "Relative step of the differences of simulations.");
   keys.choice(optional_key("invariant_derivatives"), s.invariants.derivatives,
               invariant_derivatives,
               "How the derivatives of the inertia integrals and stiffness of rigid bodies and "
@@ -98,8 +98,8 @@ void describe(Keys& keys, SensitivitySettings& s) {
   keys.must("invariant_step",
             made == InvariantDerivatives::central || made == InvariantDerivatives::forward,
             "is for the invariant derivatives \"central\" and \"forward\" only");
-  keys.tolerance(optional_key("invariant_step"), s.invariants.step,
-                 "Relative step of central and forward. Default 6e-6 and 1.5e-8.");
+  keys.plain(optional_key("invariant_step"), s.invariants.step, Range::tolerance,
+             "Relative step of central and forward. Default 6e-6 and 1.5e-8.");
   keys.fixed(optional_key("memory"), s.memory, {quantities::data, Range::positive},
              "What the states of a trajectory may take {}, such as \"512 MB\"; beyond that, "
              "stretches are simulated again. Default 4 GB, or a quarter of the memory of the "
@@ -129,8 +129,8 @@ void describe(Keys& keys, OptimizerSettings& s) {
             "nlopt-slsqp, nlopt-mma, nlopt-ccsaq, ipopt: this one alone. Default: nlopt-slsqp, and "
             "the others where it leads nowhere.");
   keys.other(optional_key("starts"), "starts", "");
-  keys.tolerance(optional_key("tolerance"), s.tolerance,
-                 "Relative, on the objective and the scaled variables.");
+  keys.plain(optional_key("tolerance"), s.tolerance, Range::tolerance,
+             "Relative, on the objective and the scaled variables.");
   keys.whole(optional_key("max_iterations"), s.max_iterations, iterations, "");
 }
 

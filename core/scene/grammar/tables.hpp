@@ -25,6 +25,8 @@ void describe(Keys& keys, GeneralStressPoint& point);
 
 void describe(Keys& keys, Material& material);
 void describe(Keys& keys, Damping& damping);
+/// @param materials  that there are
+void describe(Keys& keys, BeamBody& body, const std::vector<std::string>& materials);
 void describe(Keys& keys, RigidBody& body);
 void describe(Keys& keys, PointMass& body);
 void describe(Keys& keys, ImportedBody& body);
@@ -55,6 +57,8 @@ void describe(Keys& keys, RampToSpeedDrive& function, const Quantity& value);
 void describe(Keys& keys, HarmonicFunction& function, const Quantity& value);
 void describe(Keys& keys, RampFunction& function, const Quantity& value);
 void describe(Keys& keys, HalfSineFunction& function, const Quantity& value);
+/// The key "period" of what lasts for a time [s].
+void describe_period(Keys& keys, double& period, double least);
 
 // settings_keys.cpp
 

@@ -9,8 +9,6 @@
 namespace pleuel {
 namespace {
 
-constexpr int most_frames = 1000;
-
 Segment read_segment(const JsonNode& node, NumberReader& numbers) {
   Segment segment;
   read_keys(node, numbers, segment);
@@ -56,44 +54,27 @@ std::vector<Segment> read_segments(const JsonNode& node, NumberReader& numbers) 
 }
 
 /// Of general sections nobody knows how they shear.
-void read_shear(const JsonNode& node, BeamBody& beam) {
-  beam.has_shear = node.truth();
-  if (!beam.has_shear) return;
-  if (beam.is_rigid) node.fail("is not for a rigid beam");
+void check_shear(const JsonNode& node, const BeamBody& beam) {
   for (std::size_t i = 0; i < beam.segments.size(); ++i) {
     const auto* general = std::get_if<GeneralSection>(&beam.segments[i].section);
-    if (general == nullptr || general->shear_area_y) continue;
-    node.fail(fmt::format(
+    if (!beam.has_shear || general == nullptr || general->shear_area_y) continue;
+    node.at("shear").fail(fmt::format(
         "needs \"shear_area_y\" and \"shear_area_z\" [m^2] of sections of the type \"general\", "
         "which the section{} has not",
         beam.segments.size() > 1 ? fmt::format(" of segment {}", i) : ""));
   }
 }
 
-/// How the beam deforms: not at all, in all coordinates, or in few.
-void read_elasticity(const JsonNode& node, BeamBody& beam, NumberReader& numbers) {
-  const auto damping = node.find("damping"), reduction = node.find("reduction");
-  if (const auto rigid = node.find("rigid")) beam.is_rigid = rigid->truth();
-  if (beam.is_rigid && damping) damping->fail("is not for a rigid beam");
-  if (beam.is_rigid && reduction) reduction->fail("is not for a rigid beam");
-  if (damping) read_keys(*damping, numbers, beam.damping);
-  if (reduction) read_keys(*reduction, numbers, beam.reduction.emplace());
-  if (damping && damping->find("modal") && !reduction) {
+/// Damping that is stated for the motion against one frame changes its meaning with many.
+void check_damping(const JsonNode& node, const BeamBody& beam) {
+  const auto damping = node.find("damping");
+  if (!damping) return;
+  if (damping->find("modal") && !beam.reduction) {
     damping->at("modal").fail("is for beams with a \"reduction\" only");
   }
-  if (const auto shear = node.find("shear")) read_shear(*shear, beam);
-}
-
-/// Damping that is stated for the motion against one frame changes its meaning with many.
-void read_frames(const JsonNode& node, const JsonNode& body, BeamBody& beam) {
-  beam.frames = node.whole_number(1, most_frames);
-  if (beam.frames == 1) return;
-  if (beam.is_rigid) node.fail("is not for a rigid beam");
-  const auto damping = body.find("damping");
-  if (!damping) return;
   for (const char* key : {"mass", "modal"}) {
-    if (!damping->find(key)) continue;
-    node.fail(fmt::format(
+    if (beam.frames == 1 || !damping->find(key)) continue;
+    node.at("frames").fail(fmt::format(
         "cannot be more than 1 with \"{}\" damping, which acts on the motion against one frame; "
         "\"stiffness\" damping is the same for any number of frames",
         key));
@@ -116,22 +97,13 @@ OutsideHold read_outside_hold(const JsonNode& node, NumberReader& numbers) {
 
 BeamBody read_beam(const JsonNode& node, const std::vector<std::string>& materials,
                    NumberReader& numbers) {
-  node.allow_keys({"type", "from", "to", "material", "section", "elements", "segments", "frame",
-                   "frames", "damping", "reference", "rigid", "shear", "reduction", "velocity",
-                   "angular_velocity", "initial_deflections", "held"});
   BeamBody beam;
-  beam.from = numbers.triple(node.at("from"), quantities::length);
-  beam.to = numbers.triple(node.at("to"), quantities::length);
-  beam.material = read_known_name(node.at("material"), "material", materials);
+  read_keys(node, numbers, [&](Keys& keys) { describe(keys, beam, materials); },
+            {"type", "section", "elements", "segments", "velocity", "angular_velocity",
+             "initial_deflections", "held"});
   beam.segments = read_segments(node, numbers);
-  if (const auto frame = node.find("frame")) {
-    beam.frame = read_choice(*frame, reference_conditions);
-  }
-  read_elasticity(node, beam, numbers);
-  if (const auto frames = node.find("frames")) read_frames(*frames, node, beam);
-  if (const auto reference = node.find("reference")) {
-    beam.reference = numbers.direction(*reference);
-  }
+  check_shear(node, beam);
+  check_damping(node, beam);
   if (const auto held = node.find("held")) beam.held = read_outside_hold(*held, numbers);
   return beam;
 }

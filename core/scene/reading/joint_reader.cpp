@@ -1,28 +1,14 @@
 #include "core/scene/reading/joint_reader.hpp"
 
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "core/scene/reading/scene_reader.hpp"
 #include "core/scene/reading/suggestion.hpp"
 #include "core/scene/reading/time_function_reader.hpp"
-#include "core/scene/visit_numbers.hpp"
 
 namespace pleuel {
 
 namespace {
-
-/// Cosine of the angle between axes that are meant to be normal to each other: rounding.
-constexpr double normal_tolerance = 1e-9;
-
-void check_second_axis(const JsonNode& node, const NumberReader& numbers) {
-  const std::array<double, 3> a = numbers.unit_vector(node.at("axis"));
-  const std::array<double, 3> b = numbers.unit_vector(node.at("second_axis"));
-  if (std::abs(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) > normal_tolerance) {
-    node.at("second_axis").fail_with_value("must be normal to \"axis\"");
-  }
-}
 
 /// Those of a joint that a drive can prescribe: none, one, or for a cylindrical joint two.
 std::vector<DrivenCoordinate> drivable_coordinates(const JointKind& kind) {
@@ -41,13 +27,13 @@ void require(const JsonNode& node, const Joint& joint, const Predicate& has_it) 
     if (has_it(kind)) names.emplace_back(kind.word);
   }
   node.fail(fmt::format("needs a joint of the type {}, but \"{}\" is of the type \"{}\"",
-                        quoted_list(names, "or"), joint.name, name_of(joint.type)));
+                        quoted_list(names, "or"), joint.name, kind_of(joint.type).word));
 }
 
 Drive read_drive(const JsonNode& node, const Joint& joint, NumberReader& numbers) {
   require(node, joint, [](const JointKind& kind) { return !drivable_coordinates(kind).empty(); });
   const DrivenCoordinate coordinate = read_coordinate(node, joint);
-  return {read_drive_function(node, driven_quantity(coordinate), numbers), coordinate};
+  return {read_drive_function(node, along(coordinate).coordinate, numbers), coordinate};
 }
 
 }  // namespace
@@ -67,7 +53,6 @@ Joint read_joint(const std::string& name, const JsonNode& node,
   joint.type = read_row(node.at("type"), joint_kinds).type;
   read_keys(node, numbers, [&](Keys& keys) { describe(keys, joint); }, {"type"});
   joint.bodies = read_pair(node.at("bodies"), bodies);
-  if (kind_of(joint.type).has_second_axis()) check_second_axis(node, numbers);
   if (const auto drive = node.find("drive")) joint.drive = read_drive(*drive, joint, numbers);
   return joint;
 }
@@ -79,10 +64,6 @@ constexpr Choice<DrivenCoordinate> coordinates[] = {
 
 }  // namespace
 
-std::string name_of(JointType type) {
-  return std::string(kind_of(type).word);
-}
-
 DrivenCoordinate read_coordinate(const JsonNode& node, const Joint& joint) {
   const std::vector<DrivenCoordinate> possible = drivable_coordinates(kind_of(joint.type));
   const std::optional<JsonNode> key = node.find("coordinate");
@@ -92,7 +73,7 @@ DrivenCoordinate read_coordinate(const JsonNode& node, const Joint& joint) {
   if (possible.size() == 1 && chosen != possible.front()) {
     coordinate.fail_with_value(fmt::format("must be \"{}\" for a joint of the type \"{}\"",
                                            word_of(coordinates, possible.front()),
-                                           name_of(joint.type)));
+                                           kind_of(joint.type).word));
   }
   return chosen;
 }

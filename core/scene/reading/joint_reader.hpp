@@ -3,11 +3,8 @@
 #include "core/scene/joint_kind.hpp"
 #include "core/scene/reading/json_node.hpp"
 
-/// What the types of joints are called, and which of their coordinates a drive or load can act on.
+/// Which coordinates of a joint a drive or load can act on.
 namespace pleuel {
-
-/// As in a file: "point-on-line".
-std::string name_of(JointType type);
 
 /// The coordinate that a drive or load of this joint acts on: the one that the key "coordinate" of
 /// `node` says, which may be missing if there is only one. @throws InputError

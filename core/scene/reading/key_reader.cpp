@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "core/scene/reading/mistakes.hpp"
 #include "core/scene/reading/suggestion.hpp"
 
 namespace pleuel {
@@ -16,11 +15,6 @@ class WordList : public Keys {
   void each(const Key& key) override {
     if (std::ranges::find(words, key.word) == words.end()) words.push_back(key.word);
   }
-  bool gives(const Key& key, bool) override {
-    each(key);
-    return false;
-  }
-
   void refused(const char* word, const std::string& rule) override {
     refusals.emplace_back(word, rule);
   }
@@ -35,25 +29,32 @@ class KeyReader : public Keys {
   /// Both must outlive this.
   KeyReader(const JsonNode& node, NumberReader& numbers) : node_(node), numbers_(numbers) {}
 
-  void number(const Key& key, Number& member, const Measure& measure, std::string_view) override {
+  void number(const Key& key, KeyMember<Number> member, const Measure& measure,
+              std::string_view) override {
     if (const auto value = given(key)) {
-      member = numbers_.designable(*value, measure.quantity, measure.range);
+      member.get() = numbers_.designable(*value, measure.quantity, measure.range);
     }
   }
 
-  void fixed(const Key& key, Number& member, const Measure& measure,
+  void fixed(const Key& key, KeyMember<Number> member, const Measure& measure,
              std::string_view sentence) override {
     const auto value = given(key);
     if (!value) return;
     const bool is_path = value->value().is_object() && value->value().contains("path");
     if (is_path) return number(key, member, measure, sentence);
-    member = numbers_.fixed(*value, measure.quantity, measure.range);
+    member.get() = numbers_.fixed(*value, measure.quantity, measure.range);
   }
 
-  void fixed(const Key& key, double& member, const Measure& measure, std::string_view) override {
+  void fixed(const Key& key, KeyMember<double> member, const Measure& measure,
+             std::string_view) override {
     if (const auto value = given(key)) {
-      member = numbers_.fixed(*value, measure.quantity, measure.range);
+      member.get() = numbers_.fixed(*value, measure.quantity, measure.range);
     }
+  }
+
+  void whole(const Key& key, KeyMember<int> member, const WholeRange& range,
+             std::string_view) override {
+    if (const auto value = given(key)) member.get() = value->whole_number(range.least, range.most);
   }
 
   void plain(const Key& key, double& member, Range range, std::string_view) override {
@@ -61,14 +62,6 @@ class KeyReader : public Keys {
     if (!value) return;
     member = value->number();
     if (!is_within(range, member)) value->fail_with_value(rule_of(range, quantities::pure_number));
-  }
-
-  void whole(const Key& key, int& member, const WholeRange& range, std::string_view) override {
-    if (const auto value = given(key)) member = value->whole_number(range.least, range.most);
-  }
-
-  void tolerance(const Key& key, double& member, std::string_view) override {
-    if (const auto value = given(key)) member = read_tolerance(*value);
   }
 
   void flag(const Key& key, bool& member, std::string_view) override {
@@ -79,13 +72,14 @@ class KeyReader : public Keys {
     if (const auto value = given(key)) member = value->text();
   }
 
-  void point(const Key& key, std::array<Number, 3>& member, const Quantity& quantity,
+  void point(const Key& key, KeyMember<std::array<Number, 3>> member, const Quantity& quantity,
              std::string_view) override {
-    if (const auto value = given(key)) member = numbers_.triple(*value, quantity);
+    if (const auto value = given(key)) member.get() = numbers_.triple(*value, quantity);
   }
 
-  void direction(const Key& key, std::array<double, 3>& member, std::string_view) override {
-    if (const auto value = given(key)) member = numbers_.direction(*value);
+  void direction(const Key& key, KeyMember<std::array<double, 3>> member,
+                 std::string_view) override {
+    if (const auto value = given(key)) member.get() = numbers_.direction(*value);
   }
 
   void unit_vector(const Key& key, std::array<double, 3>& member, std::string_view) override {
@@ -113,13 +107,13 @@ class KeyReader : public Keys {
     vector = numbers_.unit_vector(*value);
   }
 
-  void place(const Key& key, double& member, std::string_view) override {
+  void place(const Key& key, KeyMember<double> member, std::string_view) override {
     const auto value = given(key);
     if (!value) return;
     if (!value->value().is_number() || !is_within(Range::fraction, value->number())) {
       value->fail_with_value("must be a place along the beam from 0 to 1");
     }
-    member = value->number();
+    member.get() = value->number();
   }
 
   void name(const Key& key, const char* kind, const std::vector<std::string>& known,
@@ -155,8 +149,7 @@ class KeyReader : public Keys {
     if (const auto value = given(key)) read_keys(*value, numbers_, table);
   }
 
-  void items(const Key& key, std::string_view item, std::size_t, const ItemTable& table,
-             std::string_view) override {
+  void items(const Key& key, const char* item, const ItemTable& table, std::string_view) override {
     const auto list = given(key);
     if (!list) return;
     const std::vector<JsonNode> nodes = list->items();
@@ -210,8 +203,6 @@ class KeyReader : public Keys {
     const auto value = node_.find(key);
     if (value && value->value() == word) value->fail_with_value(rule);
   }
-
-  bool gives(const Key& key, bool) override { return given(key).has_value(); }
 
  private:
   bool has(const char* word) const { return node_.find(word).has_value(); }

@@ -53,30 +53,28 @@ class ObjectSchema : public Keys {
 
   void about(std::string_view sentence) override { schema_["description"] = sentence; }
 
-  void number(const Key& key, Number& member, const Measure& measure,
+  void number(const Key& key, KeyMember<Number> member, const Measure& measure,
               std::string_view sentence) override {
-    add(key, reference("designable"), sentence, shown(member.constant), measure);
+    const std::string standard = member.has_default() ? shown(member.get().constant) : "";
+    add(key, reference("designable"), sentence, standard, measure);
   }
-  void fixed(const Key& key, Number&, const Measure& measure, std::string_view sentence) override {
+  void fixed(const Key& key, KeyMember<Number>, const Measure& measure,
+             std::string_view sentence) override {
     add(key, reference("quantity"), sentence, "", measure);
   }
-  void fixed(const Key& key, double& member, const Measure& measure,
+  void fixed(const Key& key, KeyMember<double> member, const Measure& measure,
              std::string_view sentence) override {
     const bool is_plain = measure.quantity == quantities::pure_number;
     add(key, is_plain ? limited({"number", "string"}, measure.range) : reference("quantity"),
-        sentence, shown(member), measure);
+        sentence, member.has_default() ? shown(member.get()) : "", measure);
+  }
+  void whole(const Key& key, KeyMember<int> member, const WholeRange& range,
+             std::string_view sentence) override {
+    add(key, {{"type", "integer"}, {"minimum", range.least}, {"maximum", range.most}}, sentence,
+        member.has_default() ? shown(member.get()) : "");
   }
   void plain(const Key& key, double& member, Range range, std::string_view sentence) override {
     add(key, limited("number", range), sentence, shown(member), {quantities::pure_number, range});
-  }
-  void whole(const Key& key, int& member, const WholeRange& range,
-             std::string_view sentence) override {
-    add(key, {{"type", "integer"}, {"minimum", range.least}, {"maximum", range.most}}, sentence,
-        shown(member));
-  }
-  void tolerance(const Key& key, double& member, std::string_view sentence) override {
-    add(key, {{"type", "number"}, {"exclusiveMinimum", 0}, {"exclusiveMaximum", 1}}, sentence,
-        shown(member));
   }
   void flag(const Key& key, bool& member, std::string_view sentence) override {
     add(key, {{"type", "boolean"}}, sentence, member ? "true" : "false");
@@ -84,11 +82,12 @@ class ObjectSchema : public Keys {
   void text(const Key& key, std::string& member, std::string_view sentence) override {
     add(key, reference("name"), sentence, member);
   }
-  void point(const Key& key, std::array<Number, 3>&, const Quantity& quantity,
+  void point(const Key& key, KeyMember<std::array<Number, 3>>, const Quantity& quantity,
              std::string_view sentence) override {
     add(key, reference("point"), sentence, "", {quantity});
   }
-  void direction(const Key& key, std::array<double, 3>&, std::string_view sentence) override {
+  void direction(const Key& key, KeyMember<std::array<double, 3>>,
+                 std::string_view sentence) override {
     add(key, reference("direction"), sentence);
   }
   void unit_vector(const Key& key, std::array<double, 3>&, std::string_view sentence) override {
@@ -104,7 +103,7 @@ class ObjectSchema : public Keys {
     const Json either = Json::array({{{"enum", words}}, reference("direction")});
     add(key, {{"anyOf", either}}, sentence);
   }
-  void place(const Key& key, double&, std::string_view sentence) override {
+  void place(const Key& key, KeyMember<double>, std::string_view sentence) override {
     add(key, reference("place"), sentence);
   }
   void name(const Key& key, const char*, const std::vector<std::string>&, std::string&,
@@ -124,7 +123,7 @@ class ObjectSchema : public Keys {
     table(inner);
     add(key, inner.take(), "");
   }
-  void items(const Key& key, std::string_view, std::size_t, const ItemTable& table,
+  void items(const Key& key, const char*, const ItemTable& table,
              std::string_view sentence) override {
     ObjectSchema item;
     table(0, item);
@@ -144,7 +143,6 @@ class ObjectSchema : public Keys {
   void needs_one(const char* word, Words others, const char*) override {
     rules_.push_back({{"if", one_of({word})}, {"then", one_of(others)}});
   }
-  bool gives(const Key&, bool) override { return true; }
 
  private:
   static Json one_of(Words words) {
@@ -167,9 +165,8 @@ class ObjectSchema : public Keys {
   void add(const Key& key, Json property, std::string_view sentence,
            const std::string& standard = "", const Measure& measure = {quantities::pure_number}) {
     const std::string word(key.word);
-    const bool has_default = !key.is_required && key.has_default;
     const std::string text =
-        description(std::string(sentence), measure, has_default ? standard : "");
+        description(std::string(sentence), measure, key.is_required ? "" : standard);
     if (!text.empty()) property["description"] = text;
     properties_[word] = std::move(property);
     if (key.is_required) required_.push_back(word);
@@ -193,70 +190,61 @@ Json of_type(std::string_view type, Json schema) {
           {"then", std::move(schema)}};
 }
 
-/// A definition of objects of several types.
-class TypedSchema {
- public:
-  /// @param definition  what else it says stays
-  explicit TypedSchema(Json& definition) : definition_(definition) {
-    definition_["type"] = "object";
-    definition_.erase("additionalProperties");
-  }
-  ~TypedSchema() {
-    definition_["properties"] = {{"type", definition_["properties"]["type"]}};
-    definition_["properties"]["type"]["enum"] = words_;
-    definition_["allOf"] = types_;
-  }
-  TypedSchema(const TypedSchema&) = delete;
-  TypedSchema& operator=(const TypedSchema&) = delete;
+/// Schemas of the types of an object.
+using TypedSchemas = std::vector<std::pair<std::string_view, Json>>;
 
-  /// Of objects without a type.
-  void keep(const Json& rule) { types_.push_back(rule); }
-  template <class Struct, class... Measures>
-  void add(std::string_view type, const Struct& object, const Measures&... measures) {
-    words_.push_back(type);
-    types_.push_back(of_type(type, schema_of(type, object, measures...)));
+/// Makes a definition one of objects of several types. What else it says stays.
+/// @param rules  of objects without a type
+void set_types(Json& definition, const TypedSchemas& types, Json rules = Json::array()) {
+  Json words = Json::array();
+  for (const auto& [type, schema] : types) {
+    words.push_back(type);
+    rules.push_back(of_type(type, schema));
   }
+  definition["type"] = "object";
+  definition.erase("additionalProperties");
+  definition["properties"] = {{"type", definition["properties"]["type"]}};
+  definition["properties"]["type"]["enum"] = words;
+  definition["allOf"] = rules;
+}
 
- private:
-  Json& definition_;
-  Json words_ = Json::array(), types_ = Json::array();
-};
-
-void take_sections(Json& section) {
-  const Json by_name = section["allOf"][0], by_variable = section["allOf"][1];
-  TypedSchema schema(section);
-  schema.keep(by_name);
-  schema.keep(by_variable);
-  for (const ObjectKind<Section>& kind : section_kinds()) schema.add(kind.word, kind.made);
+void take_sections(Json& definition) {
+  TypedSchemas types;
+  for (const ObjectKind<Section>& kind : section_kinds()) {
+    types.emplace_back(kind.word, schema_of(kind.word, kind.made));
+  }
+  const Json by_name = definition["allOf"][0], by_variable = definition["allOf"][1];
+  set_types(definition, types, Json::array({by_name, by_variable}));
 }
 
 void take_joints(Json& definition) {
-  definition["required"] = Json::array({"type"});
-  TypedSchema schema(definition);
+  TypedSchemas types;
   for (const JointKind& kind : joint_kinds) {
     Joint joint;
     joint.type = kind.type;
-    schema.add(kind.word, joint);
+    types.emplace_back(kind.word, schema_of(kind.word, joint));
   }
+  definition["required"] = Json::array({"type"});
+  set_types(definition, types);
 }
 
 void take_responses(Json& definition) {
   const Scene nothing;
   const ResponseScope scope{nothing, 1.0};
-  TypedSchema schema(definition);
+  TypedSchemas types;
   for (const ResponseKind& kind : response_kinds) {
     ResponseSettings response;
     response.type = kind.type;
-    schema.add(kind.word, response, scope);
+    types.emplace_back(kind.word, schema_of(kind.word, response, scope));
   }
+  set_types(definition, types);
 }
 
 void take_loads(Json& definition, const AlongCoordinate& either) {
-  TypedSchema schema(definition);
-  schema.add("force", PointLoad{LoadKind::force});
-  schema.add("torque", PointLoad{LoadKind::torque});
-  schema.add("spring", SpringDamper());
-  schema.add("joint", JointForce(), either);
+  set_types(definition, {{"force", schema_of("force", PointLoad{LoadKind::force})},
+                         {"torque", schema_of("torque", PointLoad{LoadKind::torque})},
+                         {"spring", schema_of("spring", SpringDamper())},
+                         {"joint", schema_of("joint", JointForce(), either)}});
 }
 
 /// An elastic body with what its motion begins with.

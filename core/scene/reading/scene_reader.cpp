@@ -8,25 +8,6 @@
 namespace pleuel {
 namespace {
 
-/// Yield and endurance come before fracture, where these are numbers.
-void check_strengths(const JsonNode& node, const Material& material) {
-  if (!material.ultimate_strength || material.ultimate_strength->is_bound()) return;
-  for (const auto& [key, strength] : {std::pair("strength", &material.strength),
-                                      std::pair("endurance_limit", &material.endurance_limit)}) {
-    if (!*strength || (*strength)->is_bound()) continue;
-    if ((*strength)->constant <= material.ultimate_strength->constant) continue;
-    node.at(key).fail_with_value("must not be more than the \"ultimate_strength\"");
-  }
-}
-
-Material read_material(const std::string& name, const JsonNode& node, NumberReader& numbers) {
-  Material material;
-  read_keys(node, numbers, material);
-  material.name = name;
-  check_strengths(node, material);
-  return material;
-}
-
 /// Those of the scene and those of the library that it does not replace.
 std::vector<std::string> material_names(const Scene& scene) {
   std::vector<std::string> names = names_of(scene.materials);
@@ -36,24 +17,12 @@ std::vector<std::string> material_names(const Scene& scene) {
   return names;
 }
 
-/// Of the library, what the bodies are made of.
-void add_library_materials(Scene& scene) {
-  for (const Material& material : material_library()) {
-    const bool is_used = std::ranges::any_of(scene.bodies, [&material](const Body& body) {
-      const auto* beam = std::get_if<BeamBody>(&body.shape);
-      return beam != nullptr && beam->material == material.name;
-    });
-    if (is_used && !find_named(scene.materials, material.name)) scene.materials.push_back(material);
-  }
-}
-
 void read_bodies(const JsonNode& node, Scene& scene, NumberReader& numbers) {
   const std::vector<std::string> materials = material_names(scene);
   read_each(node, [&](const std::string& name, const JsonNode& body) {
     if (name == ground_name) body.fail("has the name that is kept for the ground");
     scene.bodies.push_back(read_body(name, body, materials, numbers));
   });
-  add_library_materials(scene);
 }
 
 /// @param bodies  by whose names joints find them
@@ -68,7 +37,7 @@ void read_joints(const JsonNode& node, const JsonNode& bodies, Scene& scene,
 
 void read_materials(const JsonNode& node, Scene& scene, NumberReader& numbers) {
   read_each(node, [&](const std::string& name, const JsonNode& material) {
-    scene.materials.push_back(read_material(name, material, numbers));
+    read_keys(material, numbers, scene.materials.emplace_back(Material{name, {}, {}, {}}));
   });
 }
 

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "core/base/int_size.hpp"
-#include "core/base/machine_memory.hpp"
 #include "core/scene/reading/key_reader.hpp"
 #include "core/scene/reading/mistakes.hpp"
 #include "core/scene/reading/variable_reader.hpp"
@@ -17,18 +16,6 @@ namespace pleuel {
 namespace {
 
 constexpr int most_samples = 10000000;
-
-}  // namespace
-
-SensitivitySettings read_sensitivity(const JsonNode& node, NumberReader& numbers) {
-  SensitivitySettings settings;
-  settings.memory = default_memory();
-  read_keys(node, numbers, settings);
-  return settings;
-}
-
-namespace {
-
 constexpr int most_starts = 10000;
 
 /// The start of the variables, with those that the node names at other values.
@@ -73,8 +60,8 @@ namespace {
 std::vector<std::string> read_names(const JsonNode& node,
                                     const std::vector<ResponseSettings>& responses,
                                     const NumberReader& numbers) {
-  std::vector<std::string> known, names;
-  for (const ResponseSettings& response : responses) known.push_back(response.name);
+  const std::vector<std::string> known = names_of(responses);
+  std::vector<std::string> names;
   for (const JsonNode& item : node.items()) {
     if (numbers.leaves_out(item.text())) continue;
     names.push_back(read_known_name(item, "response", known));
@@ -90,7 +77,8 @@ AccuracySettings read_accuracy(const JsonNode& node, const std::vector<ResponseS
   AccuracySettings settings;
   // The older name was of the study only: it makes no verdict stricter.
   if (const auto error = node.find("error")) {
-    settings.target = std::max(settings.target, read_tolerance(*error));
+    const double given = numbers.fixed(*error, quantities::pure_number, Range::tolerance);
+    settings.target = std::max(settings.target, given);
   }
   if (const auto steps = node.find("steps")) {
     for (const JsonNode& step : steps->items()) {
@@ -109,10 +97,7 @@ AccuracySettings read_accuracy(const JsonNode& node, const std::vector<ResponseS
   }
   if (const auto target = node.find("target")) {
     settings.chooses_setting = true;
-    settings.target = numbers.fixed(*target, quantities::pure_number);
-    if (settings.target <= 0.0 || settings.target >= 1.0) {
-      target->fail_with_value("must be greater than 0 and less than 1");
-    }
+    settings.target = numbers.fixed(*target, quantities::pure_number, Range::tolerance);
   }
   return settings;
 }
@@ -233,10 +218,7 @@ SimulationSettings read_simulation(const JsonNode& node, NumberReader& numbers) 
 
 void check_effects(const JsonNode& node, const ProblemFile& problem) {
   const EffectSettings& effects = problem.effects;
-  const bool has_elastic_body = std::ranges::any_of(problem.scene.bodies, [](const Body& body) {
-    const auto* beam = std::get_if<BeamBody>(&body.shape);
-    return std::holds_alternative<ImportedBody>(body.shape) || (beam && !beam->is_rigid);
-  });
+  const bool has_elastic_body = std::ranges::any_of(problem.scene.bodies, is_elastic);
   const bool is_rigid = effects.elasticity == EffectChoice::off;
   for (const auto& [key, choice] :
        {std::pair("elasticity", effects.elasticity),
@@ -254,12 +236,6 @@ void check_effects(const JsonNode& node, const ProblemFile& problem) {
             "is \"on\", but /effects/axial_elasticity is \"off\": the axial force that stiffens "
             "comes from axial strain; leave out \"axial_elasticity\", or set it to \"on\"");
   }
-}
-
-EffectSettings read_effects(const JsonNode& node, NumberReader& numbers) {
-  EffectSettings effects;
-  read_keys(node, numbers, effects);
-  return effects;
 }
 
 }  // namespace pleuel

@@ -4,11 +4,8 @@
 #include "core/scene/reading/json_node.hpp"
 #include "core/scene/reading/number_reader.hpp"
 
-/// What is asked of a simulation: sensitivity, optimizer, accuracy, uncertainty. All throw
-/// InputError.
+/// What is asked of a simulation: optimizer, accuracy, uncertainty. All throw InputError.
 namespace pleuel {
-
-SensitivitySettings read_sensitivity(const JsonNode& node, NumberReader& numbers);
 
 /// Whether the backend is there is for the optimizer to say.
 OptimizerSettings read_optimizer(const JsonNode& node, const std::vector<DesignVariable>& variables,
@@ -22,11 +19,7 @@ UncertaintySettings read_uncertainty(const JsonNode& node, const NumberReader& n
 /// Times, scheme, formulation and start. @throws InputError
 SimulationSettings read_simulation(const JsonNode& node, NumberReader& numbers);
 
-// Which effects are simulated. Both throw InputError.
-
-EffectSettings read_effects(const JsonNode& node, NumberReader& numbers);
-
-/// What is asked for in so many words has to be possible with the bodies that there are.
+/// Effects that are asked for in so many words have to be possible with the bodies that there are.
 void check_effects(const JsonNode& node, const ProblemFile& problem);
 
 }  // namespace pleuel

@@ -19,7 +19,15 @@ constexpr std::size_t most_coefficients = 11;  // per_time() knows ten derivativ
 template <class Function>
 Function read_by_keys(const LawSource& source, NumberReader& numbers) {
   Function function;
-  source.read(numbers, function, source.value);
+  source.read(numbers, [&](Keys& keys) { describe(keys, function, source.value); });
+  return function;
+}
+
+/// The same of what acts along a coordinate.
+template <class Function>
+Function read_along(const LawSource& source, NumberReader& numbers) {
+  Function function;
+  source.read(numbers, [&](Keys& keys) { describe(keys, function, along(source.value)); });
   return function;
 }
 
@@ -42,48 +50,26 @@ PolynomialFunction read_polynomial(const LawSource& source, NumberReader& number
 
 // Laws that have a shape: steps, ramps, pulses.
 
-Number number_or(const LawSource& source, const char* key, double otherwise,
-                 NumberReader& numbers) {
-  const auto node = source.node.find(key);
-  return node ? numbers.designable(*node, source.value) : Number(otherwise);
-}
-
-/// A fixed time [s].
-double time_or(const LawSource& source, const char* key, double otherwise, Range range,
-               const NumberReader& numbers) {
-  const auto node = source.node.find(key);
-  return node ? numbers.fixed(*node, quantities::time, range) : otherwise;
-}
-
-/// A duration that a drive must have: it cannot move in no time.
-double duration_of_drive(const LawSource& source, const char* key, const NumberReader& numbers) {
-  if (source.purpose == LawPurpose::drive) {
-    return numbers.fixed(source.node.at(key), quantities::time, Range::positive);
-  }
-  return time_or(source, key, 0.0, Range::not_negative, numbers);
-}
-
-/// @param longest  what it must be at least [s]
-double read_period(const LawSource& source, double longest, const NumberReader& numbers) {
-  const auto node = source.node.find("period");
-  if (!node) return 0.0;
-  const double period = numbers.fixed(*node, quantities::time, Range::positive);
-  if (period < longest * (1.0 - 1e-9)) {
-    node->fail_with_value(
-        fmt::format("must be at least as long as what is repeated, {:g} s", longest));
-  }
-  return period;
+/// A duration [s] that a drive must have: it cannot move in no time.
+void duration_of_drive(Keys& keys, const char* word, const LawSource& source, double& duration) {
+  const bool is_drive = source.purpose == LawPurpose::drive;
+  const Range range = is_drive ? Range::positive : Range::not_negative;
+  keys.fixed({word, is_drive}, duration, {quantities::time, range}, "");
 }
 
 /// From one value to another at a time; with "rise" by a quintic without rate and acceleration at
 /// its ends, which drives need.
 TableFunction read_step(const LawSource& source, NumberReader& numbers) {
-  source.allow_keys({"from", "to", "time", "rise"});
   TableFunction table;
-  table.values = {number_or(source, "from", 0.0, numbers),
-                  numbers.designable(source.node.at("to"), source.value)};
-  const double time = time_or(source, "time", 0.0, Range::any, numbers);
-  const double rise = duration_of_drive(source, "rise", numbers);
+  Number from = 0.0, to;
+  double time = 0.0, rise = 0.0;
+  source.read(numbers, [&](Keys& keys) {
+    keys.number(optional_key("from"), from, {source.value}, "");
+    keys.number("to", to, {source.value}, "");
+    keys.fixed(optional_key("time"), time, {quantities::time}, "");
+    duration_of_drive(keys, "rise", source, rise);
+  });
+  table.values = {from, to};
   table.interpolation = rise > 0.0 ? Interpolation::resting : Interpolation::step;
   table.times = {time, time + rise};
   // Of a jump the first point only says what was before.
@@ -94,42 +80,41 @@ TableFunction read_step(const LawSource& source, NumberReader& numbers) {
 /// With "rounding" twice differentiable, which drives need.
 RampFunction read_ramp(const LawSource& source, NumberReader& numbers) {
   RampFunction ramp;
-  source.read(numbers, ramp, source.value);
-  ramp.rounding = duration_of_drive(source, "rounding", numbers);
-  const double most = 0.5 * (ramp.end - ramp.begin);
-  if (ramp.rounding > most * (1.0 + 1e-9)) {
-    source.node.at("rounding")
-        .fail_with_value(fmt::format("must be at most half of the duration, {:g} s", most));
-  }
+  source.read(numbers, [&](Keys& keys) {
+    describe(keys, ramp, source.value);
+    duration_of_drive(keys, "rounding", source, ramp.rounding);
+    const double most = 0.5 * (ramp.end - ramp.begin);
+    keys.must("rounding", ramp.rounding <= most * (1.0 + 1e-9),
+              fmt::format("must be at most half of the duration, {:g} s", most),
+              Shown::rule_and_value);
+  });
   return ramp;
 }
 
-HalfSineFunction read_half_sine(const LawSource& source, NumberReader& numbers) {
-  HalfSineFunction wave;
-  source.read(numbers, wave, source.value);
-  wave.period = read_period(source, wave.duration, numbers);
-  return wave;
-}
+constexpr Choice<Interpolation> flanks[] = {{"straight", Interpolation::linear},
+                                            {"smooth", Interpolation::resting}};
 
 /// Up, a hold, and down. Flanks are straight, or quintics as those of a step, which drives need.
 TableFunction read_trapezoid(const LawSource& source, NumberReader& numbers) {
-  source.allow_keys({"value", "base", "begin", "rise", "hold", "fall", "flanks", "period"});
+  constexpr Measure flank = {quantities::time, Range::positive};
   const bool is_drive = source.purpose == LawPurpose::drive;
-  const Number base = number_or(source, "base", 0.0, numbers);
-  const Number value = numbers.designable(source.node.at("value"), source.value);
-  const double begin = time_or(source, "begin", 0.0, Range::any, numbers);
-  const double rise = numbers.fixed(source.node.at("rise"), quantities::time, Range::positive);
-  const double hold = time_or(source, "hold", 0.0, Range::not_negative, numbers);
-  const double fall = time_or(source, "fall", rise, Range::positive, numbers);
   TableFunction table;
   table.interpolation = is_drive ? Interpolation::resting : Interpolation::linear;
-  if (const auto flanks = source.node.find("flanks")) {
-    table.interpolation = read_choice<Interpolation>(
-        *flanks, {{"straight", Interpolation::linear}, {"smooth", Interpolation::resting}});
-    if (is_drive && table.interpolation == Interpolation::linear) {
-      flanks->fail_with_value("must be \"smooth\" of a drive, whose speed would jump");
-    }
-  }
+  Number base = 0.0, value;
+  double begin = 0.0, rise = 0.0, hold = 0.0, fall = 0.0, period = 0.0;
+  source.read(numbers, [&](Keys& keys) {
+    keys.number(optional_key("base"), base, {source.value}, "");
+    keys.number("value", value, {source.value}, "");
+    keys.fixed(optional_key("begin"), begin, {quantities::time}, "");
+    keys.fixed("rise", rise, flank, "");
+    keys.fixed(optional_key("hold"), hold, {quantities::time, Range::not_negative}, "");
+    fall = rise;
+    keys.fixed(optional_key("fall"), fall, flank, "");
+    keys.choice(optional_key("flanks"), table.interpolation, flanks, "");
+    keys.must("flanks", !is_drive || table.interpolation == Interpolation::resting,
+              "must be \"smooth\" of a drive, whose speed would jump", Shown::rule_and_value);
+    describe_period(keys, period, rise + hold + fall);
+  });
   table.times = {begin, begin + rise};
   table.values = {base, value};
   const auto add = [&](double duration, const Number& number) {
@@ -138,8 +123,8 @@ TableFunction read_trapezoid(const LawSource& source, NumberReader& numbers) {
   };
   if (hold > 0.0) add(hold, value);
   add(fall, base);
-  const double duration = rise + hold + fall, period = read_period(source, duration, numbers);
   if (period == 0.0) return table;
+  const double duration = rise + hold + fall;
   table.repetition = Repetition::periodic;
   if (period > duration * (1.0 + 1e-9)) add(period - duration, base);
   return table;
@@ -196,26 +181,6 @@ TimeFunction read_expression_object(const LawSource& source, NumberReader& numbe
   return read_expression_law(value, source, numbers);
 }
 
-// Laws of springs and dampers.
-
-ClearanceLaw read_clearance(const LawSource& source, NumberReader& numbers) {
-  constexpr double never = 1e30;
-  const auto lower = source.node.find("lower"), upper = source.node.find("upper");
-  ClearanceLaw law{-never, never, {}, {}};
-  source.read(numbers, law, along(source.value));
-  if (lower && upper && !law.lower.is_bound() && !law.upper.is_bound() &&
-      law.lower.constant > law.upper.constant) {
-    upper->fail_with_value("must not be less than \"lower\"");
-  }
-  return law;
-}
-
-FrictionLaw read_friction(const LawSource& source, NumberReader& numbers) {
-  FrictionLaw law;
-  source.read(numbers, law, along(source.value));
-  return law;
-}
-
 struct LawKind {
   enum Use : unsigned { motion = 1, load = 2, resistance = 4 };
 
@@ -236,11 +201,11 @@ TimeFunction read_law(const LawSource& source, NumberReader& numbers, LawKind::U
       {"table", motion | load | resistance, read_table_law},
       {"step", motion | load, read_step},
       {"ramp", motion | load, read_ramp},
-      {"half-sine", load, read_half_sine},
+      {"half-sine", load, read_by_keys<HalfSineFunction>},
       {"trapezoid", motion | load, read_trapezoid},
       {"expression", motion | load | resistance, read_expression_object},
-      {"friction", resistance, read_friction},
-      {"clearance", resistance, read_clearance}};
+      {"friction", resistance, read_along<FrictionLaw>},
+      {"clearance", resistance, read_along<ClearanceLaw>}};
   std::vector<LawKind> for_use;
   std::ranges::copy_if(kinds, std::back_inserter(for_use),
                        [use](const LawKind& kind) { return (kind.uses & use) != 0; });

@@ -34,13 +34,11 @@ struct LawSource {
     node.allow_keys(keys);
   }
 
-  /// Reads a function by its table of keys.
-  template <class Function, class Measures>
-  void read(NumberReader& numbers, Function& function, const Measures& measures) const {
+  /// Reads by a table of keys.
+  void read(NumberReader& numbers, const Keys::Table& table) const {
     std::vector<std::string_view> others = other_keys;
     others.push_back("type");
-    read_keys(
-        node, numbers, [&](Keys& keys) { describe(keys, function, measures); }, others);
+    read_keys(node, numbers, table, others);
   }
 };
 

@@ -41,7 +41,7 @@ TEST(ResolvedSection, DependsOnItsVariablesAndOnNoOthers) {
   for (const Section& section : bound_sections()) {
     SCOPED_TRACE(section.index());
     std::set<int> bound;
-    visit_numbers(section, [&](const Number& number, const Quantity&) {
+    visit_numbers(section, [&](const Number& number) {
       if (number.is_bound()) bound.insert(number.variable);
     });
     for (int i = 0; i < static_cast<int>(design.size()); ++i) {
