@@ -292,45 +292,8 @@ Json with_tables(Json schema) {
   return schema;
 }
 
-namespace {
-
-std::string line_of(const Json& value) {
-  std::string text;
-  if (value.is_object()) {
-    for (const auto& [key, member] : value.items()) {
-      text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", Json(key).dump(), line_of(member));
-    }
-    return "{" + text + "}";
-  }
-  if (!value.is_array()) return value.dump();
-  for (const Json& item : value) text += (text.empty() ? "" : ", ") + line_of(item);
-  return "[" + text + "]";
-}
-
-void add_lines(const Json& value, std::size_t depth, std::size_t used, std::string& text) {
-  constexpr std::size_t widest = 120;
-  const std::string line = line_of(value), indent(2 * depth + 2, ' ');
-  if (used + line.size() <= widest || !value.is_structured() || value.empty()) {
-    text += line;
-    return;
-  }
-  const char* separator = "\n";
-  text += value.is_object() ? '{' : '[';
-  for (const auto& [key, member] : value.items()) {
-    const std::string begin = value.is_object() ? Json(key).dump() + ": " : "";
-    text += separator + indent + begin;
-    add_lines(member, depth + 1, indent.size() + begin.size(), text);
-    separator = ",\n";
-  }
-  text += "\n" + std::string(2 * depth, ' ') + (value.is_object() ? '}' : ']');
-}
-
-}  // namespace
-
 std::string schema_text(const Json& schema) {
-  std::string text;
-  add_lines(schema, 0, 0, text);
-  return text + "\n";
+  return schema.dump(2) + "\n";
 }
 
 }  // namespace pleuel

@@ -8,7 +8,7 @@ namespace pleuel {
 /// The schema with the definitions of all objects that have tables; others stay as they are.
 Json with_tables(Json schema);
 
-/// As text for readers: what fits into a line stands in one.
+/// As text for readers.
 std::string schema_text(const Json& schema);
 
 }  // namespace pleuel
