@@ -103,8 +103,8 @@ TableFunction read_trapezoid(const LawSource& source, NumberReader& numbers) {
   Number base = 0.0, value;
   double begin = 0.0, rise = 0.0, hold = 0.0, fall = 0.0, period = 0.0;
   source.read(numbers, [&](Keys& keys) {
-    keys.number(optional_key("base"), base, {source.value}, "");
     keys.number("value", value, {source.value}, "");
+    keys.number(optional_key("base"), base, {source.value}, "");
     keys.fixed(optional_key("begin"), begin, {quantities::time}, "");
     keys.fixed("rise", rise, flank, "");
     keys.fixed(optional_key("hold"), hold, {quantities::time, Range::not_negative}, "");

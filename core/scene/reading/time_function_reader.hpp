@@ -36,8 +36,8 @@ struct LawSource {
 
   /// Reads by a table of keys.
   void read(NumberReader& numbers, const Keys::Table& table) const {
-    std::vector<std::string_view> others = other_keys;
-    others.push_back("type");
+    std::vector<std::string_view> others = {"type"};
+    others.insert(others.end(), other_keys.begin(), other_keys.end());
     read_keys(node, numbers, table, others);
   }
 };
