@@ -70,20 +70,8 @@ std::string bytes_of(const double* values, Eigen::Index count) {
   return {reinterpret_cast<const char*>(values), static_cast<std::size_t>(count) * sizeof(double)};
 }
 
-std::string request_name(Request request) {
-  return request == Request::values ? "values" : "gradients";
-}
-
 Request request_of(const std::string& name) {
   return name == "values" ? Request::values : Request::values_and_gradients;
-}
-
-Purpose purpose_of(const std::string& name) {
-  for (const Purpose purpose :
-       {Purpose::search, Purpose::polish, Purpose::restoration, Purpose::audit, Purpose::trial}) {
-    if (to_string(purpose) == name) return purpose;
-  }
-  throw DatabaseError(fmt::format("there is no purpose \"{}\"", name));
 }
 
 /// What is no number is NULL there.
@@ -171,29 +159,19 @@ bool is_same(const Eigen::VectorXd& one, const Eigen::VectorXd& other) {
            round_off * std::max(one.lpNorm<Eigen::Infinity>(), other.lpNorm<Eigen::Infinity>()));
 }
 
-bool is_same(double one, double other) {
-  return is_same(Eigen::VectorXd::Constant(1, one), Eigen::VectorXd::Constant(1, other));
-}
-
 /// Number by number, and gradients as changes by relative changes of the variables.
-bool is_same(const Evaluation& one, const Evaluation& other, const Eigen::VectorXd& x) {
-  if (one.constraints.size() != other.constraints.size() ||
-      one.constraint_jacobian.rows() != other.constraint_jacobian.rows() ||
-      one.objective_gradient.size() != other.objective_gradient.size()) {
-    return false;
+std::vector<Eigen::VectorXd> parts_of(const Evaluation& evaluation, const Eigen::VectorXd& x) {
+  std::vector<Eigen::VectorXd> parts = {Eigen::VectorXd::Constant(1, evaluation.objective)};
+  for (const double value : evaluation.constraints) {
+    parts.push_back(Eigen::VectorXd::Constant(1, value));
   }
-  bool is_all = is_same(one.objective, other.objective);
-  for (Eigen::Index i = 0; i < one.constraints.size(); ++i) {
-    is_all = is_all && is_same(one.constraints(i), other.constraints(i));
-  }
-  if (!one.has_gradients()) return is_all;
+  if (!evaluation.has_gradients()) return parts;
   const Eigen::VectorXd size = x.unaryExpr([](double v) { return v == 0.0 ? 1.0 : v; });
-  for (Eigen::Index i = 0; i < one.constraint_jacobian.rows(); ++i) {
-    is_all = is_all && is_same(one.constraint_jacobian.row(i).transpose().cwiseProduct(size),
-                               other.constraint_jacobian.row(i).transpose().cwiseProduct(size));
+  parts.push_back(evaluation.objective_gradient.cwiseProduct(size));
+  for (const auto& row : evaluation.constraint_jacobian.rowwise()) {
+    parts.push_back(row.transpose().cwiseProduct(size));
   }
-  return is_all && is_same(one.objective_gradient.cwiseProduct(size),
-                           other.objective_gradient.cwiseProduct(size));
+  return parts;
 }
 
 void prepare(Database& database) {
@@ -214,6 +192,10 @@ void prepare(Database& database) {
 }
 
 }  // namespace
+
+std::string request_name(Request request) {
+  return request == Request::values ? "values" : "gradients";
+}
 
 std::string bytes_of(const Eigen::VectorXd& values) {
   return bytes_of(values.data(), values.size());
@@ -329,8 +311,10 @@ void RunDatabase::keep(const EvaluationKey& key, const StoredEvaluation& stored)
 
 void RunDatabase::confirm(const EvaluationKey& key, const StoredEvaluation& again) {
   const auto known = find(key);
-  const bool is_confirmed = known && known->failure.empty() == again.failure.empty() &&
-                            is_same(known->evaluation, as_stored(again).evaluation, key.x);
+  const bool is_confirmed =
+      known && known->failure.empty() == again.failure.empty() &&
+      std::ranges::equal(parts_of(known->evaluation, key.x),
+                         parts_of(as_stored(again).evaluation, key.x), is_same);
   if (is_confirmed) return;
   throw InputError(fmt::format(
       "{}: row {} of the table evaluations is not what this program computes for its design: the "
@@ -359,29 +343,6 @@ void RunDatabase::add(const EvaluationRecord& record) {
   }
   row.bind(11, record.step).bind(12, record.time_step).bind(13, std::int64_t{record.elements});
   row.run();
-}
-
-void RunDatabase::read_history(const std::function<void(const EvaluationRecord&)>& see) const {
-  Statement row(database_, "SELECT * FROM history ORDER BY evaluation");
-  while (row.step()) {
-    EvaluationRecord record;
-    record.evaluation = static_cast<int>(row.integer(0));
-    record.iteration = static_cast<int>(row.integer(1));
-    record.purpose = purpose_of(row.text(2));
-    record.request = request_of(row.text(3));
-    record.seconds = row.number(4);
-    record.x = vector_of(row.blob(5));
-    record.failure = row.text(6);
-    if (!record.has_failed()) {
-      record.objective = number_or_nan(row, 7);
-      record.constraints = vector_of(row.blob(8));
-      record.max_violation = number_or_nan(row, 9);
-    }
-    record.step = row.number(10);
-    record.time_step = row.number(11);
-    record.elements = static_cast<int>(row.integer(12));
-    see(record);
-  }
 }
 
 std::int64_t RunDatabase::setting_number(const std::string& text) {

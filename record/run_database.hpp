@@ -56,8 +56,6 @@ class RunDatabase : public EvaluationStore {
   /// The way of the search, from the beginning.
   void clear_history();
   void add(const EvaluationRecord& record);
-  /// Calls see() with the evaluations of the way, in their order.
-  void read_history(const std::function<void(const EvaluationRecord&)>& see) const;
 
  private:
   std::int64_t setting_number(const std::string& text);
@@ -71,6 +69,9 @@ class RunDatabase : public EvaluationStore {
 
 /// What to do with a record that is refused.
 inline constexpr const char* begin_anew = "--overwrite begins anew, another folder keeps it";
+
+/// "values" or "gradients"
+std::string request_name(Request request);
 
 /// Doubles as bytes, and back.
 std::string bytes_of(const Eigen::VectorXd& values);

@@ -267,7 +267,7 @@ std::string command_again(const RunRecord& record, const Arguments& arguments,
 void write_failed_design(RunRecord& record, const Arguments& arguments, const ProblemFile& problem,
                          const EvaluationRecord& failed) {
   record.write(dossier_name, {{"evaluation", failed.evaluation},
-                              {"request", to_string(failed.request)},
+                              {"request", request_name(failed.request)},
                               {"failure", failed.failure},
                               {"command", command_again(record, arguments, problem, failed)},
                               {"variables", variables_document(problem, failed.x)}});

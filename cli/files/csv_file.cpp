@@ -5,6 +5,7 @@
 #include "cli/text/csv_table.hpp"
 #include "core/base/error.hpp"
 #include "core/response/history_reduction.hpp"
+#include "record/run_database.hpp"
 #include "sensitivity/gradients.hpp"
 
 namespace pleuel {
@@ -70,10 +71,6 @@ void write_histories(const ResultFile& file, const Eigen::VectorXd& time,
   }
 }
 
-std::string to_string(Request request) {
-  return request == Request::values ? "values" : "gradients";
-}
-
 HistoryCsv::HistoryCsv(const ResultFile& file, const DesignProblem& problem)
     : constraints_(problem.constraints().size()),
       objective_sign_(problem.objective_sign()),
@@ -85,7 +82,7 @@ void HistoryCsv::add(const EvaluationRecord& record) {
                       record.iteration,
                       record.seconds,
                       to_string(record.purpose),
-                      to_string(record.request),
+                      request_name(record.request),
                       known(record.max_violation),
                       record.step,
                       known(objective_sign_ * record.objective)};

@@ -51,9 +51,6 @@ class DocumentCsv {
 void write_histories(const ResultFile& file, const Eigen::VectorXd& time,
                      const std::vector<std::pair<std::string, Eigen::VectorXd>>& columns);
 
-/// "values" or "gradients"
-std::string to_string(Request request);
-
 /// history.csv: a line for every evaluation as it happens [SI].
 class HistoryCsv {
  public:

@@ -125,19 +125,22 @@ TEST_F(Record, KeepsTheWayOfTheSearchInItsOrder) {
   record.constraints = Eigen::VectorXd::Constant(1, 1.0 / 3.0);
   record.purpose = Purpose::restoration;
   record.elements = 8;
-  History seen;
   RunDatabase database(file());
   for (const int number : {2, 1}) {
     record.evaluation = number;
     record.failure = number == 2 ? "locks" : "";
     database.add(record);
   }
-  database.read_history([&](const EvaluationRecord& one) { seen.push_back(one); });
-  ASSERT_EQ(seen.size(), 2u);
-  EXPECT_EQ(seen[0].constraints, record.constraints);
-  EXPECT_EQ(seen[0].purpose, Purpose::restoration);
-  EXPECT_EQ(seen[0].elements, 8);
-  EXPECT_EQ(seen[1].failure, "locks");
+  Database written(file());
+  Statement row(written,
+                "SELECT constraints, purpose, elements, failure FROM history ORDER BY evaluation");
+  ASSERT_TRUE(row.step());
+  EXPECT_EQ(vector_of(row.blob(0)), record.constraints);
+  EXPECT_EQ(row.text(1), "restoration");
+  EXPECT_EQ(row.integer(2), 8);
+  ASSERT_TRUE(row.step());
+  EXPECT_EQ(row.text(3), "locks");
+  EXPECT_FALSE(row.step());
 }
 
 TEST_F(Record, RefusesFilesOfAnotherKind) {
