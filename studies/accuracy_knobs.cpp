@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/model/effect_decisions.hpp"
+#include "core/scene/grammar/tables.hpp"
 #include "core/scene/reading/json_text.hpp"
 
 namespace pleuel {
@@ -18,33 +19,73 @@ constexpr double pi = 3.14159265358979323846;
 /// Steps that follow the local error begin with so many times the step of the problem.
 constexpr double longer = 4.0;
 
-Variation make_formulation(const char* name, const char* key, Formulation formulation) {
-  return {"formulation",
-          name,
-          {{"/simulation/formulation", std::string(key)},
-           {"/simulation/projection", formulation.is_projected}},
-          [=](ProblemFile& problem) { problem.simulation.formulation = formulation; }};
+/// Puts a value into the member that a key of a table fills.
+class MemberSetter : public Keys {
+ public:
+  MemberSetter(std::string word, const Override& one) : word_(std::move(word)), value_(one.value) {}
+
+  using Keys::fixed;
+  void fixed(const Key& key, KeyMember<double> member, const Measure&, std::string_view) override {
+    set(key, member);
+  }
+  void plain(const Key& key, double& member, Range, std::string_view) override {
+    set<double>(key, member);
+  }
+  void whole(const Key& key, KeyMember<int> member, const WholeRange&, std::string_view) override {
+    set(key, member);
+  }
+  void flag(const Key& key, bool& member, std::string_view) override { set<bool>(key, member); }
+  void chosen(const Key& key, std::size_t& index, const std::vector<std::string_view>& words,
+              std::string_view) override {
+    if (key.word != word_) return;
+    index = std::ranges::find(words, std::get<std::string>(value_)) - words.begin();
+  }
+
+ private:
+  template <class Value>
+  void set(const Key& key, KeyMember<Value> member) const {
+    if (key.word == word_) member.get() = std::get<Value>(value_);
+  }
+
+  std::string word_;
+  const decltype(Override::value)& value_;
+};
+
+std::string reduction_of(const Body& body) {
+  return child_pointer("/scene/bodies", body.name) + "/reduction";
 }
 
-Variation make_index_3() {
-  return make_formulation("index-3", "index-3", {ConstraintForm::index_3});
+void set(const Override& one, ProblemFile& problem) {
+  const std::size_t end = one.pointer.rfind('/');
+  const std::string object = one.pointer.substr(0, end), word = one.pointer.substr(end + 1);
+  MemberSetter setter(word, one);
+  if (word == "formulation") problem.simulation.formulation = {};
+  if (object == "/simulation") describe(setter, problem.simulation);
+  if (object == "/effects") describe(setter, problem.effects);
+  if (object == "/scene/gravity")
+    problem.scene.gravity[std::stoi(word)] = std::get<double>(one.value);
+  for (Body& body : problem.scene.bodies) {
+    auto* beam = std::get_if<BeamBody>(&body.shape);
+    const bool is_reduced = beam != nullptr && beam->reduction;
+    if (is_reduced && object == reduction_of(body)) describe(setter, *beam->reduction);
+  }
 }
 
-Variation make_stabilized() {
-  return make_formulation("stabilized-index-2", "stabilized-index-2",
-                          {ConstraintForm::stabilized_index_2});
+Variation make_formulation(const char* name, const char* key, bool is_projected = false) {
+  return {
+      "formulation",
+      name,
+      {{"/simulation/formulation", std::string(key)}, {"/simulation/projection", is_projected}}};
 }
-
-Variation make_projected() {
-  return make_formulation("index-1 with projection", "index-1",
-                          {ConstraintForm::index_1, 0.0, true});
-}
+const Variation index_3 = make_formulation("index-3", "index-3");
+const Variation stabilized = make_formulation("stabilized-index-2", "stabilized-index-2");
+const Variation plain = make_formulation("index-1", "index-1");
+const Variation projected = make_formulation("index-1 with projection", "index-1", true);
 
 void add_formulations(const ProblemFile& problem, std::vector<Variation>& all) {
   const SimulationSettings& settings = problem.simulation;
   if (settings.formulation.baumgarte > 0.0) return;
-  const Variation plain = make_formulation("index-1", "index-1", {ConstraintForm::index_1});
-  for (const Variation& one : {make_index_3(), make_stabilized(), plain, make_projected()}) {
+  for (const Variation& one : {index_3, stabilized, plain, projected}) {
     const Formulation other = one.of(problem).simulation.formulation;
     const bool fits = settings.local_error == 0.0 || other.constraints != ConstraintForm::index_3;
     const bool is_same = other.constraints == settings.formulation.constraints &&
@@ -54,12 +95,8 @@ void add_formulations(const ProblemFile& problem, std::vector<Variation>& all) {
 }
 
 /// Another value of a number in /simulation.
-Variation make_number_change(const std::string& key, double SimulationSettings::*number,
-                             double value) {
-  return {
-      key, fmt::format("{:g}", value), {{"/simulation/" + key, value}}, [=](ProblemFile& problem) {
-        problem.simulation.*number = value;
-      }};
+Variation make_number_change(const std::string& key, double value) {
+  return {key, fmt::format("{:g}", value), {{"/simulation/" + key, value}}};
 }
 
 void add_schemes(const ProblemFile& problem, std::vector<Variation>& all) {
@@ -72,11 +109,7 @@ void add_schemes(const ProblemFile& problem, std::vector<Variation>& all) {
     all.push_back(
         {"scheme",
          name,
-         {{"/simulation/scheme", std::string(name)}, {"/simulation/spectral_radius", radius}},
-         [=](ProblemFile& changed) {
-           changed.simulation.scheme = type;
-           changed.simulation.spectral_radius = radius;
-         }});
+         {{"/simulation/scheme", std::string(name)}, {"/simulation/spectral_radius", radius}}});
   };
   add("generalized-alpha", SchemeType::generalized_alpha, 0.8);
   add("newmark", SchemeType::newmark, is_index_3 ? own : 1.0);
@@ -84,8 +117,7 @@ void add_schemes(const ProblemFile& problem, std::vector<Variation>& all) {
   if (settings.scheme != SchemeType::generalized_alpha) return;
   for (const double radius : {0.0, 0.5, 0.8, 0.9}) {
     if (std::abs(radius - own) < 0.05) continue;
-    all.push_back(
-        make_number_change("spectral_radius", &SimulationSettings::spectral_radius, radius));
+    all.push_back(make_number_change("spectral_radius", radius));
   }
 }
 
@@ -93,29 +125,19 @@ void add_newton_tolerances(const ProblemFile& problem, std::vector<Variation>& a
   for (const double tolerance : {1e-6, 1e-8, 1e-10}) {
     const double ratio = tolerance / problem.simulation.newton_tolerance;
     if (ratio > 0.2 && ratio < 5.0) continue;
-    all.push_back(
-        make_number_change("newton_tolerance", &SimulationSettings::newton_tolerance, tolerance));
+    all.push_back(make_number_change("newton_tolerance", tolerance));
   }
 }
 
 /// Steps that follow the local error, in a formulation that allows it.
 Variation make_step_control(const ProblemFile& problem, double error) {
-  const bool is_new = problem.simulation.local_error == 0.0;
-  const double step = problem.simulation.step * (is_new ? longer : 1.0);
-  Variation control = make_stabilized();
-  control.knob = "local_error";
-  control.value = fmt::format("{:g}", error);
-  const bool changes_formulation =
-      problem.simulation.formulation.constraints == ConstraintForm::index_3;
-  if (!changes_formulation) control.overrides.clear();
-  if (is_new) control.overrides.push_back({"/simulation/step", step});
-  control.overrides.push_back({"/simulation/local_error", error});
-  control.change = [=](ProblemFile& changed) {
-    SimulationSettings& settings = changed.simulation;
-    if (changes_formulation) settings.formulation = {ConstraintForm::stabilized_index_2};
-    settings.step = step;
-    settings.local_error = error;
+  const SimulationSettings& settings = problem.simulation;
+  Variation control = make_number_change("local_error", error);
+  const auto prepend = [&](const std::vector<Override>& before) {
+    control.overrides.insert(control.overrides.begin(), before.begin(), before.end());
   };
+  if (settings.local_error == 0.0) prepend({{"/simulation/step", longer * settings.step}});
+  if (settings.formulation.constraints == ConstraintForm::index_3) prepend(stabilized.overrides);
   return control;
 }
 
@@ -136,31 +158,21 @@ void add_step_control(const ProblemFile& problem, std::vector<Variation>& all) {
 
 /// Of all reduced beams, so many times as many modes, or up to so many times the frequency.
 std::optional<Variation> scaled_modes(const ProblemFile& problem, double factor) {
-  Variation scaled{"modes", fmt::format("×{:g}", factor), {}, {}};
+  Variation scaled{"modes", fmt::format("×{:g}", factor), {}};
   for (const Body& body : problem.scene.bodies) {
     const auto* beam = std::get_if<BeamBody>(&body.shape);
     if (beam == nullptr || !beam->reduction) continue;
-    const std::string pointer = child_pointer("/scene/bodies", body.name) + "/reduction";
     if (beam->reduction->modes) {
       const int modes = static_cast<int>(std::floor(factor * *beam->reduction->modes));
-      if (modes != *beam->reduction->modes) scaled.overrides.push_back({pointer + "/modes", modes});
+      if (modes != *beam->reduction->modes) {
+        scaled.overrides.push_back({reduction_of(body) + "/modes", modes});
+      }
     } else if (beam->reduction->frequency) {
       const double hertz = factor * *beam->reduction->frequency / (2.0 * pi);
-      scaled.overrides.push_back({pointer + "/frequency", hertz});
+      scaled.overrides.push_back({reduction_of(body) + "/frequency", hertz});
     }
   }
-  if (scaled.overrides.empty()) return std::nullopt;
-  scaled.change = [factor](ProblemFile& changed) {
-    for (Body& body : changed.scene.bodies) {
-      auto* beam = std::get_if<BeamBody>(&body.shape);
-      if (beam == nullptr || !beam->reduction) continue;
-      CraigBampton& reduction = *beam->reduction;
-      if (reduction.modes)
-        *reduction.modes = static_cast<int>(std::floor(factor * *reduction.modes));
-      if (reduction.frequency) *reduction.frequency *= factor;
-    }
-  };
-  return scaled;
+  return scaled.overrides.empty() ? std::nullopt : std::optional(scaled);
 }
 
 /// What is nothing, or nothing but noise, in a rigid mechanism.
@@ -176,37 +188,28 @@ bool needs_elasticity(const ProblemFile& problem) {
   });
 }
 
-Variation make_effect(const BeamEffect& effect, EffectChoice choice) {
-  const std::string value = choice == EffectChoice::on ? "on" : "off";
-  return {
-      effect.name,
-      value,
-      {{fmt::format("/effects/{}", effect.name), value}},
-      [member = effect.choice, choice](ProblemFile& problem) { problem.effects.*member = choice; }};
+Override make_choice(const std::string& effect, const char* choice) {
+  return {"/effects/" + effect, std::string(choice)};
+}
+
+Variation make_effect(const BeamEffect& effect, const char* choice) {
+  return {effect.name, choice, {make_choice(effect.name, choice)}};
 }
 
 /// What cannot be without the effect is left out with it.
-void leave_out_with(const char* name, EffectChoice EffectSettings::*member, Variation& variation) {
-  variation.overrides.push_back({fmt::format("/effects/{}", name), std::string("off")});
-  variation.change = [member, change = variation.change](ProblemFile& problem) {
-    change(problem);
-    problem.effects.*member = EffectChoice::off;
-  };
-}
-
 Variation deactivate(const BeamEffect& effect, const ProblemFile& problem, bool is_stiffened) {
-  Variation without = make_effect(effect, EffectChoice::off);
+  Variation without = make_effect(effect, "off");
   const EffectSettings& settings = problem.effects;
   if (effect.choice == &EffectSettings::axial_elasticity && is_stiffened) {
     without.knob = "axial_elasticity and geometric_stiffening";
-    leave_out_with("geometric_stiffening", &EffectSettings::geometric_stiffening, without);
+    without.overrides.push_back(make_choice("geometric_stiffening", "off"));
   }
   if (effect.choice != &EffectSettings::elasticity) return without;
   for (const BeamEffect& part : beam_effects) {
     const bool is_elastic = part.choice != &EffectSettings::elasticity &&
                             part.choice != &EffectSettings::rotary_inertia;
     if (is_elastic && settings.*part.choice == EffectChoice::on) {
-      leave_out_with(part.name, part.choice, without);
+      without.overrides.push_back(make_choice(part.name, "off"));
     }
   }
   return without;
@@ -233,9 +236,7 @@ void add_gravity(const ProblemFile& problem, std::vector<Variation>& all) {
   const auto is_zero = [](const Number& number) { return number.constant == 0.0; };
   const auto& gravity = problem.scene.gravity;
   if (std::ranges::all_of(gravity, is_zero)) return;
-  Variation without{"gravity", "off", {}, [](ProblemFile& changed) {
-                      changed.scene.gravity = {0.0, 0.0, 0.0};
-                    }};
+  Variation without{"gravity", "off", {}};
   for (int i = 0; i < 3; ++i) {
     without.overrides.push_back({fmt::format("/scene/gravity/{}", i), 0.0});
   }
@@ -244,11 +245,16 @@ void add_gravity(const ProblemFile& problem, std::vector<Variation>& all) {
 
 }  // namespace
 
+ProblemFile Variation::of(ProblemFile problem) const {
+  for (const Override& one : overrides) set(one, problem);
+  return problem;
+}
+
 Variation other_formulation(const ProblemFile& problem) {
   const Formulation& formulation = problem.simulation.formulation;
-  if (formulation.constraints != ConstraintForm::stabilized_index_2) return make_stabilized();
+  if (formulation.constraints != ConstraintForm::stabilized_index_2) return stabilized;
   // Steps that follow the local error are not for index 3.
-  return problem.simulation.local_error == 0.0 ? make_index_3() : make_projected();
+  return problem.simulation.local_error == 0.0 ? index_3 : projected;
 }
 
 std::vector<Variation> numerical_variations(const ProblemFile& problem) {
@@ -271,7 +277,7 @@ std::vector<Variation> effect_variations(const ProblemFile& problem, const Model
     if (has_record(effect.name, true, model)) {
       all.push_back(deactivate(effect, problem, is_stiffened));
     } else if (has_record(effect.name, false, model) && is_possible(effect, problem.effects)) {
-      all.push_back(make_effect(effect, EffectChoice::on));
+      all.push_back(make_effect(effect, "on"));
     }
   }
   add_gravity(problem, all);

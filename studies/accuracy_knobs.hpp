@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <variant>
 
 #include "core/model/model.hpp"
@@ -14,17 +13,12 @@ struct Override {
   std::variant<bool, int, double, std::string> value;
 };
 
-/// One change of a problem, as a problem file and as the command line see it.
+/// One change of a problem: what `--set` would change.
 struct Variation {
   std::string knob;   ///< "formulation", "geometric_stiffening"
   std::string value;  ///< "stabilized-index-2", "off"
   std::vector<Override> overrides;
-  std::function<void(ProblemFile&)> change;
-
-  ProblemFile of(ProblemFile problem) const {
-    change(problem);
-    return problem;
-  }
+  ProblemFile of(ProblemFile problem) const;
 };
 
 /// Other formulations of the constraints, schemes, spectral radii, tolerances of Newton's method,
