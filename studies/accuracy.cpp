@@ -60,65 +60,61 @@ std::optional<std::size_t> base_of(const AccuracyStudy& study) {
   return best;
 }
 
-class Studying {
- public:
-  Studying(const ProblemFile& problem, const PricedDesign& design, const AccuracyObserver& observer,
-           PartStore* parts, AccuracyStudy& study)
-      : problem_(problem),
-        design_(design),
-        x_(design.x()),
-        observer_(observer),
-        parts_(parts),
-        study_(study) {}
+struct Studying {
+  const ProblemFile& problem;
+  const PricedDesign& design;
+  const AccuracyObserver& observer;
+  PartStore* parts;
+  AccuracyStudy& study;
+  const Eigen::VectorXd& x = design.x();
 
   void find_reference(const Discretization& settings) {
-    AccuracyRun& reference = study_.reference;
-    const ProblemFile finest = discretized(problem_, settings);
-    reference =
-        kept_part(parts_, "reference", [&] { return measure_run(finest, x_, Timing::once); });
+    AccuracyRun& reference = study.reference;
+    const ProblemFile finest = discretized(problem, settings);
+    reference = kept_part(parts, "reference", [&] { return measure_run(finest, x, Timing::once); });
     reference.settings = settings;
-    AccuracyRun coarser = kept_part(parts_, "coarser than the reference", [&] {
-      return measure_run(discretized(problem_, slightly_coarser(settings)), x_, Timing::once);
+    AccuracyRun coarser = kept_part(parts, "coarser than the reference", [&] {
+      return measure_run(discretized(problem, slightly_coarser(settings)), x, Timing::once);
     });
-    compare(reference, x_, coarser);
+    compare(reference, x, coarser);
     reference.errors = richardson_share * coarser.errors;
     reference.gradient_errors = richardson_share * coarser.gradient_errors;
-    study_.check = kept_part(parts_, "other formulation", [&] { return check_of(finest); });
-    if (study_.check.failure.empty()) {
-      reference.errors = reference.errors.cwiseMax(study_.check.differences);
+    study.check = kept_part(parts, "other formulation", [&] { return check_of(finest); });
+    if (study.check.failure.empty()) {
+      reference.errors = reference.errors.cwiseMax(study.check.differences);
     }
-    if (observer_.run) observer_.run(reference);
+    if (observer.run) observer.run(reference);
   }
 
   void add_runs(const std::vector<Discretization>& grid) {
     const std::optional<double> of_reference = lagrangian_of_reference();
     for (const Discretization& settings : grid) {
-      study_.runs.push_back(kept_part(parts_, name_of(settings), [&] {
-        const ProblemFile discrete = discretized(problem_, settings);
-        AccuracyRun run = try_to_measure(discrete, x_, Timing::least);
+      study.runs.push_back(kept_part(parts, name_of(settings), [&] {
+        const ProblemFile discrete = discretized(problem, settings);
+        AccuracyRun run = try_to_measure(discrete, x, Timing::least);
         run.settings = settings;
         compare_with_reference(run);
-        if (!run.has_failed()) run.optimum_change = design_.change(of_reference, discrete);
+        if (!run.has_failed()) run.optimum_change = design.change(of_reference, discrete);
         return run;
       }));
-      if (observer_.run) observer_.run(study_.runs.back());
+      if (observer.run) observer.run(study.runs.back());
     }
-    double target = problem_.accuracy.target;
+    double target = problem.accuracy.target;
     for (int i = 0; i < recommended_targets; ++i, target *= 0.1) {
-      study_.recommendations.push_back(recommend(study_, target));
+      study.recommendations.push_back(recommend(study, target));
     }
-    study_.base = base_of(study_);
+    study.base = base_of(study);
   }
 
   void add_knobs() {
-    const ProblemFile discrete = discretized(problem_, base().settings);
+    const ProblemFile discrete = discretized(problem, base().settings);
     const std::optional<double> of_reference = lagrangian_of_reference();
     for (const Variation& one : numerical_variations(discrete)) {
       if (is_hopeless(one)) continue;
-      add(one, study_.knobs, [&] {
+      add(one, study.knobs, [&] {
         VariedRun knob = varied(one, discrete);
         if (!knob.run.has_failed()) {
-          knob.run.optimum_change = design_.change(of_reference, one.of(discrete));
+          knob.run.optimum_change = design.change(of_reference, one.of(discrete));
         }
         return knob;
       });
@@ -126,15 +122,15 @@ class Studying {
   }
 
   void add_effects() {
-    const ProblemFile discrete = discretized(problem_, base().settings);
-    const std::unique_ptr<Analysis> analysis = analyze(problem_, x_, values_only);
-    const std::optional<double> of_file = design_.lagrangian(problem_);
-    for (const Variation& one : effect_variations(problem_, analysis->model)) {
-      add(one, study_.effects, [&] {
+    const ProblemFile discrete = discretized(problem, base().settings);
+    const std::unique_ptr<Analysis> analysis = analyze(problem, x, values_only);
+    const std::optional<double> of_file = design.lagrangian(problem);
+    for (const Variation& one : effect_variations(problem, analysis->model)) {
+      add(one, study.effects, [&] {
         VariedRun effect = varied(one, discrete);
-        find_influence(one.of(problem_), values_of(*analysis), effect);
+        find_influence(one.of(problem), values_of(*analysis), effect);
         if (!effect.run.has_failed()) {
-          effect.run.optimum_change = design_.change(of_file, one.of(problem_));
+          effect.run.optimum_change = design.change(of_file, one.of(problem));
         }
         return effect;
       });
@@ -142,30 +138,30 @@ class Studying {
   }
 
  private:
-  const AccuracyRun& base() const { return study_.runs[*study_.base]; }
+  const AccuracyRun& base() const { return study.runs[*study.base]; }
 
   std::optional<double> lagrangian_of_reference() const {
-    return kept_part(parts_, "lagrangian of the reference", [&] {
-      return design_.lagrangian(discretized(problem_, study_.reference.settings));
+    return kept_part(parts, "lagrangian of the reference", [&] {
+      return design.lagrangian(discretized(problem, study.reference.settings));
     });
   }
 
   ReferenceCheck check_of(const ProblemFile& finest) const {
-    const Variation other = other_formulation(problem_);
+    const Variation other = other_formulation(problem);
     ReferenceCheck check;
     check.formulation = other.value;
     check.failure = failure_of([&] {
-      check.differences = differences_of(values_of(*analyze(other.of(finest), x_, values_only)));
+      check.differences = differences_of(values_of(*analyze(other.of(finest), x, values_only)));
     });
     return check;
   }
 
   Eigen::VectorXd differences_of(const Eigen::VectorXd& values) const {
-    const AccuracyRun& reference = study_.reference;
+    const AccuracyRun& reference = study.reference;
     Eigen::VectorXd differences = Eigen::VectorXd::Zero(values.size());
     for (Eigen::Index i = 0; i < values.size(); ++i) {
       // Errors of the integration are not the same in two formulations, however short the steps are.
-      if (is_monitor(problem_, i)) continue;
+      if (is_monitor(problem, i)) continue;
       differences(i) = value_error(values(i), reference.values(i), reference.magnitudes(i));
     }
     return differences;
@@ -174,31 +170,31 @@ class Studying {
   /// What is closer to the reference than that is to the truth is not known better.
   void compare_with_reference(AccuracyRun& run) const {
     if (run.has_failed()) return;
-    compare(study_.reference, x_, run);
-    run.errors = run.errors.cwiseMax(study_.reference.errors);
-    run.gradient_errors = run.gradient_errors.cwiseMax(study_.reference.gradient_errors);
+    compare(study.reference, x, run);
+    run.errors = run.errors.cwiseMax(study.reference.errors);
+    run.gradient_errors = run.gradient_errors.cwiseMax(study.reference.gradient_errors);
   }
 
   template <class Make>
   void add(const Variation& variation, std::vector<VariedRun>& all, const Make& make) const {
     const std::string name =
         fmt::format("{} {} at {}", variation.knob, variation.value, name_of(base().settings));
-    all.push_back(kept_part(parts_, name, make));
+    all.push_back(kept_part(parts, name, make));
     all.back().variation = variation;
-    if (observer_.variation) observer_.variation(all.back());
+    if (observer.variation) observer.variation(all.back());
   }
 
   /// Smaller local errors only take longer than one that took too long already.
   bool is_hopeless(const Variation& variation) const {
-    if (variation.knob != "local_error" || study_.knobs.empty()) return false;
-    const VariedRun& last = study_.knobs.back();
+    if (variation.knob != "local_error" || study.knobs.empty()) return false;
+    const VariedRun& last = study.knobs.back();
     const bool is_too_long = last.run.has_failed() || last.time.change > too_long;
     return last.variation.knob == variation.knob && is_too_long;
   }
 
   VariedRun varied(const Variation& variation, const ProblemFile& discrete) const {
     const ProblemFile changed = variation.of(discrete);
-    VariedRun varied{variation, try_to_measure(changed, x_, Timing::once)};
+    VariedRun varied{variation, try_to_measure(changed, x, Timing::once)};
     AccuracyRun& run = varied.run;
     run.settings = base().settings;
     run.settings.step = changed.simulation.step;
@@ -215,7 +211,7 @@ class Studying {
     const double once = run.simulation_seconds, of_base = base().simulation_seconds;
     if (is_same_work(run, base())) return {once, 0.0, 0.0};
     if (once > clearly_more * of_base) return {once, once / of_base - 1.0, 0.0};
-    return compare_times({[&] { analyze(discrete, x_); }, [&] { analyze(changed, x_); }}).back();
+    return compare_times({[&] { analyze(discrete, x); }, [&] { analyze(changed, x); }}).back();
   }
 
   /// With the steps and elements of the file: those of an optimum at the design.
@@ -223,18 +219,11 @@ class Studying {
                       VariedRun& effect) const {
     if (effect.run.has_failed()) return;
     try {
-      effect.influence = values_of(*analyze(changed, x_, values_only)) - values;
+      effect.influence = values_of(*analyze(changed, x, values_only)) - values;
     } catch (const SimulationError& error) {
       effect.run.failure = error.what();
     }
   }
-
-  const ProblemFile& problem_;
-  const PricedDesign& design_;
-  const Eigen::VectorXd& x_;
-  const AccuracyObserver& observer_;
-  PartStore* parts_;
-  AccuracyStudy& study_;
 };
 
 }  // namespace
@@ -253,7 +242,7 @@ AccuracyStudy accuracy_study(const ProblemFile& problem, const PricedDesign& des
   if (problem.responses.empty()) throw InputError("/responses is missing: nothing can be compared");
   AccuracyStudy study;
   study.counted = asked_responses(problem);
-  Studying studying(problem, design, observer, parts, study);
+  Studying studying{problem, design, observer, parts, study};
   const std::vector<Discretization> grid = accuracy_grid(problem);
   studying.find_reference(finer_than(problem, grid));
   try {
@@ -268,7 +257,7 @@ void vary_settings(const ProblemFile& problem, const PricedDesign& design, Accur
                    const AccuracyObserver& observer, PartStore* parts) {
   if (!study.base) return;
   try {
-    Studying studying(problem, design, observer, parts, study);
+    Studying studying{problem, design, observer, parts, study};
     studying.add_knobs();
     studying.add_effects();
   } catch (const SimulationError& error) {  // the setting of the file cannot be simulated

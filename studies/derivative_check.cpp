@@ -66,54 +66,56 @@ constexpr double tight_tolerances[] = {1e-12, 1e-10};
 /// A derivative that is computed anew at the same design is the same to this.
 constexpr double same_derivative = 1e-6;
 
-class Check {
- public:
-  Check(const ProblemFile& problem, const Eigen::VectorXd& x, Analysis& analysis,
-        const DerivativeCheckOptions& options)
-      : problem_(with_steps_of(analysis.trajectory, problem)),
-        x_(x),
-        options_(options),
-        changes_(generic_direction(problem, x)),
-        magnitudes_(values_of(analysis).cwiseAbs()),
-        direct_(gradients_by(analysis, ExactMethod::direct)),
-        adjoint_(gradients_by(analysis, ExactMethod::adjoint)),
-        noise_(response_noise(problem_, x, options.threads)),
-        has_kink_(problem.responses.size(), false) {
-    for (const Kink& kink : find_kinks(analysis, problem.variables))
-      has_kink_[kink.response] = true;
-  }
+/// Of each response, whether it has one near the design.
+std::vector<bool> kinks_at(const ProblemFile& problem, Analysis& analysis) {
+  std::vector<bool> has_kink(problem.responses.size(), false);
+  for (const Kink& kink : find_kinks(analysis, problem.variables)) has_kink[kink.response] = true;
+  return has_kink;
+}
+
+struct Check {
+  const ProblemFile problem;  ///< with the steps of the analysis
+  const Eigen::VectorXd& x;
+  Analysis& analysis;
+  const DerivativeCheckOptions& options;
+  /// Of each variable, along any direction.
+  Eigen::VectorXd changes = generic_direction(problem, x);
+  Eigen::VectorXd magnitudes = values_of(analysis).cwiseAbs();
+  Eigen::MatrixXd direct = direct_gradients(analysis);
+  Eigen::MatrixXd adjoint =
+      sampled_gradients(analysis, response_values(analysis), ExactMethod::adjoint);
+  ResponseNoise noise = response_noise(problem, x, options.threads);
+  std::vector<bool> has_kink = kinks_at(problem, analysis);
+  std::string failure = {};  ///< of the last step that failed
+  DerivativeChecks checks = {};
 
   DerivativeChecks run() {
     begin();
-    std::vector<Eigen::Index> all(x_.size());
+    std::vector<Eigen::Index> all(x.size());
     std::iota(all.begin(), all.end(), Eigen::Index{0});
     divide(all);
-    return std::move(checks_);
+    return std::move(checks);
   }
 
   DerivativeChecks run(const std::vector<CheckedDirection>& directions) {
     begin();
     for (const CheckedDirection& direction : directions) keep(direction, judge(direction));
-    return std::move(checks_);
+    return std::move(checks);
   }
 
  private:
   using Judged = std::vector<JudgedDerivative>;  ///< one a response
 
-  static Eigen::MatrixXd gradients_by(Analysis& analysis, ExactMethod method) {
-    return sampled_gradients(analysis, response_values(analysis), method);
-  }
-
   void begin() {
-    for (Eigen::Index i = 0; i < direct_.rows(); ++i) {
-      DerivativeCheck& check = checks_.responses.emplace_back();
-      check.adjoint_error = gradient_error(adjoint_.row(i), direct_.row(i), x_, magnitudes_(i));
-      check.noise = noise_.floor()(i);
-      const double relative = check.noise == 0.0      ? 0.0
-                              : magnitudes_(i) == 0.0 ? 1.0
-                                                      : check.noise / magnitudes_(i);
+    for (Eigen::Index i = 0; i < direct.rows(); ++i) {
+      DerivativeCheck& check = checks.responses.emplace_back();
+      check.adjoint_error = gradient_error(adjoint.row(i), direct.row(i), x, magnitudes(i));
+      check.noise = noise.floor()(i);
+      const double relative = check.noise == 0.0     ? 0.0
+                              : magnitudes(i) == 0.0 ? 1.0
+                                                     : check.noise / magnitudes(i);
       check.relative_noise = std::max(relative, std::numeric_limits<double>::epsilon());
-      check.derivatives = direct_.row(i);
+      check.derivatives = direct.row(i);
     }
   }
 
@@ -130,15 +132,15 @@ class Check {
   }
 
   CheckedDirection direction_along(const std::vector<Eigen::Index>& variables) const {
-    CheckedDirection direction{variables, Eigen::VectorXd::Zero(x_.size())};
-    for (const Eigen::Index j : variables) direction.change(j) = changes_(j);
+    CheckedDirection direction{variables, Eigen::VectorXd::Zero(x.size())};
+    for (const Eigen::Index j : variables) direction.change(j) = changes(j);
     return direction;
   }
 
   void keep(const CheckedDirection& direction, Judged judged) {
-    checks_.directions.push_back(direction);
+    checks.directions.push_back(direction);
     for (std::size_t i = 0; i < judged.size(); ++i) {
-      checks_.responses[i].directions.push_back(std::move(judged[i]));
+      checks.responses[i].directions.push_back(std::move(judged[i]));
     }
   }
 
@@ -152,7 +154,7 @@ class Check {
       if (agreed == std::ssize(judged)) return judged;
     }
     add_differences(direction, further_steps, steps);
-    if (steps.empty()) throw SimulationError(failure_);
+    if (steps.empty()) throw SimulationError(failure);
     return judge(direction, steps);
   }
 
@@ -165,21 +167,21 @@ class Check {
   void add_differences(const CheckedDirection& direction, std::span<const double> steps,
                        std::vector<Step>& found) {
     const int simulations = 2 * static_cast<int>(steps.size());
-    options_.see_differences(simulations);
+    options.see_differences(simulations);
     std::vector<Eigen::VectorXd> values(simulations);
     std::vector<std::string> failures(simulations);
-    for_each_in_parallel(simulations, options_.threads, [&](int i) {
+    for_each_in_parallel(simulations, options.threads, [&](int i) {
       const double step = i % 2 == 0 ? steps[i / 2] : -steps[i / 2];
       try {
-        values[i] = values_of(*analyze(problem_, x_ + step * direction.change, values_only));
+        values[i] = values_of(*analyze(problem, x + step * direction.change, values_only));
       } catch (const SimulationError& error) {
         failures[i] = error.what();
       }
     });
     for (std::size_t k = 0; k < steps.size(); ++k) {
-      const std::string& failure = failures[2 * k].empty() ? failures[2 * k + 1] : failures[2 * k];
-      if (!failure.empty()) {
-        failure_ = failure;
+      const std::string& reason = failures[2 * k].empty() ? failures[2 * k + 1] : failures[2 * k];
+      if (!reason.empty()) {
+        failure = reason;
       } else {
         found.push_back({steps[k], (values[2 * k] - values[2 * k + 1]) / (2.0 * steps[k])});
       }
@@ -187,28 +189,17 @@ class Check {
   }
 
   Judged judge(const CheckedDirection& direction, const std::vector<Step>& steps) const {
-    const Eigen::VectorXd derivatives = direct_ * direction.change;
+    const Eigen::VectorXd derivatives = direct * direction.change;
     Judged judged;
-    for (Eigen::Index i = 0; i < direct_.rows(); ++i) {
+    for (Eigen::Index i = 0; i < direct.rows(); ++i) {
       std::vector<CentralDifference> curve;
       for (const Step& step : steps) curve.push_back({step.step, step.differences(i)});
-      judged.push_back(judge_derivative({derivatives(i), 1.0, magnitudes_(i), noise_.scatter(i),
-                                         noise_.remainder(i), has_kink_[i]},
-                                        std::move(curve)));
+      judged.push_back(judge_derivative(
+          {derivatives(i), 1.0, magnitudes(i), noise.scatter(i), noise.remainder(i), has_kink[i]},
+          std::move(curve)));
     }
     return judged;
   }
-
-  ProblemFile problem_;  ///< with the steps of the analysis
-  const Eigen::VectorXd& x_;
-  const DerivativeCheckOptions& options_;
-  Eigen::VectorXd changes_;  ///< of each variable, along any direction
-  Eigen::VectorXd magnitudes_;
-  Eigen::MatrixXd direct_, adjoint_;
-  ResponseNoise noise_;
-  std::vector<bool> has_kink_;
-  std::string failure_;  ///< of the last step that failed
-  DerivativeChecks checks_;
 };
 
 /// The same checks with Newton's method carried further; none where it does not come so far.
@@ -221,7 +212,8 @@ DerivativeChecks tight_checks(ProblemFile problem, const Eigen::VectorXd& x,
     tight.simulation.newton_tolerance = tolerance;
     try {
       const auto analysis = analyze(tight, x);
-      return Check(tight, x, *analysis, options).run(directions);
+      const ProblemFile same_steps = with_steps_of(analysis->trajectory, tight);
+      return Check{same_steps, x, *analysis, options}.run(directions);
     } catch (const SimulationError&) {
       continue;
     }
@@ -233,8 +225,7 @@ DerivativeChecks tight_checks(ProblemFile problem, const Eigen::VectorXd& x,
 void excuse_loose_newton(DerivativeChecks& checks, const ProblemFile& problem,
                          const Eigen::VectorXd& x, const DerivativeCheckOptions& options) {
   const auto here = analyze(problem, x);
-  const Eigen::MatrixXd again =
-      sampled_gradients(*here, response_values(*here), ExactMethod::direct);
+  const Eigen::MatrixXd again = direct_gradients(*here);
   const DerivativeChecks tight = tight_checks(problem, x, checks.directions, options);
   for (std::size_t i = 0; i < tight.responses.size(); ++i) {
     for (std::size_t k = 0; k < checks.directions.size(); ++k) {
@@ -294,12 +285,13 @@ const JudgedDerivative& DerivativeCheck::worst() const {
 
 DerivativeChecks check_derivatives(const ProblemFile& problem, const Eigen::VectorXd& x,
                                    Analysis& analysis, const DerivativeCheckOptions& options) {
-  DerivativeChecks checks = Check(problem, x, analysis, options).run();
+  const ProblemFile same_steps = with_steps_of(analysis.trajectory, problem);
+  DerivativeChecks checks = Check{same_steps, x, analysis, options}.run();
   const bool any_differs = std::ranges::any_of(checks.responses, [](const DerivativeCheck& check) {
     return check.worst().verdict == DerivativeVerdict::differs;
   });
   if (any_differs) {
-    excuse_loose_newton(checks, with_steps_of(analysis.trajectory, problem), x, options);
+    excuse_loose_newton(checks, same_steps, x, options);
   }
   return checks;
 }

@@ -71,26 +71,24 @@ bool is_enumerable(const ProblemFile& problem) {
 }
 
 /// The front as it grows.
-class Front {
- public:
-  Front(const ProblemFile& problem, const SolveOptions& options, const Execution& execution,
-        const ParetoObserver& observer)
-      : problem_(problem),
-        settings_(*problem.pareto),
-        side_(good_side(problem)),
-        options_(options),
-        execution_(execution),
-        observer_(observer) {}
+struct Front {
+  const ProblemFile& problem;
+  const SolveOptions& options;
+  const Execution& execution;
+  const ParetoObserver& observer;
+  const ParetoSettings& settings = *problem.pareto;
+  const GoodSide side = good_side(problem);
+  std::vector<FoundPoint> known = {};  ///< by limit
 
   /// @param ends  that are known, or none
   ParetoFront run(std::vector<FoundPoint> ends) {
     bool is_whole = search(first_searches(std::move(ends)));
     ParetoFront front;
-    while (is_whole && settings_.gap > 0.0) {
-      const int room = settings_.most_points - int_size(found_);
+    while (is_whole && settings.gap > 0.0) {
+      const int room = settings.most_points - int_size(known);
       front.gaps = find_front_gaps(
-          points(), side_, settings_.gap, std::max(room, 0),
-          can_exchange_goals(problem_) ? ObjectiveLimits::possible : ObjectiveLimits::impossible);
+          points(), side, settings.gap, std::max(room, 0),
+          can_exchange_goals(problem) ? ObjectiveLimits::possible : ObjectiveLimits::impossible);
       if (front.gaps.probes.empty()) break;
       is_whole = search(next_searches(front.gaps.probes));
     }
@@ -104,23 +102,23 @@ class Front {
   /// one value to another it is what is best at some limit between. Each point is judged like any
   /// optimum, with its own value as its limit.
   ParetoFront of_choices() const {
-    ProblemFile any = problem_;  // with any value of what is limited
+    ProblemFile any = problem;  // with any value of what is limited
     set_limit(any, sign() * infinity);
-    const SizeLists lists(problem_.variables);
+    const SizeLists lists(problem.variables);
     std::vector<Eigen::VectorXd> designs;
     for (const Sizes& sizes : lists.all()) {
-      designs.push_back(lists.design(sizes, start_design(problem_)));
+      designs.push_back(lists.design(sizes, start_design(problem)));
     }
     ParetoFront front;
     front.choices = ChoiceCounts{.all = int_size(designs)};
-    const auto scales = scales_at(any, designs, execution_);
+    const auto scales = scales_at(any, designs, execution);
     if (!scales) {
       front.choices->failed = front.choices->all;
       return front;
     }
     std::vector<PointSearch> choices;
     std::vector<Goals> goals;
-    for (const SizeTrial& trial : try_sizes(any, designs, *scales, options_, execution_)) {
+    for (const SizeTrial& trial : try_sizes(any, designs, *scales, options, execution)) {
       if (trial.has_failed()) ++front.choices->failed;
       if (!trial.keeps_limits()) continue;
       ++front.choices->feasible;
@@ -129,7 +127,7 @@ class Front {
       goals.push_back({trial.objective, sign() * limited});
     }
     FoundPoints found =
-        search_points(problem_, best_of(choices, goals), options_, execution_, observer_);
+        search_points(problem, best_of(choices, goals), options, execution, observer);
     for (FoundPoint& one : found.points) front.points.push_back(std::move(one.point));
     front.is_whole = found.is_whole;
     return front;
@@ -138,11 +136,11 @@ class Front {
  private:
   /// At equal steps of the limit.
   std::vector<PointSearch> first_searches(std::vector<FoundPoint> ends) const {
-    const ParetoOrder order = pareto_order(settings_.points);
+    const ParetoOrder order = pareto_order(settings.points);
     std::vector<PointSearch> searches;
     for (std::size_t i = 0; i < order.points.size(); ++i) {
-      const double share = static_cast<double>(order.points[i]) / std::max(settings_.points - 1, 1);
-      searches.push_back({std::lerp(settings_.from, settings_.to, share), order.from[i]});
+      const double share = static_cast<double>(order.points[i]) / std::max(settings.points - 1, 1);
+      searches.push_back({std::lerp(settings.from, settings.to, share), order.from[i]});
       if (i < ends.size()) searches[i].known = std::move(ends[i]);
     }
     return searches;
@@ -151,11 +149,11 @@ class Front {
   std::vector<PointSearch> next_searches(const std::vector<FrontProbe>& probes) const {
     std::vector<PointSearch> searches;
     for (const FrontProbe& probe : probes) {
-      PointSearch search{probe.limit, std::nullopt, found_[probe.from].next_start()};
-      if (probe.other != probe.from) search.other = found_[probe.other].next_start();
+      PointSearch search{probe.limit, std::nullopt, known[probe.from].next_start()};
+      if (probe.other != probe.from) search.other = known[probe.other].next_start();
       if (probe.objective_limit) {
         search.objective_limit = probe.objective_limit;
-        search.other_problem = with_exchanged_goals(problem_, *probe.objective_limit);
+        search.other_problem = with_exchanged_goals(problem, *probe.objective_limit);
       }
       searches.push_back(std::move(search));
     }
@@ -165,20 +163,20 @@ class Front {
   /// Keeps the order of limits.
   /// @returns whether no stop was asked for
   bool search(const std::vector<PointSearch>& searches) {
-    FoundPoints news = search_points(problem_, searches, options_, execution_, observer_);
-    for (FoundPoint& one : news.points) found_.push_back(std::move(one));
-    const bool is_falling = settings_.to < settings_.from;
-    std::ranges::stable_sort(found_, [&](const FoundPoint& a, const FoundPoint& b) {
+    FoundPoints news = search_points(problem, searches, options, execution, observer);
+    for (FoundPoint& one : news.points) known.push_back(std::move(one));
+    const bool is_falling = settings.to < settings.from;
+    std::ranges::stable_sort(known, [&](const FoundPoint& a, const FoundPoint& b) {
       return is_falling ? a.point.limit > b.point.limit : a.point.limit < b.point.limit;
     });
-    if (found_.empty()) throw Stopped();
+    if (known.empty()) throw Stopped();
     return news.is_whole;
   }
 
   std::vector<ParetoPoint> points() const {
     std::vector<ParetoPoint> points;
-    for (const FoundPoint& one : found_) points.push_back(one.point);
-    mark_dominated(points, side_);
+    for (const FoundPoint& one : known) points.push_back(one.point);
+    mark_dominated(points, side);
     return points;
   }
 
@@ -193,8 +191,8 @@ class Front {
       if (is_kept[i]) front.push_back(choices[i]);
     }
     std::ranges::stable_sort(front, {}, signed_limit);
-    if (!settings_.goals.empty()) return front;
-    const auto ends = std::minmax({sign() * settings_.from, sign() * settings_.to});
+    if (!settings.goals.empty()) return front;
+    const auto ends = std::minmax({sign() * settings.from, sign() * settings.to});
     const double tight = ends.first, loose = ends.second;
     std::erase_if(front,
                   [&](const PointSearch& one) { return !is_no_better(loose, signed_limit(one)); });
@@ -205,15 +203,7 @@ class Front {
     return front;
   }
 
-  double sign() const { return side_ == GoodSide::low ? 1.0 : -1.0; }
-
-  const ProblemFile& problem_;
-  const ParetoSettings& settings_;
-  const GoodSide side_;
-  const SolveOptions& options_;
-  const Execution& execution_;
-  const ParetoObserver& observer_;
-  std::vector<FoundPoint> found_;  ///< by limit
+  double sign() const { return side == GoodSide::low ? 1.0 : -1.0; }
 };
 
 /// What there is where an end was not found, or nothing is to be traded and one end is left.
@@ -241,7 +231,7 @@ ParetoFront front_between(ProblemFile problem, const SolveOptions& options,
     ends.erase(ends.begin() + (trades_limited ? 0 : 1));
     return front_of_ends(std::move(ends), observer);
   }
-  return Front(problem, options, execution, observer).run(std::move(ends));
+  return Front{problem, options, execution, observer}.run(std::move(ends));
 }
 
 }  // namespace
@@ -262,7 +252,7 @@ ParetoFront pareto_front(const ProblemFile& problem, const SolveOptions& options
                          const Execution& execution, const ParetoObserver& observer) {
   require_pareto(problem);
   DesignProblem{problem};  // says what is missing
-  if (is_enumerable(problem)) return Front(problem, options, execution, observer).of_choices();
+  if (is_enumerable(problem)) return Front{problem, options, execution, observer}.of_choices();
   if (has_choices(problem) && problem.pareto->gap > 0.0) {
     throw InputError(
         "/pareto/gap: a front of sizes from lists has only the points that \"points\" asks for, "
@@ -270,7 +260,7 @@ ParetoFront pareto_front(const ProblemFile& problem, const SolveOptions& options
         "all choices can be simulated (at most 300 of them, and no other variables)");
   }
   if (!problem.pareto->goals.empty()) return front_between(problem, options, execution, observer);
-  return Front(problem, options, execution, observer).run({});
+  return Front{problem, options, execution, observer}.run({});
 }
 
 }  // namespace pleuel
