@@ -4,7 +4,8 @@ namespace pleuel {
 
 /// Instructions that the compiler was allowed to use.
 struct ProcessorNeeds {
-  bool sse42, avx, avx2, fma, bmi, bmi2, avx512;
+  bool sse42 = false, avx = false, avx2 = false, fma = false, bmi = false, bmi2 = false;
+  bool avx512 = false;
 };
 
 /// Of the whole program but the check itself; a constant, which takes no instruction to make.

@@ -19,7 +19,7 @@ struct SearchOptions {
 
 /// Those of the problem, with what a JSON object has in their place: "backend", "tolerance", "max_iterations",
 /// "starts", "jobs", "checks".
-/// @throws InputError  "options: /tolerance must be a number between 0 and 1, got 3"
+/// @throws InputError  "options: /tolerance must be greater than 0 and less than 1, got 3"
 SearchOptions read_search_options(const std::string& text, const ProblemFile& problem);
 
 /// Who hears of evaluations: a function of the caller, if there is one.

@@ -360,9 +360,7 @@ Outcome run_optimize(const Arguments& arguments) {
   const StagedSolution& solution = all.best;
   const ProblemFile& solved = solution.problem->file();
   const Result& result = solution.result;
-  Optimum optimum{
-      solved, result, {}, {}, {}, result.warnings, result.consequences, solution.problem->method()};
-  if (answer.sizes) optimum.sizes = &*answer.sizes;
+  Optimum optimum = optimum_of(answer);
   // What has been found is told and written first: the rest is made from it at any time.
   Json effects = Json::array();
   bool is_whole = true;
@@ -373,8 +371,7 @@ Outcome run_optimize(const Arguments& arguments) {
       document["interrupted"] = cut_message;
       document.erase("monitors");
     }
-    if (all.runs.size() > 1) document["starts"] = starts_document(solved, all);
-    if (answer.sizes) document["choices"] = sizes_document(solved, *answer.sizes, result);
+    add_search(answer, document);
     if (solution.stages.empty()) return document;  // interrupted
     document["stages"] = stages_document(solution.stages);
     document["setting"] = setting_of(input.effective, solved);

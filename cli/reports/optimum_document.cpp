@@ -7,6 +7,7 @@
 #include "cli/reports/case_report.hpp"
 #include "cli/reports/limits_report.hpp"
 #include "cli/reports/scene_report.hpp"
+#include "cli/reports/starts_report.hpp"
 #include "core/base/number_text.hpp"
 #include "core/scene/case_goals.hpp"
 
@@ -172,6 +173,22 @@ Json optimum_document(const Optimum& optimum) {
   }
   document["seconds"] = result.seconds;
   return document;
+}
+
+Optimum optimum_of(const WholeSearch& search) {
+  const Result& result = search.all.best.result;
+  const DesignProblem& problem = *search.all.best.problem;
+  Optimum optimum{problem.file(),      result,          {}, {}, {}, result.warnings,
+                  result.consequences, problem.method()};
+  if (search.sizes) optimum.sizes = &*search.sizes;
+  return optimum;
+}
+
+void add_search(const WholeSearch& search, Json& document) {
+  const ProblemFile& problem = search.all.best.problem->file();
+  if (search.all.runs.size() > 1) document["starts"] = starts_document(problem, search.all);
+  if (!search.sizes) return;
+  document["choices"] = sizes_document(problem, *search.sizes, search.all.best.result);
 }
 
 }  // namespace pleuel

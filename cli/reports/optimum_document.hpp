@@ -4,6 +4,7 @@
 #include "core/response/effect_measurement.hpp"
 #include "core/response/monitors.hpp"
 #include "core/scene/shown_unit.hpp"
+#include "optimization/design/multi_start.hpp"
 #include "optimization/design/size_choice.hpp"
 #include "optimization/solve.hpp"
 #include "sensitivity/gradients.hpp"
@@ -44,6 +45,12 @@ std::string neighbours_text(const Optimum& optimum);
 
 /// The document of `optimize`; see docs/reference/commands.md.
 Json optimum_document(const Optimum& optimum);
+
+/// What a search found, before anything is simulated at its last design. Refers to the search.
+Optimum optimum_of(const WholeSearch& search);
+
+/// Adds its starts, if there are several, and its choice of sizes to the document of the optimum.
+void add_search(const WholeSearch& search, Json& document);
 
 /// What the last design of a run is called: "optimum", or "end" where nothing is proven of it.
 /// @param status  as in result.json
