@@ -180,11 +180,9 @@ ProblemFile problem_of(const OlderRun& run) {
 
 ProblemFile problem_of(const OlderRun& run, const std::string& load_case) {
   const std::string file = run.card.at("input").at("file").get<std::string>();
-  Json document = run.card.at("problem"), setting = run.result.value("setting", Json::object());
-  if (!load_case.empty()) {
-    document = document_in_case(document, load_case, file);
-    if (setting.contains("cases")) setting = setting["cases"].value(load_case, Json::object());
-  }
+  const Json document = overridden_document({run.card.at("problem").dump(), file, {}, load_case});
+  Json setting = run.result.value("setting", Json::object());
+  if (setting.contains("cases")) setting = setting["cases"].value(load_case, Json::object());
   std::vector<std::string> overrides;
   if (setting.contains("overrides")) {
     for (const auto& [pointer, value] : setting["overrides"].items()) {

@@ -135,17 +135,11 @@ ProblemInput read_file(const fs::path& file, const Arguments& arguments) {
   for (ProblemFile& one : input.problem.cases) set_method(one.sensitivity, arguments);
   input.text = {whole_text(file), file.string(), arguments.overrides,
                 arguments.load_case.value_or("")};
-  input.effective = parse_json(input.text.text, file.string());
+  input.effective = overridden_document(input.text);
   Fingerprint fingerprint;
   fingerprint.add(input.text.text);
-  for (const std::string& assignment : arguments.overrides) {
-    apply_override(input.effective, assignment, file.string());
-    fingerprint.add(assignment);
-  }
-  if (arguments.load_case) {
-    input.effective = document_in_case(input.effective, *arguments.load_case, file.string());
-    fingerprint.add(*arguments.load_case);
-  }
+  for (const std::string& assignment : arguments.overrides) fingerprint.add(assignment);
+  if (arguments.load_case) fingerprint.add(*arguments.load_case);
   if (arguments.design) {
     const bool is_folder = fs::is_directory(*arguments.design);
     fingerprint.add(whole_text(is_folder ? *arguments.design / "result.json" : *arguments.design));
@@ -173,13 +167,6 @@ Eigen::VectorXd read_design(const std::filesystem::path& path, const ProblemFile
     x(i) = read_value(*value, variable);
   }
   return x;
-}
-
-Json document_in_case(const Json& document, const std::string& load_case, const std::string& file) {
-  for (const CaseChanges& changes : cases_of(document, file)) {
-    if (changes.name == load_case) return document_of_case(document, changes, file);
-  }
-  throw InputError(fmt::format("{}: /cases has no case \"{}\"", file, load_case));
 }
 
 Eigen::VectorXd design_of(const Arguments& arguments, const ProblemFile& problem) {

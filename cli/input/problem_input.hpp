@@ -28,10 +28,6 @@ struct ProblemInput {
   std::optional<SettingChoice> choice;
 };
 
-/// A problem file, with all overrides, as if it were written for one of its load cases only.
-/// @throws InputError if there is no such case
-Json document_in_case(const Json& document, const std::string& load_case, const std::string& file);
-
 /// The design that a command looks at: that of --design, else the start, with values of variables that
 /// the command line sets [SI].
 Eigen::VectorXd design_of(const Arguments& arguments, const ProblemFile& problem);
