@@ -262,10 +262,7 @@ Json both_pictures(const OlderRun& first, const OlderRun& second, Notes& notes) 
 }
 
 Json compared_run(const OlderRun& run) {
-  Json document = {{"folder", run.folder.string()},
-                   {"command", run.command()},
-                   {"problem", run.problem()},
-                   {"status", run.status()}};
+  Json document = summary_of(run);
   if (run.objective()) document["objective"] = run.result.at("objective");
   return document;
 }

@@ -33,11 +33,8 @@ std::string table_text(const std::vector<OlderRun>& runs) {
 }
 
 Json listed_run(const OlderRun& run) {
-  Json document = {{"folder", run.folder.string()},
-                   {"command", run.command()},
-                   {"problem", run.problem()},
-                   {"status", run.status()},
-                   {"date", run.date()}};
+  Json document = summary_of(run);
+  document["date"] = run.date();
   if (run.objective()) {
     document["objective"] = {{"name", run.result["objective"].value("name", "")},
                              {"value", *run.objective()},

@@ -122,6 +122,13 @@ fs::file_time_type OlderRun::written() const {
   return error ? fs::file_time_type::min() : time;
 }
 
+Json summary_of(const OlderRun& run) {
+  return {{"folder", run.folder.string()},
+          {"command", run.command()},
+          {"problem", run.problem()},
+          {"status", run.status()}};
+}
+
 std::optional<OlderRun> find_older_run(const fs::path& folder) {
   OlderRun run{folder, document_in(folder / card_name), document_in(folder / result_name)};
   if (run.card.is_null() || !run.card.value("command", Json()).is_string()) return std::nullopt;

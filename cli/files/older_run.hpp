@@ -32,6 +32,9 @@ struct OlderRun {
   fs::file_time_type written() const;
 };
 
+/// {"folder", "command", "problem", "status"}
+Json summary_of(const OlderRun& run);
+
 /// What is missing in its documents that a run has written; empty: nothing.
 std::string damage_of(const OlderRun& run);
 
