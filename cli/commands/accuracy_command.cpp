@@ -17,36 +17,32 @@ double work_of(const Discretization& settings) {
 
 /// How long the runs of the grid still take: a guess from the work of the reference, put right by
 /// how long those took that are done. Short runs are repeated until some half a second is full.
-class GridProgress {
- public:
-  GridProgress(const ProblemFile& problem, ProgressLine& line)
-      : line_(line), grid_(accuracy_grid(problem)) {}
+struct GridProgress {
+  ProgressLine& line;
+  std::vector<Discretization> grid;
+  std::optional<Stopwatch> begin = {};  ///< with the reference
+  std::size_t done = 0;
+  double seconds_a_work = 0.0;
 
   void see(const AccuracyRun& run) {
-    if (!begin_) {
-      begin_.emplace();
-      seconds_a_work_ = run.seconds() / work_of(run.settings);
+    if (!begin) {
+      begin.emplace();
+      seconds_a_work = run.seconds() / work_of(run.settings);
     } else {
-      ++done_;
+      ++done;
     }
     double guess_done = 0.0, guess_left = 0.0;
-    for (std::size_t i = 0; i < grid_.size(); ++i) {
-      (i < done_ ? guess_done : guess_left) += guess(grid_[i]);
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+      (i < done ? guess_done : guess_left) += guess(grid[i]);
     }
-    const double ratio = done_ > 0 ? begin_->seconds() / guess_done : 1.0;
-    line_.expect(fmt::format("{} of {} runs", done_, grid_.size()), ratio * guess_left);
+    const double ratio = done > 0 ? begin->seconds() / guess_done : 1.0;
+    line.expect(fmt::format("{} of {} runs", done, grid.size()), ratio * guess_left);
   }
 
  private:
   double guess(const Discretization& settings) const {
-    return std::max(0.6, 2.0 * seconds_a_work_ * work_of(settings));
+    return std::max(0.6, 2.0 * seconds_a_work * work_of(settings));
   }
-
-  ProgressLine& line_;
-  std::vector<Discretization> grid_;
-  std::optional<Stopwatch> begin_;  ///< with the reference
-  std::size_t done_ = 0;
-  double seconds_a_work_ = 0.0;
 };
 
 /// accuracy.csv: a line for each run as it is done [SI]; empty cells where nothing is known.
@@ -67,8 +63,7 @@ std::vector<CsvColumn> accuracy_columns(const ProblemFile& problem) {
 /// Elements, or by how much those of the file are multiplied.
 Json csv_line(const ProblemFile& problem, const AccuracyRun& run) {
   Json line = run_document(problem, run);
-  line["elements"] = run.settings.elements > 0 ? Json(run.settings.elements)
-                                               : Json(fmt::format("×{:g}", run.settings.factor));
+  line["elements"] = elements_text(run.settings);
   return line;
 }
 
@@ -123,7 +118,7 @@ Answer find_answer(const ProblemInput& input, const Arguments& arguments, RunRec
   const PricedDesign design(problem, x);
   std::optional<DocumentCsv> csv;
   ProgressLine progress(arguments, "the reference");
-  GridProgress grid(problem, progress);
+  GridProgress grid{progress, accuracy_grid(problem)};
   const AccuracyObserver observer = make_observer(problem, record, csv, progress, grid);
   Answer answer{accuracy_study(problem, design, observer, &store), std::nullopt};
   vary_settings(problem, design, answer.study, observer, &store);

@@ -160,17 +160,17 @@ class LoadDescription {
   }
 };
 
-class GeometryWriter {
- public:
-  GeometryWriter(const ProblemFile& problem, const Values& design)
-      : problem_(problem), scene_(problem.scene), design_(design) {}
+struct GeometryWriter {
+  const ProblemFile& problem;
+  const Values& design;
+  const Scene& scene = problem.scene;
 
   Json bodies() const {
-    return list_of(scene_.bodies, [&](const Body& body) { return body_geometry(body); });
+    return list_of(scene.bodies, [&](const Body& body) { return body_geometry(body); });
   }
 
   Json joints() const {
-    return list_of(scene_.joints, [&](const Joint& joint) {
+    return list_of(scene.joints, [&](const Joint& joint) {
       const Point& second = second_point(joint);
       Json entry = {{"places", {place(joint.bodies[0], joint.at), place(joint.bodies[1], second)}}};
       if (joint.drive) entry["drive"] = curve(joint.drive->motion, LawOf::motion);
@@ -179,23 +179,23 @@ class GeometryWriter {
   }
 
   Json loads() const {
-    return list_of(scene_.loads, [&](const Load& load) { return std::visit(*this, load.element); });
+    return list_of(scene.loads, [&](const Load& load) { return std::visit(*this, load.element); });
   }
 
   /// Of a spread force the middle of its stretch.
   Json operator()(const PointLoad& load) const {
     if (!load.to) return at_place(load);
     PointLoad middle = load;
-    const Eigen::Vector3d sum = resolve_point(load.at, design_) + resolve_point(*load.to, design_);
+    const Eigen::Vector3d sum = resolve_point(load.at, design) + resolve_point(*load.to, design);
     middle.at = {0.5 * sum.x(), 0.5 * sum.y(), 0.5 * sum.z()};
     return at_place(middle);
   }
   Json operator()(const SpringDamper& load) const {
     return {{"places", {place(load.bodies[0], load.at[0]), place(load.bodies[1], load.at[1])}},
-            {"text", spring_text(load, design_)}};
+            {"text", spring_text(load, design)}};
   }
   Json operator()(const JointForce& load) const {
-    Json document = {{"places", Json::array()}, {"text", spring_text(load, design_)}};
+    Json document = {{"places", Json::array()}, {"text", spring_text(load, design)}};
     if (load.motor && !depends_on_state(*load.motor))
       document["value"] = curve(*load.motor, LawOf::load);
     return document;
@@ -203,8 +203,7 @@ class GeometryWriter {
 
  private:
   Json curve(const TimeFunction& function, LawOf purpose) const {
-    const auto [times, values] =
-        law_points(function, problem_.simulation.end_time, design_, purpose);
+    const auto [times, values] = law_points(function, problem.simulation.end_time, design, purpose);
     Eigen::MatrixXd curve(2, times.size());
     curve.row(0) = Eigen::Map<const Eigen::RowVectorXd>(times.data(), curve.cols());
     curve.row(1) = Eigen::Map<const Eigen::RowVectorXd>(values.data(), curve.cols());
@@ -224,10 +223,10 @@ class GeometryWriter {
   }
 
   Json place(const std::string& body, const Point& at) const {
-    const DrawnPlace drawn = drawn_place(scene_, body, at, design_);
-    Json document = {{"body", drawn.body}, {"at", vector_document(resolve_point(at, design_))}};
+    const DrawnPlace drawn = drawn_place(scene, body, at, design);
+    Json document = {{"body", drawn.body}, {"at", vector_document(resolve_point(at, design))}};
     const bool is_on_axis = drawn.body >= 0 && drawn.share >= 0.0 &&
-                            std::holds_alternative<BeamBody>(scene_.bodies[drawn.body].shape);
+                            std::holds_alternative<BeamBody>(scene.bodies[drawn.body].shape);
     if (is_on_axis) {
       document["share"] = drawn.share;
     } else {
@@ -236,31 +235,29 @@ class GeometryWriter {
     return document;
   }
 
+  double distance(const Point& one, const Point& other) const {
+    return (resolve_point(other, design) - resolve_point(one, design)).norm();
+  }
+
   Json body_geometry(const Body& body) const {
-    const Pose<double> pose = body_pose(body, design_);
+    const Pose<double> pose = body_pose(body, design);
     Json document = {{"origin", vector_document(pose.origin)},
                      {"axes",
                       {vector_document(Eigen::Vector3d(pose.rotation.col(0))),
                        vector_document(Eigen::Vector3d(pose.rotation.col(1))),
                        vector_document(Eigen::Vector3d(pose.rotation.col(2)))}}};
     if (const auto* beam = std::get_if<BeamBody>(&body.shape)) {
-      document["length"] =
-          (resolve_point(beam->to, design_) - resolve_point(beam->from, design_)).norm();
-      document["segments"] = segments_document(*beam, design_);
+      document["length"] = distance(beam->from, beam->to);
+      document["segments"] = segments_document(*beam, design);
     } else if (const auto* imported = std::get_if<ImportedBody>(&body.shape)) {
-      document["length"] =
-          (resolve_point(imported->to, design_) - resolve_point(imported->from, design_)).norm();
+      document["length"] = distance(imported->from, imported->to);
     } else if (const auto* rigid = std::get_if<RigidBody>(&body.shape)) {
-      document["mass"] = resolve(rigid->mass, design_);
+      document["mass"] = resolve(rigid->mass, design);
     } else {
-      document["mass"] = resolve(std::get<PointMass>(body.shape).mass, design_);
+      document["mass"] = resolve(std::get<PointMass>(body.shape).mass, design);
     }
     return document;
   }
-
-  const ProblemFile& problem_;
-  const Scene& scene_;
-  const Values& design_;
 };
 
 Values values_of_vector(const Eigen::VectorXd& x) {
@@ -289,7 +286,7 @@ Json scene_picture(const ProblemFile& problem) {
 
 Json geometry_picture(const ProblemFile& problem, const Eigen::VectorXd& x) {
   const Values design = values_of_vector(x);
-  const GeometryWriter writer(problem, design);
+  const GeometryWriter writer{problem, design};
   return {{"bodies", writer.bodies()}, {"joints", writer.joints()}, {"loads", writer.loads()}};
 }
 

@@ -38,38 +38,22 @@ Json varied_overrides(const ProblemInput& input, const AccuracyRun& base,
   return overrides;
 }
 
-/// What changed, and the failure of a run that did.
+/// What changed; the failure of a run that did, else what `measures` adds, and how its time changed:
+/// `time_change` is null where nothing can be said of it.
 Json variation_document(const char* key, const ProblemInput& input, const AccuracyRun& base,
-                        const VariedRun& varied) {
+                        const VariedRun& varied, const std::function<void(Json&)>& measures) {
   Json document = {{key, varied.variation.knob},
                    {"value", varied.variation.value},
                    {"overrides", varied_overrides(input, base, varied.variation)}};
-  if (varied.run.has_failed()) document["failure"] = varied.run.failure;
-  return document;
-}
-
-/// `time_change` is null where nothing can be said of it.
-void add_time(const ComparedTime& time, Json& document) {
+  if (varied.run.has_failed()) {
+    document["failure"] = varied.run.failure;
+    return document;
+  }
+  measures(document);
+  const ComparedTime& time = varied.time;
   const bool is_known = is_same(time) || time.is_measurable();
   document["time_change"] = is_known ? Json(time.change) : Json(nullptr);
   document["time"] = time_change_document(time);
-}
-
-Json knob_document(const ProblemInput& input, const AccuracyRun& base, const VariedRun& varied) {
-  Json document = variation_document("knob", input, base, varied);
-  if (varied.run.has_failed()) return document;
-  add_measures(input.problem, varied.run, document);
-  add_time(varied.time, document);
-  return document;
-}
-
-Json effect_document(const ProblemInput& input, const AccuracyRun& base, const VariedRun& varied) {
-  Json document = variation_document("effect", input, base, varied);
-  if (varied.run.has_failed()) return document;
-  document["influence"] = of_responses(input.problem, varied.influence);
-  document["optimum_change"] = number_or_null(varied.run.optimum_change);
-  document["seconds"] = varied.run.simulation_seconds;
-  add_time(varied.time, document);
   return document;
 }
 
@@ -120,10 +104,17 @@ void add_variations(const ProblemInput& input, const AccuracyStudy& study, Json&
   if (!study.base) return;
   const AccuracyRun& base = study.runs[*study.base];
   document["base"] = settings_document(base.settings);
-  document["knobs"] =
-      list_of(study.knobs, [&](const VariedRun& one) { return knob_document(input, base, one); });
-  document["effects"] = list_of(
-      study.effects, [&](const VariedRun& one) { return effect_document(input, base, one); });
+  document["knobs"] = list_of(study.knobs, [&](const VariedRun& one) {
+    return variation_document("knob", input, base, one,
+                              [&](Json& knob) { add_measures(input.problem, one.run, knob); });
+  });
+  document["effects"] = list_of(study.effects, [&](const VariedRun& one) {
+    return variation_document("effect", input, base, one, [&](Json& effect) {
+      effect["influence"] = of_responses(input.problem, one.influence);
+      effect["optimum_change"] = number_or_null(one.run.optimum_change);
+      effect["seconds"] = one.run.simulation_seconds;
+    });
+  });
 }
 
 Json optimum_document(const ProblemInput& input, const OptimumStudy& optima,

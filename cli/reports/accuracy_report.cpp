@@ -23,11 +23,6 @@ constexpr double least_saving = 0.05;
 /// How many knobs are recommended.
 constexpr std::size_t most_knobs = 2;
 
-std::string elements_text(const Discretization& settings) {
-  return settings.elements > 0 ? std::to_string(settings.elements)
-                               : fmt::format("×{:g}", settings.factor);
-}
-
 /// "0.031 %"
 std::string share_text(double share) {
   return share == 0.0 ? "0 %" : significant(100.0 * share, 2) + " %";
@@ -324,6 +319,11 @@ std::string division_text(const Discretization& settings) {
   const std::string times =
       settings.factor == 1.0 ? "" : fmt::format("{:g} times ", settings.factor);
   return times + "the elements of the file";
+}
+
+std::string elements_text(const Discretization& settings) {
+  return settings.elements > 0 ? std::to_string(settings.elements)
+                               : fmt::format("×{:g}", settings.factor);
 }
 
 std::string setting_text(const Discretization& settings) {

@@ -14,6 +14,9 @@ std::string accuracy_text(const ProblemFile& problem, const AccuracyStudy& study
 /// "4 elements a segment", "the elements of the file", "0.5 times the elements of the file"
 std::string division_text(const Discretization& settings);
 
+/// "4", "×0.5"
+std::string elements_text(const Discretization& settings);
+
 /// "a step of 0.2 ms and 4 elements a segment"
 std::string setting_text(const Discretization& settings);
 

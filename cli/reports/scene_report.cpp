@@ -81,16 +81,15 @@ std::string resistance_text(const std::optional<TimeFunction>& resistance) {
 }
 
 /// A row of the table of what acts.
-class ActionRow {
- public:
-  ActionRow(const ProblemFile& problem, const Design<double>& design)
-      : end_time_(problem.simulation.end_time), design_(design) {}
+struct ActionRow {
+  double end_time;
+  const Design<double>& design;
 
   std::vector<std::string> operator()(const PointLoad& load) const {
     return {load.is_force() ? "force" : "torque", load.body, value_text(load, load.unit())};
   }
   std::vector<std::string> operator()(const SpringDamper& load) const {
-    return {"spring", both(load.bodies), spring_text(load, design_)};
+    return {"spring", both(load.bodies), spring_text(load, design)};
   }
   std::vector<std::string> operator()(const JointForce& load) const {
     const bool turns = load.coordinate == DrivenCoordinate::angle;
@@ -101,7 +100,7 @@ class ActionRow {
     } else if (load.motor) {
       motor = "motor " + range_text(points(*load.motor), turns ? "N m" : "N");
     }
-    return {"in the joint", load.joint, joined({spring_text(load, design_), motor})};
+    return {"in the joint", load.joint, joined({spring_text(load, design), motor})};
   }
 
  private:
@@ -111,11 +110,8 @@ class ActionRow {
     return fmt::format("over the {} of {}", turns ? "angle" : "displacement", load.over->joint);
   }
   LawPoints points(const TimeFunction& function) const {
-    return law_points(function, end_time_, design_, LawOf::load);
+    return law_points(function, end_time, design, LawOf::load);
   }
-
-  double end_time_;
-  const Design<double>& design_;
 };
 
 }  // namespace
@@ -299,7 +295,8 @@ std::string actions_text(const ProblemFile& problem, const Eigen::VectorXd& x) {
                    both(joint.bodies), range_text(points, turns ? "rad" : "m")});
   }
   for (const Load& load : problem.scene.loads) {
-    std::vector<std::string> cells = std::visit(ActionRow(problem, design), load.element);
+    std::vector<std::string> cells =
+        std::visit(ActionRow{problem.simulation.end_time, design}, load.element);
     cells.insert(cells.begin(), load.name);
     table.add_row(std::move(cells));
   }
