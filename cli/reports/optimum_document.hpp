@@ -5,8 +5,6 @@
 #include "core/response/monitors.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "optimization/design/multi_start.hpp"
-#include "optimization/design/size_choice.hpp"
-#include "optimization/solve.hpp"
 #include "sensitivity/gradients.hpp"
 
 namespace pleuel {
