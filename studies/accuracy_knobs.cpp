@@ -22,7 +22,7 @@ constexpr double longer = 4.0;
 /// Puts a value into the member that a key of a table fills.
 class MemberSetter : public Keys {
  public:
-  MemberSetter(std::string word, const Override& one) : word_(std::move(word)), value_(one.value) {}
+  MemberSetter(std::string word, const Override& one) : word_(std::move(word)), one_(one) {}
 
   using Keys::fixed;
   void fixed(const Key& key, KeyMember<double> member, const Measure&, std::string_view) override {
@@ -38,17 +38,17 @@ class MemberSetter : public Keys {
   void chosen(const Key& key, std::size_t& index, const std::vector<std::string_view>& words,
               std::string_view) override {
     if (key.word != word_) return;
-    index = std::ranges::find(words, std::get<std::string>(value_)) - words.begin();
+    index = std::ranges::find(words, std::get<std::string>(one_.value)) - words.begin();
   }
 
  private:
   template <class Value>
   void set(const Key& key, KeyMember<Value> member) const {
-    if (key.word == word_) member.get() = std::get<Value>(value_);
+    if (key.word == word_) member.get() = std::get<Value>(one_.value);
   }
 
   std::string word_;
-  const decltype(Override::value)& value_;
+  const Override& one_;
 };
 
 std::string reduction_of(const Body& body) {

@@ -128,19 +128,20 @@ double end_slack(double value, const GoalScale& scale) {
   return end_tolerance * std::clamp(std::abs(value), 1e-4 * scale.range(), scale.range());
 }
 
-class EndSearch {
- public:
-  EndSearch(const ProblemFile& problem, const SolveOptions& options, const Execution& execution)
-      : problem_(problem), file_(problem), options_(options), execution_(execution) {
-    remove_limit(file_, problem.pareto->constraint);
-  }
+struct EndSearch {
+  const ProblemFile& problem;
+  const SolveOptions& options;
+  const Execution& execution;
+  ProblemFile file = problem;  ///< without the limit that is varied
+  std::array<double, 2> start_values = {};
 
   FrontEnds run() {
-    const Eigen::VectorXd start = start_design(file_);
+    remove_limit(file, problem.pareto->constraint);
+    const Eigen::VectorXd start = start_design(file);
     FrontEnds ends{searched({goal(0), std::nullopt, start}, {goal(1), std::nullopt, start}), {}};
     for (std::size_t i = 0; i < 2; ++i) {
       const History& history = ends.points[i].point.result.history;
-      start_values_[i] = history.empty() ? 0.0 : first_design(history).objective;
+      start_values[i] = history.empty() ? 0.0 : first_design(history).objective;
     }
     measure(ends);
     const bool are_found = keeps_limits(ends.points[0]) && keeps_limits(ends.points[1]);
@@ -159,16 +160,16 @@ class EndSearch {
     Eigen::VectorXd start;
   };
 
-  const Objective& goal(std::size_t i) const { return problem_.pareto->goals[i]; }
+  const Objective& goal(std::size_t i) const { return problem.pareto->goals[i]; }
 
   std::vector<FoundPoint> searched(const Goal& first, const Goal& second) const {
     std::vector<PointSearch> searches;
     for (const Goal* one : {&first, &second}) {
       PointSearch search{.start = one->start};
-      search.other_problem = with_goal(file_, one->best, one->limit);
+      search.other_problem = with_goal(file, one->best, one->limit);
       searches.push_back(std::move(search));
     }
-    FoundPoints found = search_points(problem_, searches, options_, execution_);
+    FoundPoints found = search_points(problem, searches, options, execution);
     if (!found.is_whole) throw Stopped();
     return std::move(found.points);
   }
@@ -189,7 +190,7 @@ class EndSearch {
       ends.scales[i] = {
           low, high,
           std::max({optimum_accuracy * std::abs(low), optimum_accuracy * std::abs(high),
-                    equal_numbers * std::abs(start_values_[i])})};
+                    equal_numbers * std::abs(start_values[i])})};
     }
   }
 
@@ -212,12 +213,6 @@ class EndSearch {
     }
     measure(ends);
   }
-
-  const ProblemFile& problem_;
-  ProblemFile file_;  ///< that of the user: without the limit that is varied
-  const SolveOptions& options_;
-  const Execution& execution_;
-  std::array<double, 2> start_values_{};
 };
 
 }  // namespace
@@ -268,7 +263,7 @@ FoundPoints search_points(const ProblemFile& problem, const std::vector<PointSea
 
 FrontEnds find_front_ends(const ProblemFile& problem, const SolveOptions& options,
                           const Execution& execution) {
-  return EndSearch(problem, options, execution).run();
+  return EndSearch{problem, options, execution}.run();
 }
 
 }  // namespace pleuel
