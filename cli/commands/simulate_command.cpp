@@ -96,16 +96,24 @@ Eigen::VectorXd step_sizes(const Trajectory& trajectory) {
   return trajectory.time.tail(steps) - trajectory.time.head(steps);
 }
 
+/// Of a structure, which cannot move, as joints hold all bodies: what may be meant, or an axis that is wrong.
+std::string held_text(const Analysis& analysis) {
+  if (has_drives(analysis.model)) return "";
+  const DegreesOfFreedom freedoms =
+      rigid_degrees_of_freedom(analysis.model.mechanism, analysis.trajectory.state_at(0));
+  return freedoms.free() > 0 ? "" : freedoms_text(freedoms, analysis.model);
+}
+
 /// @param design  where it comes from, if it is not the start
 std::string simulation_text(const ProblemFile& problem, const std::string& design,
                             const Json& limits, const Simulated& run) {
   const Analysis& analysis = run.analysis;
   const Trajectory& trajectory = analysis.trajectory;
-  std::string text =
-      fmt::format("{}{}: {}\n\n{}\n{}", problem.name, design, size_text(analysis),
-                  responses_text(problem, analysis, run.errors) + limits_text(problem, limits),
-                  monitors_text(run.monitors, analysis.model.mechanism.system->multipliers()) +
-                      assembly_text(analysis) + warnings_text(run.warnings, run.consequences));
+  std::string text = fmt::format(
+      "{}{}: {}\n{}\n{}\n{}", problem.name, design, size_text(analysis), held_text(analysis),
+      responses_text(problem, analysis, run.errors) + limits_text(problem, limits),
+      monitors_text(run.monitors, analysis.model.mechanism.system->multipliers()) +
+          assembly_text(analysis) + warnings_text(run.warnings, run.consequences));
   if (!run.influences.empty()) {
     text += influences_text({problem, values_of(analysis), run.influences}, true) + "\n";
   }

@@ -151,6 +151,10 @@ Json freedoms_document(const DegreesOfFreedom& freedoms, const Model& model) {
           {"blocked_drives", freedoms.blocked}};
 }
 
+bool has_drives(const Model& model) {
+  return drives(model) > 0;
+}
+
 std::string freedoms_text(const DegreesOfFreedom& freedoms, const Model& model) {
   const int driven = drives(model);
   std::string text = fmt::format(

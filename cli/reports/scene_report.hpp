@@ -17,6 +17,7 @@ std::string bodies_text(const Model& model);
 /// its bodies do not deform, at the start of the simulation.
 Json freedoms_document(const DegreesOfFreedom& freedoms, const Model& model);
 std::string freedoms_text(const DegreesOfFreedom& freedoms, const Model& model);
+bool has_drives(const Model& model);
 
 /// The bound at which a variable is, to a millionth of its range, or, where a bound is far away, of
 /// that bound and the start: "lower", "upper", "both" where they are equal, or "" where it is at none.
