@@ -188,6 +188,11 @@ TrustedRun in_larger_steps(const TrustedRun& run) {
   return {run.problem, run.x, analysis, run.monitors};
 }
 
+const Analysis& in_twice_the_step(const TrustedRun& run) {
+  const bool is_there = run.shared->coarse && says_the_same(run, run.shared->coarse->twice);
+  return is_there ? *run.shared->coarse->twice.analysis : run.analysis;
+}
+
 std::unique_ptr<Analysis> analyze_variant(const TrustedRun& run,
                                           const std::function<void(ProblemFile&)>& change) {
   const NestedRun* basis = basis_of(run);

@@ -46,6 +46,10 @@ void compare_at_twice(const TrustedRun& run);
 /// instant is looked for at fewer. Else the run.
 TrustedRun in_larger_steps(const TrustedRun& run);
 
+/// The run with twice the step, if coarser runs are there already and it says what the fine one says: disturbances
+/// are followed along it. Else the run that is judged.
+const Analysis& in_twice_the_step(const TrustedRun& run);
+
 /// The mechanism of the basis with something else in it, at the instants of the basis. What fails in
 /// the largest steps is tried in smaller ones, which then are the basis.
 /// @throws SimulationError, InputError
