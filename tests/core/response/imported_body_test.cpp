@@ -8,9 +8,11 @@
 #include "core/response/effect_measurement.hpp"
 #include "core/scene/body_constants.hpp"
 #include "core/scene/visit_constants.hpp"
+#include "core/trust/check_list.hpp"
 #include "sensitivity/constant_gradients.hpp"
 #include "sensitivity/gradients.hpp"
 #include "tests/core/response/exchange.hpp"
+#include "tests/core/trust/trust_scenes.hpp"
 #include "tests/support/at_start.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/parameter_name.hpp"
@@ -363,6 +365,26 @@ TEST_P(Column, VibratesUnderLoadAsTheBeam) {
   const ProblemFile free = read("free.json", document);
   const double loaded = values_of(*analyze(original, start_design(original)))(0);
   EXPECT_LT(loaded, 0.9 * values_of(*analyze(free, start_design(free)))(0));
+}
+
+/// P_E = π² E I/(4 L²) of a column that is held at one end. The motion itself shows nothing.
+TEST_P(Column, BucklesUnderALoadThatComesLate) {
+  const double euler = 0.25 * std::numbers::pi * std::numbers::pi * 210e9 * 0.03 * 8e-6 / 12.0;
+  const auto findings_at = [&](double share) {
+    Json document = column(GetParam());
+    document["scene"]["loads"]["press"]["value"] = {
+        {"type", "table"},
+        {"interpolation", "monotone"},
+        {"times", {0.0, 0.01, 0.02, 1.0}},
+        {"values", {0.0, 0.0, share * euler, share * euler}}};
+    document["simulation"] = {{"end_time", 0.15}, {"step", 5e-4}};
+    document["responses"].erase("buckling");
+    return findings_of(read("imported.json", imported(document)), check_stability);
+  };
+  EXPECT_THAT(findings_at(0.95), testing::IsEmpty());
+  const Finding beyond = only(findings_at(1.3));
+  EXPECT_TRUE(beyond.is_serious);
+  EXPECT_THAT(beyond.text, HasSubstr("buckles"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Frames, Column, testing::Values("tangent", "chord"));
