@@ -165,10 +165,6 @@ std::optional<CompleteRun> simulate_completely(const TrustedRun& run);
 /// more at this one.
 std::vector<Finding> check_neglected_effects(const TrustedRun& run, const CompleteRun& complete);
 
-/// Geometric stiffening that the file does not forbid, but is not there because axial elasticity
-/// is switched off: judged by the estimate of the axial force against Euler's load.
-std::vector<Finding> check_lost_stiffening(const TrustedRun& run);
-
 /// Adds to the error of each response what the effects change that are left out by a tolerance.
 void add_neglected_effects(const TrustedRun& run, const CompleteRun& complete,
                            std::vector<std::optional<ErrorBar>>& errors);
@@ -194,7 +190,8 @@ struct LeftOut {
 /// - `shear` in beams that leave it out and are stubby (bent_beams.hpp),
 /// - `more_frames`, by twice as many, in beams that bend or twist far against those they have: linear
 ///   elasticity in a frame is off by the square of rotations, of which twice the frames leave a
-///   quarter.
+///   quarter,
+/// - `axial_elasticity`, and with it geometric stiffening, where the file switches it off.
 ///
 /// Told from 1 % of what a response is with it, serious from 10 % of that or of a tenth of its
 /// limits (coarse_runs.hpp), with the beams whose indicators say that they have a part in it. Where a response cannot be had of a divided beam, rotations tell (bent_beams.hpp).

@@ -144,7 +144,6 @@ constexpr Judge judges[] = {
     {Cause::unstable, check_frequencies},
     {Cause::unstable, check_promised_buckling},
     {Cause::not_converged, check_energy_balance},
-    {Cause::left_out, check_lost_stiffening},
     {Cause::left_out, check_modal_damping},
     {Cause::left_out, check_other_side},
     {Cause::left_out, check_section_axes},

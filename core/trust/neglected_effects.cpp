@@ -8,7 +8,6 @@
 
 #include "core/base/error.hpp"
 #include "core/base/number_text.hpp"
-#include "core/model/effect_estimates.hpp"
 #include "core/response/effect_measurement.hpp"
 #include "core/trust/bent_beams.hpp"
 #include "core/trust/check_list.hpp"
@@ -17,9 +16,6 @@
 namespace pleuel {
 
 namespace {
-
-/// Share of Euler's load from which stiffening changes bending by as much.
-constexpr double small_axial_force = 1e-2;
 
 bool leaves_out_by_measurement(const Model& model) {
   return std::ranges::any_of(model.effects, [](const EffectRecord& record) {
@@ -61,28 +57,6 @@ std::vector<Finding> check_neglected_effects(const TrustedRun& run, const Comple
                        change.response, change.relative, run.problem.effects.tolerance),
            true,
            {change.response}}};
-}
-
-std::vector<Finding> check_lost_stiffening(const TrustedRun& run) {
-  const EffectSettings& asked = run.problem.effects;
-  if (asked.axial_elasticity != EffectChoice::off || asked.elasticity == EffectChoice::off ||
-      asked.geometric_stiffening == EffectChoice::off) {
-    return {};
-  }
-  ProblemFile estimated = starting_at(with_all_effects(run.problem), run.x);
-  estimated.effects.axial_elasticity = EffectChoice::automatic;
-  estimated.effects.tolerance = small_axial_force;
-  std::vector<Finding> findings;
-  for (const auto& [body, estimates] : estimate_effects(estimated)) {
-    if (estimates.geometric_stiffening <= small_axial_force) continue;
-    findings.push_back(
-        {fmt::format("\"{}\" carries an axial force of about {:.2g} of its Euler load, which "
-                     "stiffens or softens it, but has no geometric stiffening because "
-                     "/effects/axial_elasticity is \"off\". Leave that out of the file.",
-                     body, estimates.geometric_stiffening),
-         true});
-  }
-  return findings;
 }
 
 void add_neglected_effects(const TrustedRun& run, const CompleteRun& complete,
