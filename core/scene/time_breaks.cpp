@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/scene/acting_laws.hpp"
+
 namespace pleuel {
 
 namespace {
@@ -73,15 +75,13 @@ double closest(const std::vector<double>& times, std::size_t i) {
   return distance;
 }
 
-enum class Of { drive, load };
-
-void add_breaks(const TimeFunction& function, const TimeIntegration& integration, Of kind,
+void add_breaks(const ActingLaw& acting, const TimeIntegration& integration,
                 std::vector<double>& breaks) {
-  const LawTimes law = times_of(function, integration.end_time);
+  const LawTimes law = times_of(acting.function, integration.end_time);
   const double least = law.jumps ? 0.0 : sparse * integration.step * (1.0 - 1e-9);
   for (std::size_t i = 0; i < law.times.size(); ++i) {
     const bool is_inside = law.is_repeated || (i > 0 && i + 1 < law.times.size());
-    if (is_inside && kind == Of::load && law.is_smooth_inside) continue;
+    if (is_inside && !acting.is_motion() && law.is_smooth_inside) continue;
     if (closest(law.times, i) >= least) breaks.push_back(law.times[i]);
   }
 }
@@ -90,20 +90,7 @@ void add_breaks(const TimeFunction& function, const TimeIntegration& integration
 
 std::vector<double> time_breaks(const Scene& scene, const TimeIntegration& integration) {
   std::vector<double> breaks;
-  const auto add = [&](const TimeFunction& function, Of kind) {
-    add_breaks(function, integration, kind, breaks);
-  };
-  for (const Joint& joint : scene.joints) {
-    if (joint.drive) add(joint.drive->motion, Of::drive);
-  }
-  for (const Load& load : scene.loads) {
-    if (const auto* point = std::get_if<PointLoad>(&load.element)) {
-      add(point->value, Of::load);
-    } else if (const auto* joint = std::get_if<JointForce>(&load.element)) {
-      if (joint->motor) add(*joint->motor, Of::load);
-      if (joint->control) add(joint->control->target, Of::drive);
-    }
-  }
+  for (const ActingLaw& law : acting_laws(scene)) add_breaks(law, integration, breaks);
   return breaks;
 }
 

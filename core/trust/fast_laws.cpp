@@ -12,6 +12,7 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/number_text.hpp"
 #include "core/model/scene_geometry.hpp"
+#include "core/scene/acting_laws.hpp"
 #include "core/scene/time_breaks.hpp"
 #include "core/trust/trusted_run.hpp"
 
@@ -51,11 +52,11 @@ std::optional<double> speed_jump(const TimeFunction& motion, const TimeLaw<doubl
   return std::nullopt;
 }
 
-void add_drive(const Joint& joint, const TimeLaw<double>& law, const Eigen::VectorXd& time,
+void add_drive(const ActingLaw& drive, const TimeLaw<double>& law, const Eigen::VectorXd& time,
                std::vector<Finding>& findings) {
-  const std::string who = fmt::format("the drive of the joint \"{}\"", joint.name);
-  const bool is_formula = std::holds_alternative<ExpressionFunction>(joint.drive->motion);
-  if (const auto jump = speed_jump(joint.drive->motion, law, time(time.size() - 1))) {
+  const std::string who = fmt::format("the drive of the joint \"{}\"", drive.name);
+  const bool is_formula = std::holds_alternative<ExpressionFunction>(drive.function);
+  if (const auto jump = speed_jump(drive.function, law, time(time.size() - 1))) {
     findings.push_back(
         {fmt::format("{} {}: its speed jumps at t = {:.4g} s, where forces "
                      "would be infinite; what is shown depends on the step. {}.",
@@ -66,8 +67,8 @@ void add_drive(const Joint& joint, const TimeLaw<double>& law, const Eigen::Vect
          true});
     return;
   }
-  const std::vector<double> knots = sharp_times(joint.drive->motion, time(time.size() - 1));
-  if (joint.drive->coordinate == DrivenCoordinate::angle) {
+  const std::vector<double> knots = sharp_times(drive.function, time(time.size() - 1));
+  if (!drive.is_displacement) {
     const MissedValues turned = missed_by(
         time, [&](double t) { return std::polar(1.0, law.at(t).value); }, knots);
     add_missed({who, "direction", most_missed_direction}, turned, 1.0, findings);
@@ -82,29 +83,22 @@ void add_drive(const Joint& joint, const TimeLaw<double>& law, const Eigen::Vect
 std::vector<Finding> find_fast_laws(const Scene& scene, const Design<double>& design,
                                     const Eigen::VectorXd& time) {
   std::vector<Finding> findings;
-  for (const Joint& joint : scene.joints) {
-    if (!joint.drive) continue;
-    add_drive(joint, resolve_time_law(joint.drive->motion, design, LawOf::motion), time, findings);
-  }
-  const auto add = [&](const std::string& who, const char* what, const TimeFunction& function,
-                       LawOf purpose) {
-    if (depends_on_state(function)) return;
-    const TimeLaw<double> law = resolve_time_law(function, design, purpose);
+  for (const ActingLaw& acting : acting_laws(scene)) {
+    if (depends_on_state(acting.function)) continue;
+    const TimeLaw<double> law =
+        resolve_time_law(acting.function, design, acting.is_motion() ? LawOf::motion : LawOf::load);
+    if (acting.kind == ActingLaw::Kind::drive) {
+      add_drive(acting, law, time, findings);
+      continue;
+    }
     const MissedValues missed = missed_by(
         time, [&](double t) { return law.at(t).value; },
-        sharp_times(function, time(time.size() - 1)));
-    add_missed({who, what, most_missed_share}, missed, missed.scale, findings);
-  };
-  for (const Load& load : scene.loads) {
-    const std::string who = fmt::format("the load \"{}\"", load.name);
-    if (const auto* point = std::get_if<PointLoad>(&load.element)) {
-      add(who, "value", point->value, LawOf::load);
-    } else if (const auto* joint = std::get_if<JointForce>(&load.element)) {
-      if (joint->motor) add(who, "value", *joint->motor, LawOf::load);
-      if (joint->control) {
-        add("the motor of " + who, "target", joint->control->target, LawOf::motion);
-      }
-    }
+        sharp_times(acting.function, time(time.size() - 1)));
+    const bool is_target = acting.kind == ActingLaw::Kind::target;
+    const std::string who =
+        fmt::format("{}the load \"{}\"", is_target ? "the motor of " : "", acting.name);
+    add_missed({who, is_target ? "target" : "value", most_missed_share}, missed, missed.scale,
+               findings);
   }
   return findings;
 }

@@ -13,8 +13,10 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/find_named.hpp"
 #include "core/model/scene_geometry.hpp"
+#include "core/scene/acting_laws.hpp"
 #include "core/scene/held_points.hpp"
 #include "core/scene/joint_kind.hpp"
+#include "core/scene/time_breaks.hpp"
 #include "core/trust/check_list.hpp"
 
 namespace pleuel {
@@ -22,6 +24,7 @@ namespace pleuel {
 namespace {
 
 constexpr double far_away = 100.0;       // of the size of the rest
+constexpr double far_beyond = 100.0;     // of the simulated time
 constexpr double most_slender = 5000.0;  // lengths over depths; wires included
 // Radii of gyration and lengths of springs, of the mechanism's size.
 constexpr double largest_length = 10.0;
@@ -50,8 +53,10 @@ double distance_to(const Eigen::Vector3d& point, const std::vector<Eigen::Vector
 
 class Proportions {
  public:
-  Proportions(const Scene& scene, const Eigen::VectorXd& x)
-      : scene_(scene), design_(x.begin(), x.end()) {}
+  Proportions(const ProblemFile& problem, const Eigen::VectorXd& x)
+      : scene_(problem.scene),
+        end_time_(problem.simulation.end_time),
+        design_(x.begin(), x.end()) {}
 
   std::vector<Finding> find() {
     collect_places();
@@ -66,6 +71,10 @@ class Proportions {
       if (const auto* spring = std::get_if<SpringDamper>(&load.element)) {
         check_spring(load.name, *spring);
       }
+    }
+    for (const ActingLaw& law : acting_laws(scene_)) {
+      check_duration(law);
+      if (law.is_motion() && law.is_displacement) check_way(law);
     }
     check_gravity();
     return std::move(findings_);
@@ -293,6 +302,41 @@ class Proportions {
                     length, size));
   }
 
+  /// When a law has done what it is for; 0: it goes on for ever, or nobody knows.
+  double end_of(const TimeFunction& function) const {
+    if (const auto* start = std::get_if<RampToSpeedDrive>(&function)) {
+      return resolve(start->ramp, design_);
+    }
+    const auto* table = std::get_if<TableFunction>(&function);
+    const bool is_known = std::holds_alternative<RampFunction>(function) ||
+                          std::holds_alternative<HalfSineFunction>(function) ||
+                          (table != nullptr && table->repetition == Repetition::none);
+    const std::vector<double> times =
+        is_known ? sharp_times(function, end_time_) : std::vector<double>();
+    return times.empty() ? 0.0 : times.back();
+  }
+
+  void check_duration(const ActingLaw& law) {
+    const double end = end_of(law.function);
+    if (end <= far_beyond * end_time_) return;
+    add(fmt::format("{} goes on until t = {:.4g} s, of which {:.3g} s are simulated", law.pointer(),
+                    end, end_time_));
+  }
+
+  /// Of a drive or a target that slides.
+  void check_way(const ActingLaw& law) {
+    constexpr int samples = 64;
+    const TimeLaw<double> motion = resolve_time_law(law.function, design_, LawOf::motion);
+    double way = 0.0;
+    for (int i = 1; i <= samples; ++i) {
+      way =
+          std::max(way, std::abs(motion.at(end_time_ * i / samples).value - motion.at(0.0).value));
+    }
+    const double size = mechanism_size();
+    if (size == 0.0 || way <= far_away * size) return;
+    add(fmt::format("{} goes {:.3g} m far, in a mechanism of {:.3g} m", law.pointer(), way, size));
+  }
+
   void check_gravity() {
     const double gravity = resolve_point(scene_.gravity, design_).norm();
     if (gravity == 0.0 || (gravity >= least_gravity && gravity <= most_gravity)) return;
@@ -300,6 +344,7 @@ class Proportions {
   }
 
   const Scene& scene_;
+  double end_time_;
   Design<double> design_;
   std::vector<Place> places_;
   std::optional<double> size_;  ///< of the mechanism, once it is asked for
@@ -314,7 +359,7 @@ std::vector<Finding> check_proportions(const TrustedRun& run) {
 
 std::vector<Finding> check_proportions_before(const ProblemFile& problem,
                                               const Eigen::VectorXd& x) {
-  return Proportions(problem.scene, x).find();
+  return Proportions(problem, x).find();
 }
 
 }  // namespace pleuel

@@ -21,7 +21,7 @@ class SizesOutOfProportion : public testing::TestWithParam<Slip> {};
 /// Each of them is a unit forgotten, or a zero too many.
 TEST_P(SizesOutOfProportion, AreNamedByTheirPlaceInTheFile) {
   const ProblemFile problem =
-      sample_problem("slider_crank", {"/simulation/end_time=0.1 ms", GetParam().override_text});
+      sample_problem("slider_crank", {"/simulation/end_time=1 ms", GetParam().override_text});
   const Finding finding = only(findings_of(problem, check_proportions));
   EXPECT_FALSE(finding.is_serious);
   EXPECT_THAT(finding.text, HasSubstr(GetParam().pointer));
@@ -52,7 +52,7 @@ TEST(SizesOutOfProportion, BeginWhereTheyAreSaidTo) {
                            Edge{"/scene/gravity", "[0, 0.51, 0]", "[0, 0.49, 0]"},
                            Edge{"/scene/gravity", "[0, 249, 0]", "[0, 251, 0]"}}) {
     // Rubber rods are for no motion: the finding looks at numbers only.
-    StartRun start(sample_problem("slider_crank", {"/simulation/end_time=0.1 ms"}));
+    StartRun start(sample_problem("slider_crank", {"/simulation/end_time=1 ms"}));
     const auto count = [&](const char* value) {
       start.problem.scene =
           sample_problem("slider_crank", {"/scene/materials/steel/density=" + edge.density,
@@ -128,6 +128,35 @@ TEST(SizesOutOfProportion, BeginAtTenTimesTheInertiaAndAHundredTimesTheDistance)
   EXPECT_EQ(findings(2.0 * 10.1 * 10.1, 1.0), 1u);
   EXPECT_EQ(findings(1.0, 1.0 + 99.0), 0u);
   EXPECT_EQ(findings(1.0, 1.0 + 101.0), 1u);
+}
+
+/// A cart of 1 m on a rail that a drive moves, and a motor that is to move a second one: by a hundred times the
+/// mechanism's size; for a hundred times the simulated time.
+TEST(SizesOutOfProportion, AreWaysAndTimesOfDrivesAndTargets) {
+  const auto findings = [](double way, double rise) {
+    const std::string law = fmt::format(R"({{"type": "step", "to": {}, "rise": {}}})", way, rise);
+    return findings_of(read_scene(fmt::format(
+                           R"({{"scene": {{
+          "bodies": {{"cart": {{"type": "point-mass", "at": [1, 0, 0], "mass": 1}},
+                      "other": {{"type": "point-mass", "at": [0, 0, 0], "mass": 1}}}},
+          "joints": {{"rail": {{"type": "prismatic", "bodies": ["ground", "cart"], "at": [1, 0, 0], "axis": [1, 0, 0],
+                                "drive": {0}}},
+                      "way": {{"type": "prismatic", "bodies": ["ground", "other"], "at": [0, 0, 0], "axis": [1, 0, 0]}}}},
+          "loads": {{"motor": {{"type": "joint", "joint": "way",
+                                "motor": {{"type": "control", "target": {0}, "proportional": 1, "derivative": 1}}}}}}}},
+        "simulation": {{"end_time": 1, "step": 0.1}}, "responses": {{"m": {{"type": "mass"}}}}}})",
+                           law)),
+                       check_proportions);
+  };
+  EXPECT_THAT(findings(99.0, 0.5), IsEmpty());
+  const auto far = findings(101.0, 0.5);
+  ASSERT_THAT(far, SizeIs(2));
+  EXPECT_THAT(far[0].text, HasSubstr("/scene/joints/rail/drive goes 101 m far"));
+  EXPECT_THAT(far[1].text, HasSubstr("/scene/loads/motor/motor/target goes"));
+  EXPECT_THAT(findings(1.0, 99.0), IsEmpty());
+  const auto late = findings(1.0, 101.0);
+  ASSERT_THAT(late, SizeIs(2));
+  EXPECT_THAT(late[0].text, HasSubstr("goes on until t = 101 s, of which 1 s are simulated"));
 }
 
 /// A free length of ten times the mechanism's size.
