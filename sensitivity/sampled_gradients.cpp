@@ -52,7 +52,11 @@ std::vector<Part> parts_of(const Analysis& analysis, const SampledValue& value,
   }
   std::vector<Part> parts;
   for (const WeightedResponse& one : linearized(analysis, value.response).parts) {
-    const SampledValue part{one.response, analysis.reductions[one.response].samples};
+    const auto replaced = std::ranges::find(value.replaced, one.response, &SampledValue::response);
+    const SampledValue part =
+        replaced != value.replaced.end()
+            ? *replaced
+            : SampledValue{one.response, analysis.reductions[one.response].samples};
     parts.push_back(
         {one.response, samples_of_signal(analysis, part, SamplesOf::history), one.weight});
   }

@@ -12,6 +12,8 @@ namespace pleuel {
 struct SampledValue {
   std::size_t response;
   std::vector<Sample> samples;
+  /// Of an expression: what takes the place of some of the values that it is made from.
+  std::vector<SampledValue> replaced = {};
 };
 
 /// All responses of an analysis as such values, in their order.

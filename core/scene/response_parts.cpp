@@ -1,6 +1,8 @@
 #include "core/scene/response_parts.hpp"
 
 #include <algorithm>
+#include <map>
+#include <optional>
 #include <set>
 
 #include "core/base/find_named.hpp"
@@ -90,6 +92,91 @@ std::vector<std::size_t> extreme_parts(const ProblemFile& problem, std::size_t r
       add_extreme_parts(*expression, expression->steps.size() - 1, operation, parts);
   if (!is_one || parts.size() < 2) return {};
   return {parts.begin(), parts.end()};
+}
+
+namespace {
+
+/// Σ factor · response + what depends on other numbers.
+struct LinearForm {
+  std::optional<double> number = {};  ///< of one that depends on nothing
+  std::map<std::size_t, double> factors = {};
+  std::set<std::size_t> others = {};  ///< responses that it depends on otherwise
+
+  void add(const LinearForm& other, double factor) {
+    const bool is_number = number && other.number;
+    number = is_number ? std::optional(*number + factor * *other.number) : std::nullopt;
+    for (const auto& [response, one] : other.factors) factors[response] += factor * one;
+    others.insert(other.others.begin(), other.others.end());
+  }
+  /// Any function of this and others.
+  void mix(const LinearForm& other) {
+    add(other, 1.0);
+    number.reset();
+    for (const auto& [response, factor] : factors) others.insert(response);
+  }
+};
+
+LinearForm times(double factor, const LinearForm& form) {
+  LinearForm product{0.0};
+  product.add(form, factor);
+  return product;
+}
+
+LinearForm linear_form(const ProblemFile& problem, std::size_t response);
+
+LinearForm linear_form(const ProblemFile& problem, const Expression& expression,
+                       const ExpressionStep& step, const std::vector<LinearForm>& earlier) {
+  if (step.operation == Operation::constant) return {step.constant};
+  if (step.operation == Operation::argument) {
+    const ExpressionArgument& argument = expression.arguments[step.first];
+    const bool is_response = argument.kind == ExpressionArgument::Kind::response;
+    return is_response ? linear_form(problem, argument.index) : LinearForm();
+  }
+  LinearForm form = earlier[step.first];
+  const LinearForm second = step.second < 0 ? LinearForm{0.0} : earlier[step.second];
+  switch (step.operation) {
+    case Operation::plus:
+      form.add(second, 1.0);
+      return form;
+    case Operation::minus:
+      form.add(second, -1.0);
+      return form;
+    case Operation::negated:
+      return times(-1.0, form);
+    case Operation::times:
+      if (second.number) return times(*second.number, form);
+      if (form.number) return times(*form.number, second);
+      break;
+    case Operation::over:
+      if (second.number) return times(1.0 / *second.number, form);
+      break;
+    default:
+      break;
+  }
+  form.mix(second);
+  return form;
+}
+
+LinearForm linear_form(const ProblemFile& problem, std::size_t response) {
+  const auto& expression = problem.responses[response].expression;
+  if (!expression) return {std::nullopt, {{response, 1.0}}};
+  std::vector<LinearForm> forms;
+  for (const ExpressionStep& step : expression->steps) {
+    forms.push_back(linear_form(problem, *expression, step, forms));
+  }
+  return forms.back();
+}
+
+}  // namespace
+
+std::vector<LinearPart> linear_parts(const ProblemFile& problem, std::size_t response) {
+  if (!problem.responses[response].expression) return {};
+  const LinearForm form = linear_form(problem, response);
+  std::vector<LinearPart> parts;
+  for (const auto& [part, factor] : form.factors) {
+    if (factor != 0.0 && !form.others.contains(part)) parts.push_back({part, factor});
+  }
+  return parts;
 }
 
 bool is_monitor(const ProblemFile& problem, std::size_t response) {

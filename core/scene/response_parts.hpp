@@ -35,6 +35,16 @@ enum class Extreme { largest, smallest };
 std::vector<std::size_t> extreme_parts(const ProblemFile& problem, std::size_t response,
                                        Extreme extreme);
 
+/// A response that an expression depends on as on factor · response, with a number as the factor.
+struct LinearPart {
+  std::size_t response;
+  double factor;
+};
+
+/// Those that are no expressions themselves: T and F of "2*T - F/(3 m) + mass*height/(1 kg)". Empty of a response that
+/// is no expression.
+std::vector<LinearPart> linear_parts(const ProblemFile& problem, std::size_t response);
+
 // The words of problem files for what responses make of a history.
 
 inline constexpr Choice<FatigueCriterion> fatigue_criteria[] = {

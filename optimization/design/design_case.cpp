@@ -107,10 +107,6 @@ std::optional<std::size_t> DesignCase::response_of(const RowSource& rows) const 
 std::vector<DesignCase::Row> DesignCase::rows_at(const Analysis& analysis,
                                                  const std::vector<RowSource>& rows) const {
   std::vector<Row> all;
-  const auto add = [&](const RowSource& of, std::size_t response, const Reduction& reduction) {
-    const double sign = of.sign.value_or(of.constraint ? 1.0 : objective_sign());
-    all.push_back({sign * reduction.value, SampledValue{response, reduction.samples}, sign});
-  };
   for (const RowSource& of : rows) {
     const auto response = response_of(of);
     if (!response) {
@@ -120,15 +116,36 @@ std::vector<DesignCase::Row> DesignCase::rows_at(const Analysis& analysis,
         row.value += factor * x_(variable);
         row.gradient(variable) += factor;
       }
-    } else if (of.division) {
-      for (const Reduction& peak : divided_peaks(analysis, file_, *response, *of.division)) {
-        add(of, *response, peak);
-      }
     } else {
-      add(of, *response, analysis.reductions[*response]);
+      const double sign = of.sign.value_or(of.constraint ? 1.0 : objective_sign());
+      const Reduction& reduction = analysis.reductions[*response];
+      divide(analysis, of.divided,
+             {sign * reduction.value, SampledValue{*response, reduction.samples}, sign}, all);
     }
   }
   return all;
+}
+
+void DesignCase::divide(const Analysis& analysis, const std::vector<DividedPeaks>& divided,
+                        const Row& whole, std::vector<Row>& rows) const {
+  if (divided.empty()) {
+    rows.push_back(whole);
+    return;
+  }
+  const auto& [response, factor, division] = divided.front();
+  const std::vector<DividedPeaks> others(divided.begin() + 1, divided.end());
+  const double highest = analysis.reductions[response].value;
+  for (const Reduction& peak : divided_peaks(analysis, file_, response, division)) {
+    Row row = whole;
+    if (response == whole.sampled->response) {
+      row.value = whole.sign * peak.value;
+      row.sampled->samples = peak.samples;
+    } else {
+      row.value += whole.sign * factor * (peak.value - highest);
+      row.sampled->replaced.push_back({response, peak.samples});
+    }
+    divide(analysis, others, row, rows);
+  }
 }
 
 GradientMethod DesignCase::method_for(const Analysis& analysis,

@@ -23,6 +23,13 @@ namespace pleuel {
 /// Index of a response of a file. @throws InputError if there is none of this name
 std::size_t index_of_response(const ProblemFile& file, const std::string& name);
 
+/// Peaks that are told apart: of the response of some rows itself, or of one that its formula has as factor · response.
+struct DividedPeaks {
+  std::size_t response = 0;
+  double factor = 1.0;
+  PeakDivision division = {};
+};
+
 /// Where some components of a design problem come from: of a case what stands for one constraint or, without
 /// a constraint, for the objective: one component, or one for each peak that is told apart.
 struct RowSource {
@@ -30,13 +37,17 @@ struct RowSource {
   std::optional<std::size_t> constraint = {};  ///< in the problem of the case
   /// Of a response that is the largest, or smallest, of others: one of them.
   std::optional<std::size_t> part = {};
-  std::optional<PeakDivision> division = {};
+  std::vector<DividedPeaks> divided = {};  ///< one component for each choice of a peak of each
   /// What a response by itself, neither limited nor minimized in its case, is multiplied with.
   std::optional<double> sign = {};
   /// In place of a case: a response of the joined problem that is made from several. One component.
   std::optional<std::size_t> over_cases = {};
 
-  int count() const { return division && !over_cases ? division->peaks() : 1; }
+  int count() const {
+    int peaks = 1;
+    for (const DividedPeaks& one : divided) peaks *= one.division.peaks();
+    return peaks;
+  }
 };
 
 /// Components of a design problem, with a name that tells them from others of the same file.
@@ -101,6 +112,9 @@ class DesignCase {
   Evaluation simulated_rows(const Eigen::VectorXd& x, Request request,
                             const std::vector<RowSource>& rows);
   std::vector<Row> rows_at(const Analysis& analysis, const std::vector<RowSource>& rows) const;
+  /// Of a row those of its peaks.
+  void divide(const Analysis& analysis, const std::vector<DividedPeaks>& divided, const Row& whole,
+              std::vector<Row>& rows) const;
   /// That of the choice, which was made for the first rows: the adjoint method, if it was to choose, is
   /// none for more rows than there are variables.
   GradientMethod method_for(const Analysis& analysis,

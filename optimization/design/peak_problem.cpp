@@ -27,6 +27,10 @@ bool is_extreme(const ResponseSettings& response, Extreme extreme) {
   return (response.over_time == OverTime::min) == (extreme == Extreme::smallest);
 }
 
+Extreme opposite(Extreme extreme) {
+  return extreme == Extreme::largest ? Extreme::smallest : Extreme::largest;
+}
+
 const ResponseSettings& response_of(const DesignProblem& problem, const RowSource& source) {
   if (source.over_cases) return problem.file().responses[*source.over_cases];
   const DesignCase& of_case = problem.load_case(source.load_case);
@@ -89,24 +93,41 @@ struct Sources {
 
   RowSource divided(RowSource source, Extreme side) const {
     if (source.over_cases) return source;
-    const ResponseSettings& settings = response_of(problem, source);
-    const bool can_be_divided = has_peaks(settings) || is_fatigue(settings);
-    if (can_be_divided && is_extreme(settings, side)) {
-      source.division = division_of(source.load_case, settings);
+    const DesignCase& of_case = problem.load_case(source.load_case);
+    const std::size_t response = *of_case.response_of(source);
+    std::vector<LinearPart> parts = linear_parts(of_case.file(), response);
+    if (parts.empty()) parts = {{response, 1.0}};
+    std::erase_if(parts, [&](const LinearPart& part) {
+      const bool presses = is_extreme(of_case.file().responses[part.response],
+                                      part.factor > 0.0 ? side : opposite(side));
+      return !presses || !can_be_divided(of_case.file().responses[part.response]);
+    });
+    const int most = static_cast<int>(
+        std::pow(most_rows, 1.0 / std::max(1.0, static_cast<double>(parts.size()))));
+    for (const auto& [part, factor] : parts) {
+      const PeakDivision division =
+          division_of(of_case.file(), of_case.file().responses[part], most);
+      const bool is_whole = part == response;
+      if (is_whole || division.peaks() <= most) source.divided.push_back({part, factor, division});
     }
     return source;
   }
 
-  PeakDivision division_of(std::size_t load_case, const ResponseSettings& response) const {
-    const ProblemFile& file = problem.load_case(load_case).file();
+  static bool can_be_divided(const ResponseSettings& response) {
+    return has_peaks(response) || is_fatigue(response);
+  }
+
+  /// @param most  peaks
+  PeakDivision division_of(const ProblemFile& file, const ResponseSettings& response,
+                           int most) const {
     const int places = place_count(file, response);
     if (is_fatigue(response)) return {1, places};
-    const int most = std::min(windows, step_count(file.simulation) + 1);
-    const int fewest = std::min(least_windows, most);
+    const int most_windows = std::min(windows, step_count(file.simulation) + 1);
+    const int fewest = std::min(least_windows, most_windows);
     const auto limits = int_size(problem.file().constraints);
     const int rows = most_rows_of_all / std::max(1, limits);
-    if (places == 1) return {std::clamp(rows, fewest, most), 1};
-    return {std::clamp(std::min(most_rows, rows) / places, fewest, most), places};
+    if (places == 1) return {std::clamp(std::min(rows, most), fewest, most_windows), 1};
+    return {std::clamp(std::min(most, rows) / places, fewest, most_windows), places};
   }
 };
 
@@ -151,7 +172,7 @@ void PeakProblem::bound_objective() {
   const std::vector<RowSource> first =
       is_in_cases ? from.in_case(0, std::nullopt)
                   : from.over_cases(problem_.objective_response(), std::nullopt);
-  const bool is_divided = first.size() > 1 || first.front().division;
+  const bool is_divided = first.size() > 1 || !first.front().divided.empty();
   if (!is_divided && !problem_.minimizes_worst()) return;
   EpigraphVariable all;
   if (!is_in_cases) all.sources = first;
@@ -244,7 +265,8 @@ Evaluation PeakProblem::evaluate(const Eigen::VectorXd& x, Request request) {
 
 bool PeakProblem::divides_time() const {
   return std::ranges::any_of(named_rows_.sources, [](const RowSource& source) {
-    return source.division && source.division->windows > 1;
+    return std::ranges::any_of(
+        source.divided, [](const DividedPeaks& peaks) { return peaks.division.windows > 1; });
   });
 }
 

@@ -118,12 +118,15 @@ TEST(PeakProblem, LeavesAMinimumWithAnUpperLimitWhole) {
 }
 
 /// A quick variant of a problem file: coarse, and over in 20 ms.
-ProblemFile quick_problem(const char* name) {
+ProblemFile quick_problem(const char* name, std::vector<std::string> overrides = {}) {
   const auto path =
       std::filesystem::path(source_folder()) / "problems" / (std::string(name) + ".json");
-  return read_problem(path, {"/simulation/step=0.2 ms", "/simulation/end_time=20 ms",
-                             "/scene/joints/bearing/drive/ramp=20 ms"})
-      .complete();
+  for (const char* quick : {"/simulation/step=0.2 ms", "/simulation/end_time=20 ms",
+                            R"(/pareto={"responses": ["crank_and_rod", "rod_bow"]})",
+                            "/scene/joints/bearing/drive/ramp=20 ms"}) {
+    overrides.push_back(quick);
+  }
+  return read_problem(path, overrides).complete();
 }
 
 TEST(PeakProblem, FoldsToTheConstraintsOfTheFile) {
@@ -186,6 +189,59 @@ TEST(PeakProblem, AddsTheMultipliersOfTheRowsOfAConstraint) {
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(Eigen::Index(peaks.constraints().size()));
   // 16 windows; of the stress of one segment, at four stretches of it.
   EXPECT_EQ(peaks.fold_multipliers(ones), Eigen::Vector4d(64.0, 64.0, 16.0, 16.0));
+}
+
+/// Of what a formula has with a number as its factor: the factor decides which peaks are pressed upon.
+TEST(PeakProblem, DividesThePeaksInAFormula) {
+  const auto rows_of = [](const std::string& limit) {
+    DesignProblem problem(
+        quick_problem("slider_crank_round", {R"(/objective={"minimize": "crank_and_rod"})",
+                                             "/constraints={\"rod_stiffness\": " + limit + "}"}));
+    PeakProblem peaks(problem, 16);
+    const Eigen::VectorXd x = 0.8 * start_design(problem.file());
+    return peaks.evaluate(x, Request::values_and_gradients);
+  };
+  const Evaluation plain = rows_of(R"({"response": "rod_stress", "upper": "1 GPa"})");
+  const Eigen::Index count = plain.constraints.size();
+  EXPECT_GT(count, 16);
+  const auto compare = [&](const std::string& limit, double factor, double constant) {
+    const Evaluation found = rows_of(limit);
+    ASSERT_EQ(found.constraints.size(), count) << limit;
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const double expected = factor * plain.constraints(i) + constant;
+      EXPECT_NEAR(found.constraints(i), expected, 1e-12 * std::abs(expected)) << limit;
+    }
+    const Eigen::MatrixXd expected = factor * plain.constraint_jacobian;
+    EXPECT_LE((found.constraint_jacobian - expected).norm(), 1e-12 * expected.norm()) << limit;
+  };
+  compare(R"({"response": "= 3*rod_stress - 5 MPa", "upper": "1 GPa"})", 3.0, -5e6);
+  compare(R"({"response": "= (1 GPa - rod_stress)/2", "lower": "0 Pa"})", -0.5, 0.5e9);
+  // Two of them: all pairs.
+  const auto limited = [](const std::string& formula) {
+    return R"({"response": ")" + formula + R"(", "upper": "1 GPa"})";
+  };
+  EXPECT_GT(rows_of(limited("= rod_stress + 2*rod_bow*(1 MPa/mm)")).constraints.size(), count);
+  for (const std::string& limit :
+       {std::string(R"({"response": "= 3*rod_stress", "lower": "1 Pa"})"),
+        limited("= rod_stress^2/(1 MPa)"), limited("= rod_stress*(crank_and_rod/(1 kg))")}) {
+    EXPECT_EQ(rows_of(limit).constraints.size(), 1) << limit;
+  }
+}
+
+/// A factor changes no optimum.
+TEST(SolveDesign, MinimizesAPeakInAFormulaAsThePeakItself) {
+  const auto best = [](const std::string& objective) {
+    DesignProblem problem(quick_problem(
+        "slider_crank_round",
+        {R"(/objective={"minimize": ")" + objective + R"("})",
+         R"(/constraints={"rod_stiffness": {"response": "crank_and_rod", "upper": "0.5 kg"}})"}));
+    const Result result = solve_design(problem, {.backend = "nlopt-slsqp"});
+    EXPECT_EQ(to_string(result.status), "verified") << objective << ": " << result.message;
+    return result.evaluation.objective;
+  };
+  const double plain = best("rod_stress");
+  EXPECT_NEAR(best("= 2*rod_stress"), 2.0 * plain, 1e-4 * plain);
+  EXPECT_NEAR(best("= rod_stress + crank_and_rod*(1e-3 Pa/kg)"), plain, 1e-4 * plain);
 }
 
 /// Sixteen rows for each limit from the beginning mislead SLSQP here into an infeasible design.
