@@ -266,6 +266,10 @@ void set_beam(const BeamBody& beam, const Body& body, const BuildContext& contex
   }
   model.mesh = make_mesh(body, context.scene, context.start, effects.elasticity);
   model.beam = resolve_beam(beam, model.mesh, context.scene, context.design);
+  model.bends_alike = std::ranges::all_of(beam.segments, [](const Segment& segment) {
+    return std::holds_alternative<CircleSection>(segment.section) ||
+           std::holds_alternative<TubeSection>(segment.section);
+  });
   const std::set<int> variables =
       context.differentiated(beam_variables(body, model.mesh, context.scene));
   for (const int variable : variables) {

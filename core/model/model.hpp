@@ -54,6 +54,7 @@ struct BodyModel : ElasticBody {
   BeamStretch stretch;
   ReferenceCondition condition = ReferenceCondition::tangent;
   Beam<double> beam;
+  bool bends_alike = false;  ///< in all planes, at all designs: its sections are circles and tubes
   std::vector<std::pair<int, Beam<Dual>>> beam_x;  ///< in the order of the other derivatives
   BeamMesh mesh;
   /// Which nodal displacements it has. They are its elastic coordinates, unless it has a basis of

@@ -24,28 +24,6 @@ Scalar inertia(const SectionProperties<Scalar>& section, Plane plane) {
   return plane == Plane::y ? section.inertia_z : section.inertia_y;
 }
 
-/// Whether all sections are as stiff along one axis as along the other, at neighbouring designs,
-/// too.
-bool is_equal_in_both(const BodyModel& body) {
-  constexpr double round_off = 1e-12;
-  const auto differ = [](double a, double b) { return std::abs(a - b) > round_off * std::abs(b); };
-  for (const BeamElement<double>& element : body.beam.elements) {
-    if (differ(element.section.inertia_y, element.section.inertia_z)) return false;
-    if (differ(element.shear_compliance_y, element.shear_compliance_z)) return false;
-  }
-  const auto derivatives_differ = [&](const Dual& a, const Dual& b) {
-    return differ(derivative_of(a), derivative_of(b));
-  };
-  for (const auto& [variable, beam] : body.beam_x) {
-    for (const BeamElement<Dual>& element : beam.elements) {
-      const SectionProperties<Dual>& s = element.section;
-      if (derivatives_differ(s.inertia_y, s.inertia_z)) return false;
-      if (derivatives_differ(element.shear_compliance_y, element.shear_compliance_z)) return false;
-    }
-  }
-  return true;
-}
-
 /// Of the section with the least.
 template <class Scalar>
 Scalar euler_load(const Beam<Scalar>& beam, Plane plane) {
@@ -87,7 +65,7 @@ std::vector<DesignFactor> euler_loads(const BodyModel& body, int variables) {
     }
     loads.push_back(std::move(load));
   };
-  if (is_equal_in_both(body)) {
+  if (body.bends_alike) {
     add(Plane::y, "");
   } else {
     add(Plane::y, ", bending along y");
