@@ -81,16 +81,19 @@ void transmission_angle(Keys& keys, R& r, const Scope& scope) {
   keys.exclusive("bodies", "joint");
   keys.one_at_least({"bodies", "joint"});
   keys.together("body", "joint");
-  const auto turns = [&](const std::string& name) {
-    return shape_of<PointMass>(find_named(scope.scene.bodies, name)) == nullptr;
+  const auto has_axis = [&](const std::string& name) {
+    const Body* one = find_named(scope.scene.bodies, name);
+    return shape_of<PointMass>(one) == nullptr && shape_of<RigidBody>(one) == nullptr;
   };
-  const char* rule = "must not be a point mass, which does not turn";
+  const char* rule =
+      "must be a beam, which may be \"rigid\", or a body from a file: others have no axis along "
+      "which they push";
   std::array<std::string, 2> both;
   keys.two_names(optional_key("bodies"), "body", names_of(scope.scene.bodies), both, "");
-  for (std::size_t i = 0; i < 2; ++i) keys.must_item("bodies", i, turns(both[i]), rule);
+  for (std::size_t i = 0; i < 2; ++i) keys.must_item("bodies", i, has_axis(both[i]), rule);
   if (!both[0].empty()) r.bodies = {both[0], both[1]};
   if (const Body* one = body(keys, optional_key("body"), r, scope)) {
-    keys.must("body", turns(one->name), rule);
+    keys.must("body", has_axis(one->name), rule);
   }
   std::string joint;
   keys.name(optional_key("joint"), "joint", names_of(scope.scene.joints), joint,
