@@ -137,6 +137,7 @@ class InputReader {
     if (fields.empty()) return;
     if (card_.name == "*NODE" && fields.size() >= 4) {
       nodes_[whole(fields[0])] = {number(fields[1]), number(fields[2]), number(fields[3])};
+      node_sets_[capitals(card_.get("NSET"))].push_back(whole(fields[0]));
     } else if (card_.name == "*ELEMENT" && shape_) {
       read_element(fields);
     } else if (card_.name == "*NSET") {

@@ -122,7 +122,12 @@ std::vector<BodyPlace> places_of(const ReductionModel& model, const Eigen::Matri
 std::vector<int> stressed_nodes(const ReductionModel& model, const std::vector<int>& group,
                                 const Eigen::MatrixXd& shape, const Eigen::MatrixXd& stiffness) {
   const std::vector<int> nodes = corners_among(model.mesh, group);
-  if (nodes.empty()) throw InputError("no node of /stress/nodes is a corner of an element");
+  if (nodes.empty()) {
+    throw InputError(
+        "no node of /stress/nodes is a corner of an element and outside of rigid interfaces, of "
+        "which "
+        "no stress is known");
+  }
   const int most = model.stress->most;
   if (most == 0) return nodes;
   std::vector<int> found;

@@ -198,10 +198,11 @@ void write(const std::filesystem::path& path, const std::string& text) {
 
 TEST(CalculixInput, ReadsIncludedFilesSetsAndMaterials) {
   const TemporaryFolder folder;
-  write(folder.path() / "mesh.inp",
-        "*Node\n 7, 0, 0, 0\n 9, 1., 0, 0\n 3, 0, 1e0, 0\n4,0,0,+1\n 100, 5, 5, 5\n"
-        "*ELEMENT, type=C3D4, ELSET=All\n11, 7, 9, 3, 4\n*Element, type=CPS3\n12, 7, 9, 3\n"
-        "*NSET, NSET=base\n7, 9,\n3\n*NSET,NSET=two,GENERATE\n3,4\n*NSET,NSET=both\nbase,two\n");
+  write(
+      folder.path() / "mesh.inp",
+      "*Node\n 7, 0, 0, 0\n 9, 1., 0, 0\n*NODE, NSET=Late\n 3, 0, 1e0, 0\n4,0,0,+1\n 100, 5, 5, 5\n"
+      "*ELEMENT, type=C3D4, ELSET=All\n11, 7, 9, 3, 4\n*Element, type=CPS3\n12, 7, 9, 3\n"
+      "*NSET, NSET=base\n7, 9,\n3\n*NSET,NSET=two,GENERATE\n3,4\n*NSET,NSET=both\nbase,two\n");
   write(folder.path() / "job.inp",
         "** a comment\n*INCLUDE, INPUT=mesh.inp\n*MATERIAL, NAME=Steel\n*ELASTIC\n2e5, 0.3\n"
         "*DENSITY\n7.85e-9\n*SOLID SECTION, ELSET=ALL, MATERIAL=STEEL\n");
@@ -212,6 +213,7 @@ TEST(CalculixInput, ReadsIncludedFilesSetsAndMaterials) {
   EXPECT_EQ(mesh.elements[0].material, 0);
   EXPECT_EQ(mesh.materials[0].poisson, 0.3);
   EXPECT_EQ(mesh.node_sets.at("BOTH"), (std::vector<int>{0, 1, 2, 3}));
+  EXPECT_EQ(mesh.node_sets.at("LATE"), (std::vector<int>{0, 1}));
   EXPECT_NEAR(volume_of(mesh), 1.0 / 6.0, 1e-14);
   EXPECT_NEAR(mass_of(mesh), 7.85e-9 / 6.0, 1e-22);
   EXPECT_EQ(surface_corners(mesh).size(), 4u);
