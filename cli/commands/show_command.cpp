@@ -44,10 +44,10 @@ void add_assembly(const ProblemFile& problem, Model& model, Shown& shown,
       shown.document["lock"] = {{"time", path.time}, {"gap", path.gap}};
     }
     shown.document["rigid_motion"] = freedoms_document(freedoms, model);
-    shown.text += "\n" + freedoms_text(freedoms, model);
+    shown.text += "\n" + freedoms_text(freedoms, model, &start);
   } catch (const SimulationError& error) {
     shown.document["failure"] = error.what();
-    warnings.push_back(fmt::format("the mechanism cannot be assembled: {}", error.what()));
+    warnings.push_back(fmt::format("the start was not found: {}", error.what()));
   }
   shown.document["steps"] = std::ceil(problem.simulation.end_time / problem.simulation.step);
 }

@@ -12,7 +12,9 @@
 #include "cli/reports/starts_report.hpp"
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/number_text.hpp"
+#include "core/base/quoted.hpp"
 #include "core/mechanism/mechanism.hpp"
+#include "core/model/body_frames.hpp"
 #include "core/scene/joint_kind.hpp"
 #include "core/scene/time_breaks.hpp"
 
@@ -155,14 +157,21 @@ bool has_drives(const Model& model) {
   return drives(model) > 0;
 }
 
-std::string freedoms_text(const DegreesOfFreedom& freedoms, const Model& model) {
+std::string freedoms_text(const DegreesOfFreedom& freedoms, const Model& model,
+                          const State* state) {
   const int driven = drives(model);
   std::string text = fmt::format(
       "Rigid motion: {} coordinates, {} independent constraints ({} of drives): ",
       freedoms.coordinates, freedoms.constraints, driven == 0 ? "none" : std::to_string(driven));
   if (freedoms.free() > 0) {
-    return wrapped(text + fmt::format("{} freedom{} left to the forces\n", freedoms.free(),
-                                      freedoms.free() == 1 ? " is" : "s are"),
+    constexpr double visible = 1e-6;
+    const std::string who =
+        state == nullptr
+            ? ""
+            : fmt::format(" (of {})", quoted(moved_bodies(
+                                          model, free_motions(model.mechanism, *state), visible)));
+    return wrapped(text + fmt::format("{} freedom{} left to the forces{}\n", freedoms.free(),
+                                      freedoms.free() == 1 ? " is" : "s are", who),
                    "  ");
   }
   if (freedoms.blocked > 0) {

@@ -16,7 +16,9 @@ std::string bodies_text(const Model& model);
 /// {"coordinates", "constraints", "drives", "free", "blocked_drives"}: how joints and drives hold the mechanism if
 /// its bodies do not deform, at the start of the simulation.
 Json freedoms_document(const DegreesOfFreedom& freedoms, const Model& model);
-std::string freedoms_text(const DegreesOfFreedom& freedoms, const Model& model);
+/// @param state  at which they were counted: with it the line names the bodies that move freely
+std::string freedoms_text(const DegreesOfFreedom& freedoms, const Model& model,
+                          const State* state = nullptr);
 bool has_drives(const Model& model);
 
 /// The bound at which a variable is, to a millionth of its range, or, where a bound is far away, of

@@ -165,13 +165,13 @@ SimulationOptions options_of(const ProblemFile& problem) {
 [[noreturn]] void explain(const SimulationError& error, const Model& model, const RigidPath& path) {
   constexpr double largest = 3e-2;
   std::vector<std::string> causes;
-  if (path.end == RigidPath::End::bends) causes.push_back(bending_text(model));
+  if (path.end == RigidPath::End::bends) causes.push_back(bending_text(model) + ".");
   for (const Misalignment& found : find_misalignments(model, model.mechanism.guess, largest)) {
     causes.push_back(found.text());
   }
   if (causes.empty()) throw error;
-  throw SimulationError(
-      fmt::format("{}. That may be why: {}", fmt::join(causes, ". "), error.what()), error.time());
+  throw SimulationError(fmt::format("{} That may be why: {}", fmt::join(causes, " "), error.what()),
+                        error.time());
 }
 
 void require_memory(const std::vector<Response>& responses, const TimeIntegration& options) {
