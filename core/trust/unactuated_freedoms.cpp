@@ -331,21 +331,23 @@ std::vector<Finding> check_unactuated_freedoms(const TrustedRun& run) {
 std::vector<Finding> check_unconnected_bodies(const TrustedRun& run) {
   const Scene& scene = run.problem.scene;
   const std::set<std::string> grounded = grounded_bodies(scene);
-  if (grounded.empty()) return {};
   const std::vector<double> design(run.x.begin(), run.x.end());
   std::vector<std::string> names;
+  bool is_pushed = false;
   for (const Body& body : scene.bodies) {
     if (grounded.contains(body.name)) continue;
-    // Of a group that somebody throws or pushes, nothing is forgotten.
-    if (has_given_velocity(body, design) || has_load(scene, body.name)) return {};
+    // Of a group that somebody throws, nothing is forgotten.
+    if (has_given_velocity(body, design)) return {};
+    is_pushed = is_pushed || has_load(scene, body.name);
     names.push_back(body.name);
   }
   if (names.empty()) return {};
+  const char* stands = run.analysis.model.gravity.isZero(0.0) ? "nothing moves there" : "falls";
   Finding finding;
   finding.text = fmt::format(
       "no joint or spring connects {} with the ground, directly or by way of other bodies, and no "
-      "load or initial velocity is given: {}. Is a joint missing?",
-      quoted(names), run.analysis.model.gravity.isZero(0.0) ? "nothing moves there" : "falls");
+      "initial velocity is given: {}. Is a joint missing?",
+      quoted(names), is_pushed ? "loads push it away" : stands);
   for (const ResponseSettings& response : run.problem.responses) {
     const bool looks_there = std::ranges::any_of(response.bodies, [&](const std::string& name) {
       return std::ranges::find(names, name) != names.end();
@@ -354,7 +356,7 @@ std::vector<Finding> check_unconnected_bodies(const TrustedRun& run) {
       finding.responses.push_back(response.name);
     }
   }
-  finding.is_serious = !finding.responses.empty();
+  finding.is_serious = !finding.responses.empty() && !is_pushed;
   finding.bodies = names;
   return {finding};
 }
