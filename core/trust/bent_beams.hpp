@@ -56,6 +56,12 @@ std::vector<Finding> check_linear_elasticity(const TrustedRun& run);
 /// @returns the largest share first, which is the indicator [–]
 std::vector<ConcernedBeam> find_slenderness(const TrustedRun& run);
 
+/// Beams under a pull N that bend within √(EI/N) of where they are held or loaded, far less than their
+/// elements are long: with twice the elements hardly more of it is seen. By the moment of a pulled cantilever,
+/// M = F √(EI/N) tanh(ℓ √(N/EI)): elements of length ℓ ≫ √(EI/N) see about the part √(EI/N)/ℓ of it. The
+/// indicator is the stress that may be missed, of the largest (tension_layers.cpp).
+std::vector<ConcernedBeam> find_taut(const TrustedRun& run);
+
 /// The share of one beam in a state, of the plane in which it is larger. [–]
 /// @param x  design variables [SI]
 double shear_share(const ProblemFile& problem, const Eigen::VectorXd& x, const Model& model,

@@ -85,13 +85,6 @@ std::vector<Finding> check_open_positions(const TrustedRun& run);
 /// deflection or a torque, where the motion goes further to the other side: an optimum uses that.
 std::vector<Finding> check_other_side(const TrustedRun& run);
 
-/// Beams under a pull N that bend within √(EI/N) of where they are held or loaded, far less than their
-/// elements are long: with twice the elements hardly more of it is seen, so that error bars say
-/// nothing of it. Serious for what is made from the bending moment, where that counts. By the
-/// moment of a pulled cantilever, M = F √(EI/N) tanh(ℓ √(N/EI)): elements of length ℓ ≫ √(EI/N)
-/// see about the part √(EI/N)/ℓ of it.
-std::vector<Finding> check_tension_layers(const TrustedRun& run);
-
 /// Peaks that the steps pass over: where a load or the acceleration of a drive jumps, elastic
 /// bodies swing beyond their new equilibrium, up to as far again (the dynamic factor of two). Of
 /// those that do so within a step nothing is left, with twice and half of it neither. Which may do
@@ -191,6 +184,8 @@ struct LeftOut {
 /// - `more_frames`, by twice as many, in beams that bend or twist far against those they have: linear
 ///   elasticity in a frame is off by the square of rotations, of which twice the frames leave a
 ///   quarter,
+/// - `more_elements`, four times as many, in beams under a pull that bend within far less than an element's length
+///   of where they are held or loaded (bent_beams.hpp): half or twice the elements do not tell,
 /// - `axial_elasticity`, and with it geometric stiffening, where the file switches it off.
 ///
 /// Told from 1 % of what a response is with it, serious from 10 % of that or of a tenth of its
@@ -229,8 +224,8 @@ std::vector<Finding> check_promised_buckling(const TrustedRun& run);
 /// between ball joints, a roller).
 std::vector<Finding> check_unactuated_freedoms(const TrustedRun& run);
 
-/// Bodies without a way of joints and springs to the ground, where others have one, that nobody has
-/// given a velocity or a load.
+/// Bodies without a way of joints and springs to the ground that nobody has given a velocity. Not serious where
+/// loads act on them: they may be meant to fly.
 std::vector<Finding> check_unconnected_bodies(const TrustedRun& run);
 
 }  // namespace pleuel

@@ -148,7 +148,6 @@ constexpr Judge judges[] = {
     {Cause::left_out, check_other_side},
     {Cause::left_out, check_section_axes},
     {Cause::left_out, check_startup_transient},
-    {Cause::left_out, check_tension_layers},
 };
 
 }  // namespace

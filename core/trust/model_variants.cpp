@@ -103,6 +103,10 @@ std::vector<ConcernedBeam> find_unstretched(const TrustedRun& run) {
   return found;
 }
 
+std::string advice_of_elements(const ProblemFile&, const Names& beams, double) {
+  return fmt::format("divide {} by short \"segments\" where it is held or loaded", quoted(beams));
+}
+
 std::string advice_of_stretch(const ProblemFile&, const Names&, double) {
   return "set /effects/axial_elasticity to auto";
 }
@@ -116,6 +120,12 @@ constexpr Variant variants[] = {
      [](ProblemFile& problem, const std::string& beam) { beam_of(problem, beam).frames *= 2; },
      check_untold_bending, "bends too far for linear elasticity in its frame: more frames",
      "bend too far for linear elasticity in their frames: more frames", advice_of_frames},
+    {"more_elements", Cause::not_converged, 1.0, find_taut, true,
+     [](ProblemFile& problem, const std::string& beam) {
+       for (Segment& segment : beam_of(problem, beam).segments) segment.elements *= 4;
+     },
+     nullptr, "is taut and bends within less than an element: shorter ones",
+     "are taut and bend within less than an element: shorter ones", advice_of_elements},
     {"axial_elasticity", Cause::left_out, 1.0, find_unstretched, false,
      [](ProblemFile& problem, const std::string&) {
        problem.effects.axial_elasticity = EffectChoice::on;

@@ -1,30 +1,20 @@
 #include <algorithm>
 #include <cmath>
-#include <optional>
-
-#include <fmt/format.h>
 
 #include "core/base/eager_matrices.hpp"
 #include "core/response/lateral_buckling_signal.hpp"
-#include "core/scene/response_parts.hpp"
-#include "core/trust/check_list.hpp"
+#include "core/trust/bent_beams.hpp"
 
 namespace pleuel {
 
 namespace {
 
-/// Lengths of an element over √(EI/N): below, runs with other elements tell.
+/// Lengths of an element over √(EI/N): below, runs with half or twice the elements tell.
 constexpr double long_element = 3.0;
 /// Of the largest stress of axial force and bending: what may be missed of it without a word.
 constexpr double small_stress_share = 0.05;
 /// Instants that are looked at, at most.
 constexpr Eigen::Index most_instants = 200;
-
-/// The element of a member that misses most.
-struct Tautness {
-  double pull = 0.0, reach = 0.0, length = 0.0;  ///< [N]; √(EI/N), of the element [m]
-  double missed = 0.0;                           ///< stress that may be missed [Pa]
-};
 
 /// In one plane.
 class TautPlane {
@@ -49,47 +39,30 @@ class TautPlane {
       largest_stress_ = std::max(largest_stress_, axial + bending);
       if (!(pull > 0.0)) continue;
       const double reach = std::sqrt(element.young * inertia / pull);
-      const double missed = bending * element.length / reach;
-      if (element.length < long_element * reach || missed <= worst_.missed) continue;
-      worst_ = {pull, reach, element.length, missed};
+      if (element.length < long_element * reach) continue;
+      missed_ = std::max(missed_, bending * element.length / reach);
     }
   }
 
-  std::optional<Tautness> worst() const {
-    if (worst_.missed <= small_stress_share * largest_stress_) return std::nullopt;
-    return worst_;
-  }
+  /// Of the largest stress.
+  double missed_share() const { return largest_stress_ > 0.0 ? missed_ / largest_stress_ : 0.0; }
 
  private:
   LateralMember member_;
   BendingPlane plane_;
-  double largest_stress_ = 0.0;
-  Tautness worst_;
+  double largest_stress_ = 0.0, missed_ = 0.0;  ///< [Pa]
 };
-
-/// What is made from bending moments of a body.
-std::vector<std::string> bent_responses(const ProblemFile& problem, const std::string& body) {
-  return names_made_of(problem, [&](const ResponseSettings& response) {
-    const bool is_of_moments =
-        (response.type == ResponseType::stress && response.part != StressPart::axial) ||
-        (response.type == ResponseType::section_force &&
-         response.section_part != SectionForcePart::axial) ||
-        response.type == ResponseType::fatigue || response.type == ResponseType::fatigue_damage;
-    return is_of_moments && std::ranges::find(response.bodies, body) != response.bodies.end();
-  });
-}
 
 }  // namespace
 
-std::vector<Finding> check_tension_layers(const TrustedRun& run) {
-  std::vector<Finding> findings;
+std::vector<ConcernedBeam> find_taut(const TrustedRun& run) {
+  std::vector<ConcernedBeam> found;
   const Trajectory& trajectory = run.analysis.trajectory;
   const Eigen::Index stride = 1 + trajectory.time.size() / most_instants;
   for (const Body& body : run.problem.scene.bodies) {
     if (!std::holds_alternative<BeamBody>(body.shape)) continue;
     const BodyModel& part = *run.analysis.model.parts(body.name).front();
-    const std::vector<std::string> responses = bent_responses(run.problem, body.name);
-    if (!part.is_elastic || !part.has_stiffening || responses.empty()) continue;
+    if (!part.is_elastic || !part.has_stiffening) continue;
     std::vector<TautPlane> planes;
     for (const BendingPlane plane : bending_planes(part)) {
       planes.emplace_back(body.name, run.analysis.model, plane);
@@ -98,21 +71,11 @@ std::vector<Finding> check_tension_layers(const TrustedRun& run) {
       const State state = trajectory.state_at(static_cast<int>(i));
       for (TautPlane& plane : planes) plane.see(state);
     }
-    std::optional<Tautness> worst;
-    for (const TautPlane& plane : planes) {
-      const std::optional<Tautness> one = plane.worst();
-      if (one && (!worst || one->missed > worst->missed)) worst = one;
-    }
-    if (!worst) continue;
-    findings.push_back(
-        {fmt::format("\"{}\" is taut: under a pull of {:.3g} N it bends within some {:.2g} "
-                     "m of where it is held or loaded across, which an element of {:.2g} "
-                     "m does not see; stress there may be larger by far. Divide it by "
-                     "short \"segments\" there.",
-                     body.name, worst->pull, worst->reach, worst->length),
-         true, responses});
+    double most = 0.0;
+    for (const TautPlane& plane : planes) most = std::max(most, plane.missed_share());
+    if (most > small_stress_share) found.push_back({body.name, most});
   }
-  return findings;
+  return found;
 }
 
 }  // namespace pleuel
