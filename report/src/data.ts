@@ -1,4 +1,4 @@
-// What the program embeds into the page: docs/report.md. All numbers are in SI units.
+// What the program embeds into the page: its keys are those of the documents (docs/reference/commands.md). All numbers are in SI units.
 
 export type Vec3 = [number, number, number];
 
