@@ -27,16 +27,6 @@ std::vector<Constraint> limits(int count, double limit) {
   return result;
 }
 
-/// An Eigen vector from its entries.
-template <typename... Scalars>
-auto responses(const Scalars&... entries) {
-  using Scalar = std::common_type_t<Scalars...>;
-  Vector<Scalar> result(sizeof...(entries));
-  Eigen::Index row = 0;
-  ((result[row++] = entries), ...);
-  return result;
-}
-
 }  // namespace
 
 KnownProblem hs035() {

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cctype>
 #include <complex>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,6 +31,32 @@ FunctionProblem changed(const FunctionProblem& problem, Change change) {
             change(x, evaluation);
             return evaluation;
           }};
+}
+
+/// The same problem with other variables: starts, bounds.
+inline FunctionProblem with_variables(const FunctionProblem& problem,
+                                      const std::vector<Variable>& variables) {
+  return {variables, problem.constraints(),
+          [problem = FunctionProblem(problem)](const Eigen::VectorXd& x, Request request) mutable {
+            return problem.evaluate(x, request);
+          }};
+}
+
+/// The same problem where each variable is changed before.
+template <class Change>
+FunctionProblem with_each_variable(const FunctionProblem& problem, Change change) {
+  std::vector<Variable> variables = problem.variables();
+  for (Variable& variable : variables) change(variable);
+  return with_variables(problem, variables);
+}
+
+/// The same problem, started somewhere between its bounds, or between −4 and 4 where it has none.
+inline FunctionProblem started_anywhere(const FunctionProblem& problem, std::mt19937& engine) {
+  return with_each_variable(problem, [&](Variable& variable) {
+    const double lower = std::isfinite(variable.lower) ? variable.lower : -4.0;
+    const double upper = std::isfinite(variable.upper) ? variable.upper : 4.0;
+    variable.start = std::lerp(lower, upper, double(engine()) / std::mt19937::max());
+  });
 }
 
 /// A problem with published optimum.
@@ -65,6 +93,11 @@ std::vector<KnownProblem> all_known_problems();
 /// The verdict on any design, as if a run from this start had ended there.
 Verdict judge_anew(Problem& problem, const Eigen::VectorXd& start, const Eigen::VectorXd& x);
 
+/// The same with the start of the problem.
+inline Verdict judge_anew(Problem& problem, const Eigen::VectorXd& x) {
+  return judge_anew(problem, checked_start(problem), x);
+}
+
 template <typename Scalar>
 using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 
@@ -91,11 +124,30 @@ FunctionProblem::Function by_complex_step(Responses responses) {
   };
 }
 
-/// "nlopt-mma" as the name of a test: letters and digits only.
-inline std::string name_of_backend(const testing::TestParamInfo<std::string>& tested) {
-  std::string name = tested.param;
-  std::erase(name, '-');
+/// (f, c₁, c₂, …) from its entries, for functions of any scalar.
+template <typename... Scalars>
+auto responses(const Scalars&... entries) {
+  Vector<std::common_type_t<Scalars...>> result(sizeof...(entries));
+  Eigen::Index row = 0;
+  ((result[row++] = entries), ...);
+  return result;
+}
+
+/// A problem of formulas x ↦ responses(f, c₁, c₂, …).
+template <typename Responses>
+FunctionProblem by_formulas(const std::vector<Variable>& variables,
+                            const std::vector<Constraint>& constraints, Responses formulas) {
+  return {variables, constraints, by_complex_step(std::move(formulas))};
+}
+
+/// A name as that of a test may be.
+inline std::string letters_of(std::string name) {
+  std::erase_if(name, [](unsigned char letter) { return std::isalnum(letter) == 0; });
   return name;
+}
+
+inline std::string name_of_backend(const testing::TestParamInfo<std::string>& tested) {
+  return letters_of(tested.param);
 }
 
 }  // namespace pleuel::test

@@ -22,16 +22,12 @@ class Multipliers : public testing::TestWithParam<std::string> {
 // backend that stops on the objective; measured at most 2e-4, times ten.
 constexpr double tolerance = 2e-3;
 
-TEST_P(Multipliers, OfHS035IsTwoNinths) {
-  const Result result = solve_tightly(hs035().problem);
-  EXPECT_NEAR(result.constraint_multipliers[0], 2.0 / 9.0, tolerance);
-}
-
-TEST_P(Multipliers, OfHS043AreOneZeroTwo) {
-  const Result result = solve_tightly(hs043().problem);
-  EXPECT_NEAR(result.constraint_multipliers[0], 1.0, tolerance);
-  EXPECT_NEAR(result.constraint_multipliers[1], 0.0, tolerance);
-  EXPECT_NEAR(result.constraint_multipliers[2], 2.0, 2.0 * tolerance);
+TEST_P(Multipliers, AreThosePublished) {
+  const Result hs35 = solve_tightly(hs035().problem), hs43 = solve_tightly(hs043().problem);
+  EXPECT_NEAR(hs35.constraint_multipliers[0], 2.0 / 9.0, tolerance);
+  EXPECT_NEAR(hs43.constraint_multipliers[0], 1.0, tolerance);
+  EXPECT_NEAR(hs43.constraint_multipliers[1], 0.0, tolerance);
+  EXPECT_NEAR(hs43.constraint_multipliers[2], 2.0, 2.0 * tolerance);
 }
 
 // f*(d) = f*(1) d^{−1/3}, hence λ = −df*/dd = f*(d) / (3 d): exact as long as no bound is active,
@@ -49,13 +45,10 @@ TEST_P(Multipliers, OfTheCantileverIsTheSlopeOfTheOptimumOverTheLimit) {
 // min (a − 3)² + (b + 2)², 0 ≤ a, b ≤ 1: at (1, 0) the slopes are −4 and 4, against upper and
 // lower.
 TEST_P(Multipliers, OfBoundsBalanceTheSlopeOfTheObjective) {
-  FunctionProblem problem({{"a", 0.5, 0.0, 1.0}, {"b", 0.5, 0.0, 1.0}}, {},
-                          by_complex_step([](const auto& x) {
-                            using Scalar = std::decay_t<decltype(x[0])>;
-                            return Vector<Scalar>::Constant(
-                                1, (x[0] - 3.0) * (x[0] - 3.0) + (x[1] + 2.0) * (x[1] + 2.0));
-                          }));
-  const Result result = verified(solve_tightly(problem));
+  const Result result = verified(solve_tightly(
+      by_formulas({{"a", 0.5, 0.0, 1.0}, {"b", 0.5, 0.0, 1.0}}, {}, [](const auto& x) {
+        return responses((x[0] - 3.0) * (x[0] - 3.0) + (x[1] + 2.0) * (x[1] + 2.0));
+      })));
   EXPECT_NEAR(result.bound_multipliers[0], 4.0, tolerance);
   EXPECT_NEAR(result.bound_multipliers[1], -4.0, tolerance);
 }
@@ -65,13 +58,9 @@ TEST_P(Multipliers, OfBoundsBalanceTheSlopeOfTheObjective) {
 // Σ_{i>1} aᵢ^{1/4}.
 TEST_P(Multipliers, AFixedVariableStaysAndHasAPrice) {
   const double width = 6.5;
-  KnownProblem known = cantilever();
-  std::vector<Variable> variables = known.problem.variables();
-  variables[0] = {"x1", width, width, width};
-  FunctionProblem problem(variables, known.problem.constraints(),
-                          [&](const Eigen::VectorXd& x, Request request) {
-                            return known.problem.evaluate(x, request);
-                          });
+  const FunctionProblem problem = with_each_variable(cantilever().problem, [&](Variable& variable) {
+    if (variable.name == "x1") variable = {"x1", width, width, width};
+  });
   const auto optimum = [](double x) {
     const double sum = std::pow(37.0, 0.25) + std::pow(19.0, 0.25) + std::pow(7.0, 0.25) + 1.0;
     return 0.0624 * (x + std::pow(sum, 4.0 / 3.0) / std::cbrt(1.0 - 61.0 / (x * x * x)));
@@ -90,8 +79,7 @@ TEST_P(Multipliers, AreGivenInTheUnitsOfTheProblem) {
   const double gram = 1e3, micrometre = 1e6, millimetre = 1e3;
   std::vector<Variable> variables = known.problem.variables();
   for (Variable& variable : variables) {
-    variable = {variable.name, variable.start * millimetre, variable.lower * millimetre,
-                variable.upper * millimetre};
+    for (double* size : {&variable.start, &variable.lower, &variable.upper}) *size *= millimetre;
   }
   FunctionProblem problem(variables, {{"deflection", -infinity, micrometre}},
                           [&](const Eigen::VectorXd& x, Request request) {
@@ -107,8 +95,14 @@ TEST_P(Multipliers, AreGivenInTheUnitsOfTheProblem) {
               tolerance * known.optimum);
 }
 
-// The same deflection limited twice: the limit with 4 % slack holds nothing, though its gradient
-// explains the optimum xᵢ = aᵢ^{1/4} S^{1/3} as well as that of the other one.
+/// xᵢ = aᵢ^{1/4} S^{1/3}.
+Eigen::VectorXd optimum_of_cantilever() {
+  const Eigen::VectorXd roots = Vector<double>{{61.0, 37.0, 19.0, 7.0, 1.0}}.array().sqrt().sqrt();
+  return roots * std::cbrt(roots.sum());
+}
+
+/// The same deflection limited twice: the limit with 4 % slack holds nothing, though its gradient
+/// explains the optimum as well as that of the other one.
 TEST(Multiplier, BelongsToTheLimitThatIsReached) {
   KnownProblem known = cantilever();
   FunctionProblem problem(
@@ -119,9 +113,7 @@ TEST(Multiplier, BelongsToTheLimitThatIsReached) {
         evaluation.constraint_jacobian = evaluation.constraint_jacobian.replicate(2, 1).eval();
         return evaluation;
       });
-  const Eigen::VectorXd roots = Vector<double>{{61.0, 37.0, 19.0, 7.0, 1.0}}.array().sqrt().sqrt();
-  const Eigen::VectorXd optimum = roots * std::cbrt(roots.sum());
-  const Verdict verdict = judge_anew(problem, checked_start(problem), optimum);
+  const Verdict verdict = judge_anew(problem, optimum_of_cantilever());
   EXPECT_EQ(verdict.status, Status::verified) << verdict.message;
   EXPECT_NEAR(verdict.audit.constraint_multipliers[0], 0.0, 1e-9);
   EXPECT_NEAR(verdict.audit.constraint_multipliers[1], known.optimum / 3.0, 1e-9);
@@ -185,50 +177,42 @@ FunctionProblem limits() {
 }
 
 TEST(Prices, AreThoseOfLimitsThatAreReached) {
-  const FunctionProblem problem = limits();
-  const Eigen::Vector3d scales(1.0, 10.0, 2.0), multipliers(0.5, 0.3, -0.2);
-  // Reached to 1e-4, slightly violated, reached exactly.
-  EXPECT_EQ(prices_of(problem, Eigen::Vector3d(0.9999, 10.0005, 2.0), multipliers, scales),
-            multipliers);
-  // A slack of 1 % of the magnitude each.
-  EXPECT_EQ(prices_of(problem, Eigen::Vector3d(0.99, 9.9, 2.02), multipliers, scales),
-            Eigen::Vector3d::Zero());
-  // A slack of a thousandth ends a price.
-  EXPECT_EQ(
-      prices_of(problem, Eigen::Vector3d(1 - 0.9e-3, 10 - 0.9e-2, 2 + 1.8e-3), multipliers, scales),
-      multipliers);
-  EXPECT_EQ(
-      prices_of(problem, Eigen::Vector3d(1 - 1.1e-3, 10 - 1.1e-2, 2 + 2.2e-3), multipliers, scales),
-      Eigen::Vector3d::Zero());
-  // The lower side of a limit with two.
-  EXPECT_EQ(prices_of(problem, Eigen::Vector3d(1e-4, 9.9, 2.02), Eigen::Vector3d(-0.5, 0.3, -0.2),
-                      scales),
-            Eigen::Vector3d(-0.5, 0.0, 0.0));
+  struct Case {
+    const char* what;
+    Eigen::Vector3d values, multipliers, expected;
+  };
+  const Eigen::Vector3d scales(1.0, 10.0, 2.0), all(0.5, 0.3, -0.2), none(0.0, 0.0, 0.0);
+  for (const Case& of :
+       {Case{"1e-4, violated, exact", {0.9999, 10.0005, 2.0}, all, all},
+        Case{"1 % of the magnitude", {0.99, 9.9, 2.02}, all, none},
+        Case{"less than a thousandth", {1 - 0.9e-3, 10 - 0.9e-2, 2 + 1.8e-3}, all, all},
+        Case{"more than a thousandth", {1 - 1.1e-3, 10 - 1.1e-2, 2 + 2.2e-3}, all, none},
+        Case{"the lower of two", {1e-4, 9.9, 2.02}, {-0.5, 0.3, -0.2}, {-0.5, 0.0, 0.0}}}) {
+    EXPECT_EQ(prices_of(limits(), of.values, of.multipliers, scales), of.expected) << of.what;
+  }
 }
 
 TEST(Prices, AreThoseOfOptimaOnly) {
   Result result;
   result.evaluation.objective_gradient = Eigen::VectorXd::Ones(1);
-  const auto has_prices_as = [&](Status status, double residual) {
+  for (const auto& [status, residual, expected] :
+       std::vector<std::tuple<Status, double, bool>>{{Status::verified, 1e-6, true},
+                                                     {Status::unresolved, 1e-6, true},
+                                                     {Status::stalled, 0.9e-2, true},
+                                                     {Status::stalled, 1.1e-2, false},
+                                                     {Status::infeasible, 1e-6, false},
+                                                     {Status::failed, 1e-6, false},
+                                                     {Status::interrupted, 1e-6, false}}) {
     result.status = status;
     result.kkt_residual = residual;
-    return has_prices(result);
-  };
-  EXPECT_TRUE(has_prices_as(Status::verified, 1e-6));
-  EXPECT_TRUE(has_prices_as(Status::unresolved, 1e-6));
-  EXPECT_TRUE(has_prices_as(Status::stalled, 0.9e-2));
-  EXPECT_FALSE(has_prices_as(Status::stalled, 1.1e-2));
-  EXPECT_FALSE(has_prices_as(Status::infeasible, 1e-6));
-  EXPECT_FALSE(has_prices_as(Status::failed, 1e-6));
-  EXPECT_FALSE(has_prices_as(Status::interrupted, 1e-6));
+    EXPECT_EQ(has_prices(result), expected) << int(status) << " with " << residual;
+  }
 }
 
 /// f*(d) = f*(1) d^{−1/3}: the price is f/3 to first order in the violation, here 3e-5.
 TEST(Prices, OfALimitThatIsSlightlyViolatedAreThoseOfTheLimit) {
   KnownProblem known = cantilever();
-  const Eigen::VectorXd roots = Vector<double>{{61.0, 37.0, 19.0, 7.0, 1.0}}.array().sqrt().sqrt();
-  const Eigen::VectorXd x = roots * std::cbrt(roots.sum()) * (1.0 - 1e-5);
-  const Verdict verdict = judge_anew(known.problem, checked_start(known.problem), x);
+  const Verdict verdict = judge_anew(known.problem, optimum_of_cantilever() * (1.0 - 1e-5));
   EXPECT_GT(verdict.design.max_violation, 2e-5);
   EXPECT_NEAR(verdict.audit.constraint_multipliers[0], known.optimum / 3.0, 1e-3 * known.optimum);
 }
@@ -246,20 +230,14 @@ TEST(BrokenLimits, AreNamedTheWorstFirst) {
 /// x ≤ 1 and 2x ≥ 4: no design keeps both.
 TEST(InfeasibleDesign, IsTheLeastViolationThatWasSeen) {
   for (const std::string backend : {"nlopt-slsqp", "nlopt-mma", "ipopt"}) {
-    FunctionProblem problem({{"x", 0.2, 0.0, 5.0}}, {{"a", -infinity, 1.0}, {"b", 4.0, infinity}},
-                            by_complex_step([](const auto& x) {
-                              using Scalar = std::decay_t<decltype(x[0])>;
-                              Vector<Scalar> values(3);
-                              values << x[0] * x[0], x[0], 2.0 * x[0];
-                              return values;
-                            }));
+    FunctionProblem problem =
+        by_formulas({{"x", 0.2, 0.0, 5.0}}, {{"a", -infinity, 1.0}, {"b", 4.0, infinity}},
+                    [](const auto& x) { return responses(x[0] * x[0], x[0], 2.0 * x[0]); });
     const Result result = solve(problem, {.backend = backend});
     EXPECT_EQ(result.status, Status::infeasible) << backend;
-    double least = infinity;
-    for (const EvaluationRecord& record : result.history) {
-      least = std::min(least, record.max_violation);
-    }
-    EXPECT_EQ(result.max_violation, least) << backend;
+    const auto least =
+        std::ranges::min_element(result.history, {}, &EvaluationRecord::max_violation);
+    EXPECT_EQ(result.max_violation, least->max_violation) << backend;
     EXPECT_THAT(result.message, HasSubstr("falls below its lower limit 4")) << backend;
   }
 }

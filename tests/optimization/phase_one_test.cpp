@@ -6,7 +6,6 @@
 #include "core/base/eager_matrices.hpp"
 #include "optimization/kkt_audit.hpp"
 #include "optimization/linear_choice.hpp"
-#include "optimization/phase_one.hpp"
 #include "tests/optimization/known_problems.hpp"
 #include "tests/support/test.hpp"
 
@@ -17,13 +16,10 @@ namespace {
 /// With magnitudes 1, 2, 3 the largest relative violation is least where b = 0 and
 /// a − 1 = (2 − a) / 2, which is 1/3 at a = 4/3.
 FunctionProblem contradictory() {
-  return {{{"a", 5.0, 0.0, 10.0}, {"b", 5.0, 0.0, 10.0}},
-          {{"sum", -infinity, 1.0}, {"length", 2.0, infinity}, {"width", -infinity, 3.0}},
-          by_complex_step([](const auto& x) {
-            Vector<std::decay_t<decltype(x[0])>> result(4);
-            result << -x[0], x[0] + x[1], x[0], x[1];
-            return result;
-          })};
+  return by_formulas(
+      {{"a", 5.0, 0.0, 10.0}, {"b", 5.0, 0.0, 10.0}},
+      {{"sum", -infinity, 1.0}, {"length", 2.0, infinity}, {"width", -infinity, 3.0}},
+      [](const auto& x) { return responses(-x[0], x[0] + x[1], x[0], x[1]); });
 }
 
 LeastViolation least_violation_of(Problem& problem) {
@@ -58,19 +54,15 @@ TEST(PhaseOneProblem, HasTheGradientsOfDifferences) {
   }
 }
 
-TEST(LeastViolation, IsThatOfTheClosedForm) {
+// Alone the sum has to be 2, or the length may be 1; the width is in nobody's way. Who reads "one
+// change would do" of one limit shall not think that the other was forgotten.
+TEST(LeastViolation, IsThatOfTheClosedFormAndNamesTheLimitsInConflict) {
   FunctionProblem problem = contradictory();
-  const LeastViolation least = least_violation_of(problem);
+  LeastViolation least = least_violation_of(problem);
   EXPECT_TRUE(least.is_proven);
   EXPECT_NEAR(least.violation, 1.0 / 3.0, 1e-5);
   EXPECT_NEAR(least.x[0], 4.0 / 3.0, 1e-5);
   EXPECT_NEAR(least.x[1], 0.0, 1e-5);
-}
-
-// Alone the sum has to be 2, or the length may be 1; the width is in nobody's way.
-TEST(LeastViolation, NamesTheLimitsInConflictAndWhatEachWouldHaveToBe) {
-  FunctionProblem problem = contradictory();
-  const LeastViolation least = least_violation_of(problem);
   ASSERT_EQ(least.limits.size(), 2u);
   for (const ExceededLimit& limit : least.limits) {
     EXPECT_TRUE(limit.is_in_conflict);
@@ -79,24 +71,15 @@ TEST(LeastViolation, NamesTheLimitsInConflictAndWhatEachWouldHaveToBe) {
     ASSERT_TRUE(limit.alone.has_value());
     EXPECT_NEAR(*limit.alone, limit.constraint == 0 ? 2.0 : 1.0, 1e-3);
   }
-  const std::string text = describe(least, problem);
-  EXPECT_THAT(text, HasSubstr("sum ≤ 1"));
-  EXPECT_THAT(text, HasSubstr("length ≥ 2"));
-  EXPECT_THAT(text, HasSubstr("33.3 %"));
-  EXPECT_THAT(text, Not(HasSubstr("width")));
-}
-
-// Who reads "one change would do" of one limit shall not think that the other was forgotten.
-TEST(LeastViolation, NamesTheLimitsForWhichNoChangeAloneWasFound) {
-  FunctionProblem problem = contradictory();
-  LeastViolation least = least_violation_of(problem);
-  EXPECT_THAT(describe(least, problem), Not(HasSubstr("no value was found")));
+  EXPECT_THAT(describe(least, problem),
+              AllOf(HasSubstr("sum ≤ 1"), HasSubstr("length ≥ 2"), HasSubstr("33.3 %"),
+                    Not(HasSubstr("width")), Not(HasSubstr("no value was found"))));
   for (ExceededLimit& limit : least.limits) {
     if (limit.constraint != 0) limit.alone.reset();
   }
-  const std::string text = describe(least, problem);
-  EXPECT_THAT(text, HasSubstr("One change would do: sum ≤ 2"));
-  EXPECT_THAT(text, HasSubstr("for length alone no value was found that would do"));
+  EXPECT_THAT(describe(least, problem),
+              AllOf(HasSubstr("One change would do: sum ≤ 2"),
+                    HasSubstr("for length alone no value was found that would do")));
 }
 
 // At full width everywhere the deflection is Σ aᵢ / 1000 = 0.125.
@@ -117,20 +100,16 @@ TEST(LeastViolation, OfAProblemThatHasADesignIsNone) {
 
 // Stresses of round bars, ∝ d⁻³: 1e9 times too high at the start, a straight line in logarithms.
 TEST(Restoration, OfPowersTakesAFewSteps) {
-  FunctionProblem problem({{"a", 0.01, 0.01, 100.0}, {"b", 0.01, 0.01, 100.0}},
-                          {{"one", -infinity, 1.0}, {"two", -infinity, 1.0}},
-                          by_complex_step([](const auto& x) {
-                            using Scalar = std::decay_t<decltype(x[0])>;
-                            const Scalar a = x[0] * x[0] * x[0], b = x[1] * x[1] * x[1];
-                            Vector<Scalar> result(3);
-                            result << x[0] + x[1], 1e3 / a, 1e3 / (a * b);
-                            return result;
-                          }));
+  FunctionProblem problem =
+      by_formulas({{"a", 0.01, 0.01, 100.0}, {"b", 0.01, 0.01, 100.0}},
+                  {{"one", -infinity, 1.0}, {"two", -infinity, 1.0}}, [](const auto& x) {
+                    const auto a = x[0] * x[0] * x[0], b = x[1] * x[1] * x[1];
+                    return responses(x[0] + x[1], 1e3 / a, 1e3 / (a * b));
+                  });
   int evaluations = 0;
   FunctionProblem counted =
       changed(problem, [&](const Eigen::VectorXd&, Evaluation&) { ++evaluations; });
-  const auto restored = restore_limits(counted, checked_start(counted));
-  ASSERT_TRUE(restored.has_value());
+  EXPECT_TRUE(restore_limits(counted, checked_start(counted)).has_value());
   // ln 10 / 0.01 is 6.9, in steps of 0.7, 1.4, 2, 2, 2; two evaluations each.
   EXPECT_LE(evaluations, 14);
 }
@@ -152,11 +131,14 @@ TEST(Restoration, OfAStartThatFailsIsNone) {
 
 constexpr double box_weight = 30.0, regularization = 1e-4;  // as the header says
 
-LinearizedLimits random_limits(std::mt19937& engine, Eigen::Index count, Eigen::Index variables) {
+Eigen::MatrixXd random_matrix(std::mt19937& engine, Eigen::Index rows, Eigen::Index columns = 1) {
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  const auto number = [&]() { return uniform(engine); };
-  return {Eigen::VectorXd::NullaryExpr(count, number),
-          Eigen::MatrixXd::NullaryExpr(count, variables, number)};
+  return Eigen::MatrixXd::NullaryExpr(rows, columns, [&]() { return uniform(engine); });
+}
+
+LinearizedLimits random_limits(std::mt19937& engine, Eigen::Index count, Eigen::Index variables) {
+  const Eigen::VectorXd residuals = random_matrix(engine, count);
+  return {residuals, random_matrix(engine, count, variables)};
 }
 
 // The same minimum by its dual, a least-squares problem of the multipliers μ ≥ 0 of all rows and
@@ -201,10 +183,8 @@ TEST(ViolationStep, CannotBeImprovedWithManyLimits) {
   const Eigen::VectorXd step = violation_step(limits, size, size);
   const double least = limits.sum(step) + regularization * step.squaredNorm();
   EXPECT_LT(least, 0.9 * limits.sum(Eigen::VectorXd::Zero(200)));
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   for (int sample = 0; sample < 200; ++sample) {
-    const Eigen::VectorXd other =
-        step + 0.1 * Eigen::VectorXd::NullaryExpr(200, [&]() { return uniform(engine); });
+    const Eigen::VectorXd other = step + 0.1 * random_matrix(engine, 200);
     EXPECT_GE(limits.sum(other) + regularization * other.squaredNorm(), least);
   }
 }
@@ -219,19 +199,17 @@ constexpr int variables = 4, sizes = 4, rows = 2;
 
 LinearChoiceModel random_model(unsigned seed) {
   std::mt19937 random(seed);
-  std::uniform_real_distribution<double> number(-1.0, 1.0);
   LinearChoiceModel model;
-  model.objective = number(random);
+  model.objective = random_matrix(random, 1)(0);
   model.constraints = Eigen::VectorXd::Zero(rows);
   model.lower = Eigen::VectorXd::Constant(rows, -0.8);
   model.upper = Eigen::VectorXd::Constant(rows, 0.5);
   model.scales = Eigen::VectorXd::Constant(rows, 2.0);
-  for (int i = 0; i < variables; ++i) {
-    model.options.emplace_back();
+  model.options.resize(variables);
+  for (auto& options : model.options) {
     for (int k = 0; k < sizes; ++k) {
-      Eigen::VectorXd change(rows);
-      for (int j = 0; j < rows; ++j) change(j) = number(random);
-      model.options.back().push_back({k, number(random), change});
+      const double objective = random_matrix(random, 1)(0);
+      options.push_back({k, objective, random_matrix(random, rows)});
     }
   }
   return model;
@@ -276,15 +254,12 @@ TEST(LinearChoice, FindsTheBestOfAllAsBruteForceDoes) {
   }
 }
 
-TEST(LinearChoice, FindsNothingWhereNoChoiceKeepsTheLimits) {
+TEST(LinearChoice, FindsNothingWhereNoChoiceKeepsTheLimitsOrItsBudgetOfBranchingsEnds) {
   LinearChoiceModel model = random_model(1);
+  EXPECT_TRUE(best_choices(model, 3, 1e3, 3).empty());
   model.lower.setConstant(100.0);
   model.upper.setConstant(101.0);
   EXPECT_TRUE(best_choices(model, 3, 0.0).empty());
-}
-
-TEST(LinearChoice, EndsAfterItsBudgetOfBranchings) {
-  EXPECT_TRUE(best_choices(random_model(1), 3, 1e3, 3).empty());
 }
 
 using Indexes = std::vector<std::size_t>;
@@ -319,13 +294,10 @@ TEST(LinearConflict, NamesALimitThatTheBoundsExclude) {
 /// margin are, whatever they are: b of a positive combination of the rows, lowered.
 TEST(LinearConflict, IsThatOfRandomLimits) {
   std::mt19937 engine(1);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   for (int sample = 0; sample < 200; ++sample) {
     const Eigen::Index variables = 1 + sample % 5, limits = 2 + sample % 6;
-    const Eigen::MatrixXd rows =
-        Eigen::MatrixXd::NullaryExpr(limits, variables, [&]() { return uniform(engine); });
-    const Eigen::VectorXd inside =
-        Eigen::VectorXd::NullaryExpr(variables, [&]() { return 0.5 + 0.5 * uniform(engine); });
+    const Eigen::MatrixXd rows = random_matrix(engine, limits, variables);
+    const Eigen::VectorXd inside = 0.5 * (random_matrix(engine, variables).array() + 1.0);
     const Eigen::VectorXd free = Eigen::VectorXd::Constant(limits, none);
     const Eigen::VectorXd upper = rows * inside;
     EXPECT_EQ(conflict_of(rows, -free, upper), Indexes{}) << sample;
