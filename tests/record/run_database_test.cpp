@@ -19,6 +19,14 @@ namespace {
 class Record : public testing::Test {
  protected:
   std::filesystem::path file() const { return folder_.path() / "run.sqlite"; }
+  /// The file, opened anew.
+  RunDatabase record() const { return RunDatabase(file()); }
+  void execute(const std::string& statement) const { Database(file()).execute(statement); }
+
+  /// What opens and reads it whole says of it; empty if all is well.
+  std::string refusal() const {
+    return thrown<DatabaseError>([&] { record().check(); });
+  }
 
  private:
   TemporaryFolder folder_;
@@ -63,60 +71,40 @@ TEST_F(Record, GivesEvaluationsBackBitByBitWhenItIsOpenedAgain) {
   EXPECT_EQ(again.found(), 1);
 }
 
-TEST_F(Record, TellsDesignsApartByTheirLastBit) {
-  RunDatabase record(file());
-  record.keep(key(0.1), evaluated(1.0));
-  EXPECT_FALSE(record.find(key(std::nextafter(0.1, 1.0))));
-}
-
-TEST_F(Record, TellsSettingsRowsAndRequestsApart) {
-  RunDatabase record(file());
-  record.keep(key(0.1), evaluated(1.0));
-  EvaluationKey other = key(0.1);
-  other.setting = "step 2e-05 s";
-  EXPECT_FALSE(record.find(other));
-  other = key(0.1);
-  other.rows = "peaks of 16 windows";
-  EXPECT_FALSE(record.find(other));
-  EXPECT_FALSE(record.find(key(0.1, Request::values)));
-}
-
 /// What was left open is known by what was chosen, too.
-TEST_F(Record, KnowsGradientsByTheMethodThatMadeThem) {
+TEST_F(Record, TellsDesignsSettingsRowsAndRequestsApart) {
   RunDatabase record(file());
   record.keep(key(0.1), evaluated(1.0));
+  EvaluationKey setting = key(0.1), rows = key(0.1);
+  setting.setting = "step 2e-05 s";
+  rows.rows = "peaks of 16 windows";
+  for (const EvaluationKey& other :
+       {key(std::nextafter(0.1, 1.0)), setting, rows, key(0.1, Request::values),
+        key(0.1, Request::values_and_gradients, "direct")}) {
+    EXPECT_FALSE(record.find(other)) << other.setting << other.rows << other.method;
+  }
   EXPECT_TRUE(record.find(key(0.1, Request::values_and_gradients, "adjoint")));
-  EXPECT_FALSE(record.find(key(0.1, Request::values_and_gradients, "direct")));
 }
 
-TEST_F(Record, KeepsWhyAnEvaluationFailed) {
+TEST_F(Record, KeepsFailuresAndWhatIsNoFiniteNumberAndGradientsOfNoRows) {
   RunDatabase record(file());
-  StoredEvaluation failed;
+  StoredEvaluation failed, without_rows = evaluated(1.0);
   failed.failure = "at t = 0.1 s: Newton's method does not converge";
+  without_rows.evaluation.constraints.resize(0);
+  without_rows.evaluation.constraint_jacobian.resize(0, 2);
   record.keep(key(0.1), failed);
+  record.keep(key(0.2), evaluated(std::numeric_limits<double>::quiet_NaN()));
+  record.keep(key(0.3), evaluated(-std::numeric_limits<double>::infinity()));
+  record.keep(key(0.4), without_rows);
   const auto found = record.find(key(0.1));
   ASSERT_TRUE(found);
   EXPECT_EQ(found->failure, failed.failure);
   EXPECT_FALSE(found->evaluation.has_gradients());
-}
-
-TEST_F(Record, KeepsWhatIsNoFiniteNumber) {
-  RunDatabase record(file());
-  record.keep(key(0.1), evaluated(std::numeric_limits<double>::quiet_NaN()));
-  record.keep(key(0.2), evaluated(-std::numeric_limits<double>::infinity()));
-  EXPECT_TRUE(std::isnan(record.find(key(0.1))->evaluation.objective));
-  EXPECT_EQ(record.find(key(0.2))->evaluation.objective, -std::numeric_limits<double>::infinity());
-}
-
-TEST_F(Record, OfNoConstraintsHasGradientsOfNoRows) {
-  RunDatabase record(file());
-  StoredEvaluation stored = evaluated(1.0);
-  stored.evaluation.constraints.resize(0);
-  stored.evaluation.constraint_jacobian.resize(0, 2);
-  record.keep(key(0.1), stored);
-  const Evaluation found = record.find(key(0.1))->evaluation;
-  EXPECT_EQ(found.constraint_jacobian.rows(), 0);
-  EXPECT_EQ(found.constraint_jacobian.cols(), 2);
+  EXPECT_TRUE(std::isnan(record.find(key(0.2))->evaluation.objective));
+  EXPECT_EQ(record.find(key(0.3))->evaluation.objective, -std::numeric_limits<double>::infinity());
+  const Evaluation gradients = record.find(key(0.4))->evaluation;
+  EXPECT_EQ(gradients.constraint_jacobian.rows(), 0);
+  EXPECT_EQ(gradients.constraint_jacobian.cols(), 2);
 }
 
 TEST_F(Record, KeepsTheWayOfTheSearchInItsOrder) {
@@ -143,23 +131,12 @@ TEST_F(Record, KeepsTheWayOfTheSearchInItsOrder) {
   EXPECT_FALSE(row.step());
 }
 
-TEST_F(Record, RefusesFilesOfAnotherKind) {
+TEST_F(Record, RefusesFilesOfAnotherKindOrVersion) {
+  record().describe("command", "optimize");
+  execute("PRAGMA user_version = 7");
+  EXPECT_THAT(thrown<DatabaseError>([&] { record(); }), HasSubstr("another version"));
   std::ofstream(file()) << std::string(5000, 'x');
-  EXPECT_THROW(RunDatabase{file()}, DatabaseError);
-}
-
-TEST_F(Record, RefusesTheRecordOfAnotherVersion) {
-  RunDatabase(file()).describe("command", "optimize");
-  Database(file()).execute("PRAGMA user_version = 7");
-  EXPECT_THAT(thrown<DatabaseError>([&] { RunDatabase{file()}; }), HasSubstr("another version"));
-}
-
-/// What opens and reads it whole says of it; empty if all is well.
-std::string refusal(const std::filesystem::path& file) {
-  return thrown<DatabaseError>([&] {
-    const RunDatabase record(file);
-    record.check();
-  });
+  EXPECT_THROW(record(), DatabaseError);
 }
 
 TEST_F(Record, NamesTheRowThatWasChanged) {
@@ -169,38 +146,30 @@ TEST_F(Record, NamesTheRowThatWasChanged) {
         "design = zeroblob(16)", "asked_method = 'adjoint'", "method = 'direct'", "seconds = 9",
         "request = 'values'"}) {
     std::filesystem::remove(file());
-    {
-      RunDatabase record(file());
-      for (const double x : {0.1, 0.2}) record.keep(key(x), evaluated(x));
-    }
-    EXPECT_EQ(refusal(file()), "");
-    Database(file()).execute("UPDATE evaluations SET " + change + " WHERE id = 2");
-    EXPECT_THAT(refusal(file()), HasSubstr("row 2 of the table evaluations")) << change;
+    for (const double x : {0.1, 0.2}) record().keep(key(x), evaluated(x));
+    EXPECT_EQ(refusal(), "");
+    execute("UPDATE evaluations SET " + change + " WHERE id = 2");
+    EXPECT_THAT(refusal(), HasSubstr("row 2 of the table evaluations")) << change;
   }
 }
 
 TEST_F(Record, NamesWhatIsSaidOfTheRunAndWasChanged) {
-  {
-    RunDatabase record(file());
-    record.describe("design", "{}");
-    record.keep_part("run 1", "content");
+  record().describe("design", "{}");
+  record().keep_part("run 1", "content");
+  for (const auto& [change, part] :
+       {std::pair{"UPDATE parts SET content = x'00'", "row run 1 of the table parts"},
+        {"UPDATE run SET value = '{'", "row design of the table run"},
+        {"DELETE FROM run; DROP TABLE parts", "parts"}}) {
+    execute(change);
+    EXPECT_THAT(refusal(), HasSubstr(part));
   }
-  Database(file()).execute("UPDATE parts SET content = x'00'");
-  EXPECT_THAT(refusal(file()), HasSubstr("row run 1 of the table parts"));
-  Database(file()).execute("UPDATE run SET value = '{'");
-  EXPECT_THAT(refusal(file()), HasSubstr("row design of the table run"));
-  Database(file()).execute("DELETE FROM run; DROP TABLE parts");
-  EXPECT_THAT(refusal(file()), HasSubstr("parts"));
 }
 
 /// Bytes that flip, and ends that are lost: either it is refused, or what it gives is what was kept.
 TEST_F(Record, GivesNoOtherNumbersWhenItIsDamaged) {
-  {
-    RunDatabase record(file());
-    record.describe("design", "{}");
-    for (int i = 0; i < 20; ++i) record.keep(key(i), evaluated(1.0 + i));
-    record.keep_part("run 1", std::string(300, 'x'));
-  }
+  record().describe("design", "{}");
+  for (int i = 0; i < 20; ++i) record().keep(key(i), evaluated(1.0 + i));
+  record().keep_part("run 1", std::string(300, 'x'));
   const std::string whole = read_text(file());
   std::mt19937 random(1);
   int refused = 0;
@@ -214,7 +183,7 @@ TEST_F(Record, GivesNoOtherNumbersWhenItIsDamaged) {
       damaged[place] = static_cast<char>(damaged[place] ^ (1 << round % 8));
     }
     std::ofstream(file(), std::ios::binary) << damaged;
-    if (!refusal(file()).empty()) {
+    if (!refusal().empty()) {
       ++refused;
       continue;
     }
@@ -229,11 +198,13 @@ TEST_F(Record, GivesNoOtherNumbersWhenItIsDamaged) {
   EXPECT_GT(refused, 50);
 }
 
-TEST_F(Record, RefusesWhatIsNotComputedAgain) {
+TEST_F(Record, KnowsWhatIsOlderAndRefusesWhatIsNotComputedAgain) {
   RunDatabase(file()).keep(key(0.1), evaluated(1.0));
   RunDatabase record(file());
+  record.keep(key(0.2), evaluated(2.0));
   StoredEvaluation again = *record.find(key(0.1));
   EXPECT_EQ(again.older_row, 1);
+  EXPECT_EQ(record.find(key(0.2))->older_row, 0);
   again.evaluation.objective += 1e-9;
   EXPECT_NO_THROW(record.confirm(key(0.1), again));
   std::vector<StoredEvaluation> others(4, again);
@@ -244,14 +215,6 @@ TEST_F(Record, RefusesWhatIsNotComputedAgain) {
   for (const StoredEvaluation& other : others) {
     EXPECT_THROW(record.confirm(key(0.1), other), InputError);
   }
-}
-
-TEST_F(Record, KnowsWhatIsOlder) {
-  RunDatabase(file()).keep(key(0.1), evaluated(1.0));
-  RunDatabase record(file());
-  record.keep(key(0.2), evaluated(2.0));
-  EXPECT_EQ(record.find(key(0.1))->older_row, 1);
-  EXPECT_EQ(record.find(key(0.2))->older_row, 0);
 }
 
 /// A process that is killed at any instant loses nothing that keep() has returned from.
