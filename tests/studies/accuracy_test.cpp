@@ -21,37 +21,36 @@ PricedDesign at_start(const ProblemFile& problem) {
 }
 
 AccuracyStudy study(double target) {
-  ProblemFile problem = test::quick_problem();
-  problem.accuracy = test::grid({4e-4, 2e-4, 1e-4}, {4}, target);
+  const ProblemFile problem = graded_problem({4e-4, 2e-4, 1e-4}, {4}, target);
   return accuracy_study(problem, at_start(problem));
 }
+
+constexpr Eigen::Index torque = 6;  // torque_rms: smooth in the step, unlike a maximum
 
 /// Of the responses that are minimized or limited.
 double counted_error(const AccuracyStudy& study, const AccuracyRun& run) {
   double largest = 0.0;
-  for (const std::size_t i : study.counted) {
-    largest = std::max(largest, run.errors(i));
-  }
+  for (const std::size_t i : study.counted) largest = std::max(largest, run.errors(i));
   return largest;
 }
 
 TEST(Accuracy, ErrorsFallWithTheStepAsASecondOrderSchemeMust) {
   const AccuracyStudy result = study(1e-3);
   ASSERT_EQ(result.runs.size(), 3u);
-  Eigen::Index torque = 6;  // torque_rms: smooth in the step, unlike a maximum
-  const double coarse = result.runs[0].errors(torque), fine = result.runs[2].errors(torque);
+  const AccuracyRun &coarse = result.runs[0], &fine = result.runs[2];
   // Halved twice: a factor 16 at least if the reference (half the finest) were exact, 21 as it is,
   // until round-off and the elements take over; first order would give 4.
-  EXPECT_GT(coarse / fine, 8.0) << coarse << " → " << fine;
-}
-
-TEST(Accuracy, GradientsConvergeToo) {
-  const AccuracyStudy result = study(1e-3);
-  EXPECT_LT(result.runs[2].gradient_errors.maxCoeff(), result.runs[0].gradient_errors.maxCoeff());
-}
-
-TEST(Accuracy, TheMassDependsOnNoStep) {
-  for (const AccuracyRun& run : study(1e-3).runs) EXPECT_LT(run.errors(0), 1e-12);
+  EXPECT_GT(coarse.errors(torque) / fine.errors(torque), 8.0);
+  EXPECT_LT(fine.gradient_errors.maxCoeff(), coarse.gradient_errors.maxCoeff());
+  const AccuracyRun& reference = result.reference;  // is finer than every run
+  EXPECT_DOUBLE_EQ(reference.settings.step, 0.5e-4);
+  EXPECT_EQ(reference.settings.elements, 8);
+  EXPECT_GT(reference.errors.maxCoeff(), 0.0);
+  for (const AccuracyRun& run : result.runs) {
+    EXPECT_LT(run.errors(0), 1e-12) << "the mass depends on no step";
+    EXPECT_GE((run.errors - reference.errors).minCoeff(), 0.0);
+    EXPECT_GE((run.gradient_errors - reference.gradient_errors).minCoeff(), 0.0);
+  }
 }
 
 TEST(Accuracy, RecommendsTheFastestOfThoseThatAreGoodEnough) {
@@ -81,7 +80,7 @@ TEST(Accuracy, RecommendsNothingIfNothingIsGoodEnough) {
 
 /// Responses that nobody limits have no veto: the end position of the slider, say.
 TEST(Accuracy, CountsWhatIsMinimizedOrLimited) {
-  const ProblemFile problem = test::quick_problem();
+  const ProblemFile problem = quick_problem();
   const AccuracyStudy result = study(1e-2);
   ASSERT_EQ(result.counted.size(), problem.constraints.size() + 1);
   for (const std::size_t i : result.counted) {
@@ -94,7 +93,7 @@ TEST(Accuracy, CountsWhatIsMinimizedOrLimited) {
 }
 
 TEST(Accuracy, TriesStepsAndElementsAroundThoseOfTheFileIfItNamesNone) {
-  ProblemFile problem = test::quick_problem();
+  ProblemFile problem = quick_problem();
   problem.accuracy = {};
   const std::vector<Discretization> grid = accuracy_grid(problem);
   EXPECT_EQ(grid.size(), 12u);
@@ -105,49 +104,32 @@ TEST(Accuracy, TriesStepsAndElementsAroundThoseOfTheFileIfItNamesNone) {
 }
 
 TEST(Accuracy, IsThatOfTheDesignThatIsAskedFor) {
-  ProblemFile problem = test::quick_problem();
-  problem.accuracy = test::grid({2e-4}, {2}, 1e-2);
+  ProblemFile problem = graded_problem({2e-4}, {2});
   const Eigen::VectorXd x = 0.7 * start_design(problem);
   const AccuracyStudy result = accuracy_study(problem, {problem, x});
   const ProblemFile same = discretized(problem, result.runs[0].settings);
   EXPECT_EQ(result.runs[0].values, values_of(*analyze(same, x)));
 }
 
-TEST(Accuracy, ReferenceIsFinerThanEveryRun) {
-  const AccuracyStudy result = study(1e-3);
-  EXPECT_DOUBLE_EQ(result.reference.settings.step, 0.5e-4);
-  EXPECT_EQ(result.reference.settings.elements, 8);
-}
-
 /// Against a run with a quarter of its step and twice its elements, which is nearly exact beside
 /// it.
 TEST(Accuracy, EstimatesTheErrorOfItsReference) {
   const AccuracyStudy result = study(1e-3);
-  ProblemFile finer = test::quick_problem();
+  ProblemFile finer = quick_problem();
   finer.simulation.step = result.reference.settings.step / 4;
   for (Body& body : finer.scene.bodies) {
     auto* beam = std::get_if<BeamBody>(&body.shape);
     if (beam) beam->segments.front().elements = 2 * result.reference.settings.elements;
   }
   const Eigen::VectorXd exact = values_of(*analyze(finer, start_design(finer)));
-  const Eigen::Index torque = 6;  // torque_rms: smooth in the step, unlike a maximum
   const double error = std::abs(result.reference.values(torque) / exact(torque) - 1.0);
   EXPECT_GT(result.reference.errors(torque), 0.5 * error);
   EXPECT_LT(result.reference.errors(torque), 2.0 * error);
 }
 
-TEST(Accuracy, SaysNoErrorBelowThatOfItsReference) {
-  const AccuracyStudy result = study(1e-3);
-  for (const AccuracyRun& run : result.runs) {
-    EXPECT_GE((run.errors - result.reference.errors).minCoeff(), 0.0);
-    EXPECT_GE((run.gradient_errors - result.reference.gradient_errors).minCoeff(), 0.0);
-  }
-  EXPECT_GT(result.reference.errors.maxCoeff(), 0.0);
-}
-
 TEST(Accuracy, AFailingRunIsMarkedAndTheOthersGoOn) {
-  ProblemFile problem = test::quick_problem({"/simulation/max_newton_iterations=2"});
-  problem.accuracy = test::grid({5e-3, 1e-4}, {2}, 1e-3);
+  ProblemFile problem =
+      graded_problem({5e-3, 1e-4}, {2}, 1e-3, {"/simulation/max_newton_iterations=2"});
   problem.simulation.newton_tolerance = 1e-9;
   const AccuracyStudy result = accuracy_study(problem, at_start(problem));
   EXPECT_FALSE(result.runs[0].failure.empty());
@@ -155,7 +137,7 @@ TEST(Accuracy, AFailingRunIsMarkedAndTheOthersGoOn) {
 }
 
 TEST(Accuracy, WithoutResponsesThereIsNothingToCompare) {
-  ProblemFile problem = test::quick_problem();
+  ProblemFile problem = quick_problem();
   problem.responses.clear();
   EXPECT_THROW(accuracy_study(problem, at_start(problem)), InputError);
 }
@@ -184,8 +166,7 @@ TEST(AccuracyOptimum, TriesWhatIsRecommendedAndThanWhichNothingIsBetterInBoth) {
 /// The error of the reference is an estimate: checked against an optimum with half its step and
 /// twice its elements.
 TEST(AccuracyOptimum, KnowsHowFarItsReferenceIsOff) {
-  ProblemFile problem = test::quick_problem();
-  problem.accuracy = test::grid({4e-4}, {2}, 1e-2);
+  ProblemFile problem = graded_problem({4e-4}, {2});
   const SolveOptions options{.backend = "nlopt-mma"};
   const Eigen::VectorXd x = plain_optimum(problem, options).x;
   const AccuracyStudy study = accuracy_study(problem, {problem, x});
@@ -222,20 +203,15 @@ TEST(MissingSettings, ExampleOfAFrontIsOneOfThisProblem) {
   const std::string example = example_in(complaint(require_pareto, problem), "pareto");
   const ProblemFile written = quick_problem({"/pareto=" + example});
   ASSERT_TRUE(written.pareto.has_value()) << example;
-  const ConstraintSettings& limit = problem.constraints.front();
+  ConstraintSettings& limit = problem.constraints.front();
   EXPECT_EQ(written.pareto->constraint, limit.name);
   EXPECT_NEAR(written.pareto->from, *limit.upper / 2, 0.005 * *limit.upper);
   EXPECT_NEAR(written.pareto->to, *limit.upper * 2, 0.02 * *limit.upper);
-}
-
-TEST(MissingSettings, ExampleOfAFrontTakesNoLimitOfTwoSides) {
-  ProblemFile problem = quick_problem();
-  problem.pareto.reset();
+  // It takes no limit of two sides.
   ASSERT_GT(problem.constraints.size(), 1u);
-  problem.constraints.front().lower = 0.5 * *problem.constraints.front().upper;
-  const std::string example = example_in(complaint(require_pareto, problem), "pareto");
-  EXPECT_THAT(example, HasSubstr(problem.constraints[1].name));
-  EXPECT_THAT(example, Not(HasSubstr(problem.constraints[0].name)));
+  limit.lower = 0.5 * *limit.upper;
+  EXPECT_THAT(example_in(complaint(require_pareto, problem), "pareto"),
+              AllOf(HasSubstr(problem.constraints[1].name), Not(HasSubstr(limit.name))));
 }
 
 TEST(MissingSettings, ExampleOfAFrontVariesALimitInAllLoadCases) {
@@ -262,25 +238,15 @@ TEST(MissingSettings, WithoutLimitsAndVariablesThereIsNoExample) {
   problem.uncertainty.reset();
   EXPECT_THAT(complaint(require_pareto, problem), EndsWith("which limit to vary"));
   EXPECT_THAT(complaint(require_uncertainty, problem), EndsWith("are uncertain"));
-}
-
-TEST(MissingSettings, NothingIsSaidOfWhatIsThere) {
-  ProblemFile problem = quick_problem();
   problem.pareto.emplace();
   problem.uncertainty.emplace();
   EXPECT_EQ(complaint(require_pareto, problem), "");
   EXPECT_EQ(complaint(require_uncertainty, problem), "");
 }
 
-TEST(RelativeError, OfAValueIsRelativeToTheReference) {
+TEST(RelativeError, IsRelativeToTheReferenceAndNearZeroToAThousandthOfTheMotion) {
   EXPECT_DOUBLE_EQ(value_error(1.01, 1.0, 1.0), 0.01 + (1.01 - 1.0 - 0.01));
-}
-
-TEST(RelativeError, NearZeroIsRelativeToAThousandthOfTheMotion) {
   EXPECT_DOUBLE_EQ(value_error(1e-6, 0.0, 1.0), 1e-3);
-}
-
-TEST(RelativeError, OfEqualNumbersIsZeroEvenWhereAllIsZero) {
   EXPECT_EQ(value_error(0.0, 0.0, 0.0), 0.0);
   EXPECT_EQ(gradient_error(Eigen::Vector2d(0, 0), Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 1), 0),
             0.0);
@@ -312,14 +278,14 @@ std::string outcome(const ProblemFile& problem) {
 
 void expect_same_on_the_command_line(const std::vector<std::string>& base,
                                      const std::vector<Variation>& variations) {
-  const ProblemFile problem = test::quick_problem(base);
+  const ProblemFile problem = quick_problem(base);
   EXPECT_FALSE(variations.empty());
   const std::string before = outcome(problem);
   for (const Variation& one : variations) {
     std::vector<std::string> words = base;
     for (const Override& change : one.overrides) words.push_back(word_of(change));
     const std::string changed = outcome(one.of(problem));
-    EXPECT_EQ(changed, outcome(test::quick_problem(words))) << one.knob << " " << one.value;
+    EXPECT_EQ(changed, outcome(quick_problem(words))) << one.knob << " " << one.value;
     EXPECT_NE(changed, before) << one.knob << " " << one.value;
   }
 }
@@ -341,15 +307,13 @@ AccuracyStudy varied_study(const ProblemFile& problem, const PricedDesign& desig
 }
 
 TEST(AccuracyKnobs, MakeTheSameProblemAsTheirOverrides) {
-  expect_same_on_the_command_line({}, numerical_variations(test::quick_problem()));
-}
-
-TEST(AccuracyKnobs, MakeTheSameProblemAsTheirOverridesWithStepControlAndModes) {
-  const std::vector<std::string> base = {"/simulation/formulation=stabilized-index-2",
-                                         "/simulation/local_error=1e-3",
-                                         R"(/scene/bodies/rod/reduction={"modes": 2})",
-                                         R"(/scene/bodies/crank/reduction={"frequency": "9 kHz"})"};
-  expect_same_on_the_command_line(base, numerical_variations(test::quick_problem(base)));
+  for (const std::vector<std::string>& base : std::vector<std::vector<std::string>>{
+           {},
+           {"/simulation/formulation=stabilized-index-2", "/simulation/local_error=1e-3",
+            R"(/scene/bodies/rod/reduction={"modes": 2})",
+            R"(/scene/bodies/crank/reduction={"frequency": "9 kHz"})"}}) {
+    expect_same_on_the_command_line(base, numerical_variations(quick_problem(base)));
+  }
 }
 
 TEST(AccuracyKnobs, EffectsMakeTheSameProblemAsTheirOverrides) {
@@ -357,30 +321,26 @@ TEST(AccuracyKnobs, EffectsMakeTheSameProblemAsTheirOverrides) {
            {},
            {"/effects/geometric_stiffening=off", "/effects/rotary_inertia=off",
             "/scene/gravity=[0, -9.81, 0]"}}) {
-    expect_same_on_the_command_line(base, effects_of(test::quick_problem(base)));
+    expect_same_on_the_command_line(base, effects_of(quick_problem(base)));
   }
 }
 
-TEST(AccuracyKnobs, LeaveOutEachEffectThatIsThere) {
-  EXPECT_THAT(names_of(effects_of(test::quick_problem())),
+TEST(AccuracyKnobs, LeaveOutEachEffectThatIsThereAndIncludeWhatTheFileLeavesOut) {
+  EXPECT_THAT(names_of(effects_of(quick_problem())),
               ElementsAre("axial_elasticity and geometric_stiffening off",
                           "geometric_stiffening off", "rotary_inertia off"));
-}
-
-TEST(AccuracyKnobs, IncludeWhatTheFileLeavesOut) {
-  const ProblemFile problem =
-      test::quick_problem({"/effects/geometric_stiffening=off", "/effects/axial_elasticity=off",
-                           "/scene/gravity=[0, -9.81, 0]"});
   // Stiffening needs the axial elasticity that is forbidden: it is no change of its own.
-  EXPECT_THAT(names_of(effects_of(problem)),
+  EXPECT_THAT(names_of(effects_of(quick_problem({"/effects/geometric_stiffening=off",
+                                                 "/effects/axial_elasticity=off",
+                                                 "/scene/gravity=[0, -9.81, 0]"}))),
               ElementsAre("axial_elasticity on", "rotary_inertia off", "gravity off"));
 }
 
 /// Re-optimized without stiffening: the price is first order in the change, which is 0.3 % of the
 /// mass at this speed (at 100 rad/s, 2.5 %, it is 12 % too high).
 TEST(AccuracyKnobs, PricesOfEffectsAreWhatReoptimizingChanges) {
-  ProblemFile problem = test::quick_problem({"/scene/joints/bearing/drive/speed=60"});
-  problem.accuracy = test::grid({2e-4}, {4}, 1e-2);
+  const ProblemFile problem =
+      graded_problem({2e-4}, {4}, 1e-2, {"/scene/joints/bearing/drive/speed=60"});
   const auto optimum = [](const ProblemFile& file) {
     DesignProblem design(file);
     return solve_design(design, {.backend = "nlopt-mma"});
@@ -402,37 +362,27 @@ TEST(AccuracyKnobs, PricesOfEffectsAreWhatReoptimizingChanges) {
   EXPECT_EQ(priced, 1);
 }
 
-TEST(AccuracyKnobs, HaveNoPricesAtTheStart) {
-  ProblemFile problem = test::quick_problem();
-  problem.accuracy = test::grid({2e-4}, {2}, 1e-2);
-  const AccuracyStudy study = varied_study(problem, {problem, start_design(problem)});
+/// Three corrections a step where index 3 has one: several times the time, whatever the machine.
+TEST(AccuracyKnobs, AtTheStartHaveTimesAgainstTheSettingThatIsChangedAndNoPrices) {
+  const ProblemFile problem = graded_problem({2e-4}, {2});
+  const AccuracyStudy study = varied_study(problem, at_start(problem));
   for (const VariedRun& one : study.effects) EXPECT_FALSE(one.run.optimum_change);
   for (const AccuracyRun& run : study.runs) EXPECT_FALSE(run.optimum_change);
-}
-
-/// Three corrections a step where index 3 has one: several times the time, whatever the machine.
-TEST(AccuracyKnobs, TimesAreComparedWithTheSettingThatIsChanged) {
-  ProblemFile problem = test::quick_problem();
-  problem.accuracy = test::grid({2e-4}, {2}, 1e-2);
-  const AccuracyStudy study = varied_study(problem, {problem, start_design(problem)});
   ASSERT_EQ(study.base, 0u);
-  const auto found = std::find_if(study.knobs.begin(), study.knobs.end(), [](const VariedRun& one) {
-    return one.variation.value == "index-1 with projection";
-  });
+  const auto found = std::ranges::find(study.knobs, "index-1 with projection",
+                                       [](const VariedRun& one) { return one.variation.value; });
   ASSERT_NE(found, study.knobs.end());
   EXPECT_GT(found->time.change, 0.5);
 }
 
 TEST(Accuracy, ComparesTheReferenceWithAnotherFormulation) {
-  ProblemFile problem = test::quick_problem();
-  problem.accuracy = test::grid({2e-4}, {2}, 1e-2);
+  ProblemFile problem = graded_problem({2e-4}, {2});
   const AccuracyStudy study = accuracy_study(problem, {problem, start_design(problem)});
   EXPECT_EQ(study.check.formulation, "stabilized-index-2");
   EXPECT_EQ(study.check.failure, "");
   ProblemFile other = discretized(problem, study.reference.settings);
   other.simulation.formulation = {ConstraintForm::stabilized_index_2};
   const Eigen::VectorXd values = values_of(*analyze(other, start_design(problem)));
-  const Eigen::Index torque = 6;  // torque_rms
   const double difference = std::abs(values(torque) / study.reference.values(torque) - 1.0);
   EXPECT_NEAR(study.check.differences(torque) / difference, 1.0, 1e-6);
   EXPECT_GE((study.reference.errors - study.check.differences).minCoeff(), 0.0);
@@ -461,8 +411,8 @@ TEST(Accuracy, FitsTheOrderOfTheErrorsThatCount) {
 /// Segments without a fraction share the length in proportion to their elements: other elements
 /// must not make another beam of it.
 TEST(Accuracy, KeepsTheLengthsOfSegments) {
-  ProblemFile problem = test::quick_problem(
-      {R"(/scene/bodies/rod={"type": "beam", "from": [0.12, 0, 0], "to": [0.3, 0, 0],
+  ProblemFile problem =
+      quick_problem({R"(/scene/bodies/rod={"type": "beam", "from": [0.12, 0, 0], "to": [0.3, 0, 0],
           "material": "steel", "frame": "chord", "segments": [
             {"section": {"type": "circle", "diameter": {"variable": "rod_diameter"}}, "elements": 1},
             {"section": {"type": "circle", "diameter": "8 mm"}, "elements": 3}]})"});

@@ -7,7 +7,7 @@
 #include "studies/noise.hpp"
 #include "tests/studies/quick_problem.hpp"
 #include "tests/support/at_start.hpp"
-#include "tests/support/files.hpp"
+#include "tests/support/problem_runs.hpp"
 #include "tests/support/test.hpp"
 
 namespace pleuel::test::derivative_check_test {
@@ -20,18 +20,11 @@ TEST(DerivativeCheck, AgreesForEveryResponseOfASampleProblem) {
   ASSERT_EQ(checks.directions.size(), 1u);
   EXPECT_EQ(checks.directions[0].variables.size(), problem.variables.size());
   for (std::size_t i = 0; i < checks.responses.size(); ++i) {
+    SCOPED_TRACE(problem.responses[i].name);
     // Differences of simulations with round-off 1e-12 reach 1e-8; what `check` allows is 1e-6.
-    EXPECT_LT(checks.responses[i].worst().error, 1e-6) << problem.responses[i].name;
-    EXPECT_EQ(checks.responses[i].worst().verdict, DerivativeVerdict::agrees)
-        << problem.responses[i].name;
-  }
-}
-
-TEST(DerivativeCheck, FindsThatDirectAndAdjointAreTheSameUpToRoundOff) {
-  const auto [problem, x, analysis] = AtStart(test::quick_problem());
-  const auto checks = check_derivatives(problem, x, *analysis);
-  for (std::size_t i = 0; i < checks.responses.size(); ++i) {
-    EXPECT_LT(checks.responses[i].adjoint_error, 1e-10) << problem.responses[i].name;
+    EXPECT_LT(checks.responses[i].worst().error, 1e-6);
+    EXPECT_EQ(checks.responses[i].worst().verdict, DerivativeVerdict::agrees);
+    EXPECT_LT(checks.responses[i].adjoint_error, 1e-10);  // both are exact
   }
 }
 
@@ -103,11 +96,9 @@ TEST(DerivativeCheck, DoesNotBlameResponsesThatAreNoise) {
 
 /// Newton's method stops after the same number of iterations at all designs nearby: what it leaves
 /// is smooth in the design, and part of the differences but not of the gradient.
-ProblemFile loose_problem() {
-  return read_problem(source_folder() + "/problems/four_bar.json",
-                      {"/simulation/step=1 ms", "/simulation/end_time=30 ms",
-                       "/simulation/newton_tolerance=1e-3"})
-      .complete();
+ProblemFile loose_problem(double tolerance = 1e-3) {
+  return sample_problem("four_bar", {"/simulation/step=1 ms", "/simulation/end_time=30 ms",
+                                     fmt::format("/simulation/newton_tolerance={}", tolerance)});
 }
 
 /// Central differences of two steps, extrapolated to none (Richardson): of fourth order, so that
@@ -119,18 +110,11 @@ Eigen::MatrixXd extrapolated_differences(const ProblemFile& problem, const Eigen
          3.0;
 }
 
-ProblemFile tight_problem() {
-  ProblemFile problem = loose_problem();
-  problem.simulation.newton_tolerance = 1e-12;
-  return problem;
-}
-
 /// What the check below relies on. Single central differences come within some 1e-6 only: their
 /// truncation, as the square of the step, meets their round-off, as its inverse, near 3e-5. What
 /// the tolerance leaves in positions is some 1/h² as much in accelerations, and in stress.
 TEST(DerivativeCheck, WouldFindTheDerivativesRightWithATightTolerance) {
-  ProblemFile problem = tight_problem();
-  problem.simulation.newton_tolerance = 1e-13;
+  const ProblemFile problem = loose_problem(1e-13);
   const auto [x, analysis] = started(problem);
   const Eigen::VectorXd values = values_of(*analysis);
   const Eigen::MatrixXd direct =
@@ -144,7 +128,7 @@ TEST(DerivativeCheck, WouldFindTheDerivativesRightWithATightTolerance) {
 
 TEST(DerivativeCheck, BlamesALooseNewtonToleranceAndNotTheDerivatives) {
   const auto [problem, x, analysis] = AtStart(loose_problem());
-  const ProblemFile tight = tight_problem();
+  const ProblemFile tight = loose_problem(1e-12);
   const auto tight_analysis = analyze(tight, x);
   const auto checks = check_derivatives(problem, x, *analysis);
   const auto tight_checks = check_derivatives(tight, x, *tight_analysis);
@@ -196,27 +180,23 @@ TEST(DerivativeCheck, NoticesThatAnalysisAndDesignDoNotBelongTogether) {
 /// A bar of segments on a slide: the derivative of its mass by a diameter depends on that diameter
 /// alone, so the analysis of a design where one is changed has one wrong derivative.
 ProblemFile segmented_bar(int segments) {
-  std::string parts, variables;
+  std::vector<std::string> parts, variables;
   for (int i = 0; i < segments; ++i) {
-    const char* comma = i == 0 ? "" : ", ";
-    parts += fmt::format(
-        R"({}{{"elements": 1, "section": {{"type": "circle", "diameter": {{"variable": "d{}"}}}}}})",
-        comma, i);
-    variables +=
-        fmt::format(R"({}"d{}": {{"start": 0.01, "lower": 0.005, "upper": 0.02}})", comma, i);
+    parts.push_back(fmt::format(
+        R"({{"elements": 1, "section": {{"type": "circle", "diameter": {{"variable": "d{}"}}}}}})",
+        i));
+    variables.push_back(
+        fmt::format(R"("d{}": {{"start": 0.01, "lower": 0.005, "upper": 0.02}})", i));
   }
-  return read_problem_text(R"({"scene": {
-          "materials": {"steel": {"young": "210 GPa", "poisson": 0.3, "density": 7850}},
-          "bodies": {"bar": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0],
-            "material": "steel", "segments": [)" +
-                               parts + R"(]}},
-          "joints": {"slide": {"type": "prismatic", "bodies": ["ground", "bar"], "at": [0, 0, 0],
-            "axis": [1, 0, 0]}}},
-          "simulation": {"end_time": 0.01, "step": 0.001},
-          "variables": {)" + variables +
-                               R"(}, "responses": {"mass": {"type": "mass"}}})",
-                           "bar.json")
-      .complete();
+  return problem_from(fmt::format(R"({{"scene": {{
+          "materials": {{"steel": {{"young": "210 GPa", "poisson": 0.3, "density": 7850}}}},
+          "bodies": {{"bar": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0],
+            "material": "steel", "segments": [{}]}}}},
+          "joints": {{"slide": {{"type": "prismatic", "bodies": ["ground", "bar"], "at": [0, 0, 0],
+            "axis": [1, 0, 0]}}}}}},
+          "simulation": {{"end_time": 0.01, "step": 0.001}},
+          "variables": {{{}}}, "responses": {{"mass": {{"type": "mass"}}}}}})",
+                                  fmt::join(parts, ", "), fmt::join(variables, ", ")));
 }
 
 TEST(DerivativeCheck, FindsTheOneVariableWhoseDerivativeIsWrongByHalves) {
@@ -302,10 +282,7 @@ TEST(DerivativeVerdict, OfTheRightDerivativeIsThatItAgrees) {
   // Truncation h² · 4/12 and noise 1e-13 / (√2 · 2 h · 12) are equal near h = 2e-5.
   EXPECT_EQ(right.step, 1e-5);
   EXPECT_LT(right.error, 1e-8);
-}
-
-TEST(DerivativeVerdict, CurveAscendsAndHasTheShapeOfAV) {
-  const JudgedDerivative right = judged(12.0, 1e-13);
+  // The curve ascends and has the shape of a V.
   ASSERT_EQ(right.curve.size(), 7u);
   for (std::size_t k = 1; k < right.curve.size(); ++k) {
     EXPECT_GT(right.curve[k].step, right.curve[k - 1].step);
@@ -316,11 +293,16 @@ TEST(DerivativeVerdict, CurveAscendsAndHasTheShapeOfAV) {
 
 /// At a step of 1e-8 noise is as large as the error; the better steps show it all the same.
 TEST(DerivativeVerdict, OfAWrongDerivativeIsNotExcusedByNoiseOfTheSmallestStep) {
-  for (const double wrong : {1e-5, 1e-4, 1e-2, 2.0}) {
-    EXPECT_EQ(judged(12.0 * (1.0 + wrong), 1e-12).verdict, DerivativeVerdict::differs) << wrong;
+  for (const auto& [wrong, noise] :
+       std::vector<std::pair<double, double>>{{12.0 * (1.0 + 1e-5), 1e-12},
+                                              {12.0 * (1.0 + 1e-4), 1e-12},
+                                              {12.0 * (1.0 + 1e-2), 1e-12},
+                                              {36.0, 1e-12},
+                                              {-12.0, 1e-12},
+                                              {0.0, 1e-12},
+                                              {18.0, 1e-4}}) {
+    EXPECT_EQ(judged(wrong, noise).verdict, DerivativeVerdict::differs) << wrong;
   }
-  EXPECT_EQ(judged(-12.0, 1e-12).verdict, DerivativeVerdict::differs);
-  EXPECT_EQ(judged(0.0, 1e-12).verdict, DerivativeVerdict::differs);
 }
 
 /// Noise of 1e-4 leaves 1e-4 / (√2 · 2e-3) = 0.035 of 12 uncertain even at a step of 1e-3.
@@ -329,10 +311,6 @@ TEST(DerivativeVerdict, OfARightDerivativeOfANoisyResponseIsNoise) {
   EXPECT_GT(right.error, 1e-6);
   EXPECT_EQ(right.verdict, DerivativeVerdict::noise);
   EXPECT_GT(right.resolution, 1e-4 / (std::sqrt(2.0) * 2e-3) / 12.0);
-}
-
-TEST(DerivativeVerdict, OfAWrongDerivativeOfANoisyResponseIsThatItDiffers) {
-  EXPECT_EQ(judged(18.0, 1e-4).verdict, DerivativeVerdict::differs);
 }
 
 /// A response that is nothing but noise, as the drift of constraints that do not drift: its
@@ -350,12 +328,14 @@ TEST(DerivativeVerdict, OfAResponseThatIsNoiseIsNoise) {
 /// What Newton's method leaves is smooth: it makes the derivative of f wrong by as much as f, at
 /// every step alike.
 TEST(DerivativeVerdict, CountsWhatNewtonsMethodLeavesOnceAtEveryStep) {
-  DerivativeEvidence loose = evidence(12.0 + 1e-4, 1e-13);
-  EXPECT_EQ(judge_derivative(loose, cubic_differences(1e-13)).verdict, DerivativeVerdict::differs);
-  loose.remainder = 1e-4;
-  EXPECT_EQ(judge_derivative(loose, cubic_differences(1e-13)).verdict, DerivativeVerdict::noise);
-  loose.derivative = 12.0 + 1e-2;
-  EXPECT_EQ(judge_derivative(loose, cubic_differences(1e-13)).verdict, DerivativeVerdict::differs);
+  const auto verdict = [](double error, double remainder) {
+    DerivativeEvidence loose = evidence(12.0 + error, 1e-13);
+    loose.remainder = remainder;
+    return judge_derivative(loose, cubic_differences(1e-13)).verdict;
+  };
+  EXPECT_EQ(verdict(1e-4, 0.0), DerivativeVerdict::differs);
+  EXPECT_EQ(verdict(1e-4, 1e-4), DerivativeVerdict::noise);
+  EXPECT_EQ(verdict(1e-2, 1e-4), DerivativeVerdict::differs);
 }
 
 /// Differences that do not settle, as next to peaks between steps of time: their scatter of 10 %

@@ -4,9 +4,7 @@
 #include <iterator>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/scene/problem_reader.hpp"
 #include "optimization/design/design_solve.hpp"
-#include "studies/number_prices.hpp"
 #include "tests/optimization/known_problems.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/problem_runs.hpp"
@@ -35,10 +33,23 @@ constexpr const char* bar = R"({
 const double height_of_bar = std::sqrt(6 * 500 * 0.4 / (0.03 * 1e8));
 
 const NumberPrice* find(const PriceList& list, const std::string& name) {
-  for (const NumberPrice& price : list.prices) {
-    if (price.name == name) return &price;
-  }
-  return nullptr;
+  const auto found = std::ranges::find(list.prices, name, &NumberPrice::name);
+  return found == list.prices.end() ? nullptr : &*found;
+}
+
+/// What a percent of a number costs, in percent of the optimum; 0 with a failure if it has no price.
+double exponent(const PriceList& list, const std::string& name) {
+  const NumberPrice* price = find(list, name);
+  EXPECT_NE(price, nullptr) << name;
+  return price ? price->per_percent() / (0.01 * list.objective) : 0.0;
+}
+
+using Overrides = std::vector<std::string>;
+
+/// Prices of the bar with overrides, at a height.
+PriceList prices_at(double height, const Overrides& overrides = {}) {
+  return number_prices({bar, "bar.json", overrides}, problem_from(bar, overrides),
+                       Eigen::VectorXd::Constant(1, height));
 }
 
 std::vector<std::string> names_of(const std::vector<NumberGroup>& groups) {
@@ -47,22 +58,24 @@ std::vector<std::string> names_of(const std::vector<NumberGroup>& groups) {
   return names;
 }
 
+/// The numbers of the bar with overrides.
+std::vector<std::string> priced_names(const Overrides& overrides = {}) {
+  return names_of(
+      priced_numbers({bar, "bar.json", overrides}, problem_from(bar, overrides)).groups);
+}
+
 TEST(NumberPrices, AreTheExponentsOfAClosedForm) {
-  const ProblemText text{bar, "bar.json"};
-  const PriceList list =
-      number_prices(text, problem_from(bar), Eigen::VectorXd::Constant(1, height_of_bar));
+  const PriceList list = prices_at(height_of_bar);
   EXPECT_NEAR(list.objective, 7850 * 0.4 * 0.03 * height_of_bar, 1e-12);
   EXPECT_LT(list.residual, 1e-6);
-  for (const auto& [name, exponent] :
+  for (const auto& [name, expected] :
        std::vector<std::pair<std::string, double>>{{"/scene/materials/steel/density", 1.0},
                                                    {"/scene/bodies/bar/to/0", 1.5},
                                                    {"/scene/bodies/bar/section/width", 0.5},
                                                    {"/scene/loads/press/value", 0.5},
                                                    {"/constraints/strength/upper", -0.5}}) {
-    const NumberPrice* price = find(list, name);
-    ASSERT_NE(price, nullptr) << name;
-    EXPECT_NEAR(price->per_percent() / (0.01 * list.objective), exponent, 1e-6) << name;
-    EXPECT_EQ(price->next_limit, "") << name;
+    EXPECT_NEAR(exponent(list, name), expected, 1e-6) << name;
+    EXPECT_EQ(find(list, name)->next_limit, "") << name;
   }
   // Stiffness moves the tip, not the mass: what is left is round-off, and no price.
   EXPECT_EQ(find(list, "/scene/materials/steel/young")->per_unit, 0.0);
@@ -70,10 +83,8 @@ TEST(NumberPrices, AreTheExponentsOfAClosedForm) {
 }
 
 TEST(NumberPrices, OfABoundIsThatOfTheObjective) {
-  const std::vector<std::string> overrides = {"/variables/height/start=50 mm",
-                                              "/variables/height/lower=40 mm"};
-  const PriceList list = number_prices({bar, "bar.json", overrides}, problem_from(bar, overrides),
-                                       Eigen::VectorXd::Constant(1, 0.04));
+  const PriceList list =
+      prices_at(0.04, {"/variables/height/start=50 mm", "/variables/height/lower=40 mm"});
   const NumberPrice* bound = find(list, "/variables/height/lower");
   ASSERT_NE(bound, nullptr);
   EXPECT_NEAR(bound->per_unit, 7850 * 0.4 * 0.03, 1e-6);
@@ -87,59 +98,45 @@ TEST(NumberPrices, OfABoundIsThatOfTheObjective) {
 /// The optimum is at 20 mm, the bound at 20.05 mm: one percent more force would lift it by 0.5 %,
 /// to where the upper bound decides.
 TEST(NumberPrices, SaysWhichBoundDecidesNext) {
-  const std::vector<std::string> overrides = {"/variables/height/start=20 mm",
-                                              "/variables/height/upper=20.05 mm"};
-  const ProblemFile problem = problem_from(bar, overrides);
-  const PriceList list = number_prices({bar, "bar.json", overrides}, problem,
-                                       Eigen::VectorXd::Constant(1, height_of_bar));
+  const PriceList list = prices_at(
+      height_of_bar, {"/variables/height/start=20 mm", "/variables/height/upper=20.05 mm"});
   EXPECT_EQ(find(list, "/scene/loads/press/value")->next_limit, "height");
   EXPECT_EQ(find(list, "/scene/materials/steel/density")->next_limit, "");
 }
 
 TEST(NumberPrices, OfAFixedVariableIsThatOfTheNumber) {
-  const std::vector<std::string> overrides = {
+  const Overrides overrides = {
       R"(/scene/bodies/bar/section/width={"variable": "width"})",
       R"(/variables/width={"start": "30 mm", "lower": "30 mm", "upper": "30 mm"})"};
-  const ProblemFile problem = problem_from(bar, overrides);
-  const PriceList list =
-      number_prices({bar, "bar.json", overrides}, problem, Eigen::Vector2d(height_of_bar, 0.03));
-  const NumberPrice* width = find(list, "width");
-  ASSERT_NE(width, nullptr);
-  EXPECT_EQ(width->kind, NumberPrice::Kind::variable);
-  EXPECT_NEAR(width->per_percent() / (0.01 * list.objective), 0.5, 1e-6);
+  const PriceList list = number_prices({bar, "bar.json", overrides}, problem_from(bar, overrides),
+                                       Eigen::Vector2d(height_of_bar, 0.03));
+  EXPECT_NEAR(exponent(list, "width"), 0.5, 1e-6);
+  EXPECT_EQ(find(list, "width")->kind, NumberPrice::Kind::variable);
 }
 
 /// f = m/(1 kg) + s/(100 MPa) with m = ρ b L h and s = 6 F L/(b h²) is least at h³ = 12 F L/(ρ b² L
 /// · 1e8), where s = m/2: a percent more density costs a percent of m. No limit holds this optimum.
 TEST(NumberPrices, AreThoseOfAnOptimumThatNoLimitHolds) {
-  const std::vector<std::string> overrides = {
-      "/constraints={}", R"json(/objective={"minimize": "= m/(1 kg) + s/(100 MPa)"})json"};
   const double height = std::cbrt(12.0 * 500.0 / (7850.0 * 0.03 * 0.03 * 1e8));
-  const PriceList list = number_prices({bar, "bar.json", overrides}, problem_from(bar, overrides),
-                                       Eigen::VectorXd::Constant(1, height));
+  const PriceList list = prices_at(
+      height,
+      {"/constraints={}", R"json(/objective={"minimize": "= m/(1 kg) + s/(100 MPa)"})json"});
   const double mass = 7850 * 0.4 * 0.03 * height;
   EXPECT_LT(list.residual, 1e-6);
   EXPECT_NEAR(list.objective, 1.5 * mass, 1e-6);
-  const NumberPrice* density = find(list, "/scene/materials/steel/density");
-  ASSERT_NE(density, nullptr);
-  EXPECT_NEAR(density->per_percent(), 0.01 * mass, 1e-6 * mass);
+  EXPECT_NEAR(exponent(list, "/scene/materials/steel/density") * 0.01 * list.objective, 0.01 * mass,
+              1e-6 * mass);
 }
 
 /// With its height from a list the bar stays as it is where a little more is allowed: only what
 /// makes it heavier has a price.
 TEST(NumberPrices, OfChosenSizesAreThoseWithThem) {
-  const std::vector<std::string> overrides = {
-      R"(/variables/height={"start": "20 mm", "choices": ["15 mm", "20 mm", "25 mm"]})"};
-  const PriceList list = number_prices({bar, "bar.json", overrides}, problem_from(bar, overrides),
-                                       Eigen::VectorXd::Constant(1, 0.02));
+  const PriceList list = prices_at(
+      0.02, {R"(/variables/height={"start": "20 mm", "choices": ["15 mm", "20 mm", "25 mm"]})"});
   EXPECT_LT(list.residual, 1e-6);
   EXPECT_NEAR(list.objective, 7850 * 0.4 * 0.03 * 0.02, 1e-12);
-  const NumberPrice *density = find(list, "/scene/materials/steel/density"),
-                    *force = find(list, "/scene/loads/press/value");
-  ASSERT_NE(density, nullptr);
-  EXPECT_NEAR(density->per_percent(), 0.01 * list.objective, 1e-12);
-  ASSERT_NE(force, nullptr);
-  EXPECT_EQ(force->per_unit, 0.0);
+  EXPECT_NEAR(exponent(list, "/scene/materials/steel/density"), 1.0, 1e-10);
+  EXPECT_EQ(exponent(list, "/scene/loads/press/value"), 0.0);
   EXPECT_EQ(find(list, "/constraints/strength/upper"), nullptr);
   EXPECT_EQ(find(list, "height"), nullptr);
 }
@@ -147,13 +144,12 @@ TEST(NumberPrices, OfChosenSizesAreThoseWithThem) {
 /// A force of 40 Hz on the bar, whose motion repeats itself after 25 ms: its frequency sets the
 /// period, its amplitude does not.
 TEST(NumberPrices, OfAMotionThatRepeatsItselfAreWithoutItsPeriod) {
-  const std::vector<std::string> overrides = {
+  const Overrides overrides = {
       R"(/simulation={"end_time": "25 ms", "step": "0.5 ms", "initial_state": "periodic"})",
       R"(/scene/bodies/bar/damping={"stiffness": "0.1 ms"})",
       R"(/scene/loads/press/value={"type": "harmonic", "amplitude": "0.5 kN", "frequency": "40 Hz"})",
       "/constraints={}", R"json(/objective={"minimize": "= m/(1 kg) + s/(100 MPa)"})json"};
-  const PriceList list = number_prices({bar, "bar.json", overrides}, problem_from(bar, overrides),
-                                       Eigen::VectorXd::Constant(1, 0.02));
+  const PriceList list = prices_at(0.02, overrides);
   EXPECT_THAT(list.unknown, testing::Contains("/scene/loads/press/value/frequency"));
   EXPECT_EQ(find(list, "/scene/loads/press/value/frequency"), nullptr);
   const NumberPrice* amplitude = find(list, "/scene/loads/press/value/amplitude");
@@ -188,35 +184,21 @@ TEST(PricedNumbers, AreThoseOfLibraryMaterialsToo) {
 }
 
 TEST(PricedNumbers, LeaveOutWhatNoVariableCanStandFor) {
-  const std::vector<std::string> overrides = {"/scene/gravity=[0, -9.81, 0]"};
-  const auto groups =
-      priced_numbers({bar, "bar.json", overrides}, problem_from(bar, overrides)).groups;
-  EXPECT_THAT(names_of(groups), Not(testing::Contains(HasSubstr("gravity"))));
-}
-
-/// The end of the bar cannot be moved without the load, which a formula places.
-TEST(PricedNumbers, LeaveOutPointsThatFormulasMove) {
-  const std::vector<std::string> overrides = {"/scene/loads/press/at/0== 0.4 m + 0*height"};
-  const auto groups =
-      priced_numbers({bar, "bar.json", overrides}, problem_from(bar, overrides)).groups;
-  EXPECT_THAT(names_of(groups), Not(testing::Contains("/scene/bodies/bar/to/0")));
-  EXPECT_THAT(names_of(groups), testing::Contains("/scene/bodies/bar/from/0"));
+  EXPECT_THAT(priced_names({"/scene/gravity=[0, -9.81, 0]"}),
+              Not(testing::Contains(HasSubstr("gravity"))));
+  // The end of the bar cannot be moved without the load, which a formula places.
+  const auto names = priced_names({"/scene/loads/press/at/0== 0.4 m + 0*height"});
+  EXPECT_THAT(names, Not(testing::Contains("/scene/bodies/bar/to/0")));
+  EXPECT_THAT(names, testing::Contains("/scene/bodies/bar/from/0"));
 }
 
 /// A load F at a place of a bar bends what carries it, M = F a with the height h = √(6 F a/(b σ)): the
 /// mass goes with √a. What is at the end of the beam stays there.
 TEST(NumberPrices, AreThoseOfPlacesOnElasticBeams) {
-  const std::vector<std::string> overrides = {"/scene/loads/press/at/0=0.3"};
-  const ProblemText text{bar, "bar.json", overrides};
-  const ProblemFile problem = problem_from(bar, overrides);
-  const double height = std::sqrt(6 * 500 * 0.3 / (0.03 * 1e8));
-  const PriceList list = number_prices(text, problem, Eigen::VectorXd::Constant(1, height));
-  const auto exponent = [&](const std::string& name) {
-    const NumberPrice* price = find(list, name);
-    return price ? price->per_percent() / (0.01 * list.objective) : 0.0;
-  };
-  EXPECT_NEAR(exponent("/scene/loads/press/at/0"), 0.5, 1e-6);
-  EXPECT_NEAR(exponent("/scene/bodies/bar/to/0"), 1.0, 1e-6);
+  const PriceList list =
+      prices_at(std::sqrt(6 * 500 * 0.3 / (0.03 * 1e8)), {"/scene/loads/press/at/0=0.3"});
+  EXPECT_NEAR(exponent(list, "/scene/loads/press/at/0"), 0.5, 1e-6);
+  EXPECT_NEAR(exponent(list, "/scene/bodies/bar/to/0"), 1.0, 1e-6);
 }
 
 /// Binding a number to a variable that is fixed at its value changes no response.

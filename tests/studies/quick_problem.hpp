@@ -28,4 +28,12 @@ inline AccuracySettings grid(std::vector<double> steps, std::vector<int> element
   return settings;
 }
 
+/// The quick problem with such a grid.
+inline ProblemFile graded_problem(std::vector<double> steps, std::vector<int> elements,
+                                  double target = 1e-2, const std::vector<std::string>& more = {}) {
+  ProblemFile problem = quick_problem(more);
+  problem.accuracy = grid(std::move(steps), std::move(elements), target);
+  return problem;
+}
+
 }  // namespace pleuel::test

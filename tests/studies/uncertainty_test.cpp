@@ -25,19 +25,35 @@ ProblemFile uncertain_problem(const std::string& settings) {
   return quick_problem({"/uncertainty=" + settings});
 }
 
-const UncertainResponse& response_of(const ProblemFile& problem, const UncertaintyStudy& study,
-                                     const std::string& name) {
-  for (std::size_t i = 0; i < problem.responses.size(); ++i) {
-    if (problem.responses[i].name == name) return study.responses[i];
-  }
-  throw std::runtime_error("no response " + name);
+UncertaintyStudy studied(const ProblemFile& problem, int jobs = 2) {
+  return uncertainty_study(problem, {.tasks = {.jobs = jobs}});
+}
+
+UncertainResponse response_of(const ProblemFile& problem, const UncertaintyStudy& study,
+                              const std::string& name) {
+  return study.responses.at(index_of_named(problem.responses, name).value());
+}
+
+/// A cantilever of 1 m, 20 mm wide, under a force at its end, with its mass and its deflection.
+ProblemFile pushed_cantilever(const std::string& height, const std::string& force,
+                              const std::string& more) {
+  return problem_from(fmt::format(R"({{"scene": {{
+          "bodies": {{"b": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
+            "section": {{"type": "rectangle", "width": 0.02, "height": {}}}, "elements": 1}}}},
+          "joints": {{"f": {{"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]}}}},
+          "loads": {{"p": {{"type": "force", "body": "b", "at": [1, 0, 0], "direction": [0, 1, 0],
+            "value": {}}}}}}},
+        "simulation": {{"end_time": 2e-3, "step": 1e-3, "initial_state": "quasi-static"}}, {},
+        "responses": {{"mass": {{"type": "mass"}},
+          "sag": {{"type": "deflection", "body": "b", "at": 1, "over_time": "final"}}}}}})",
+                                  height, force, more));
 }
 
 /// Closed form: m = ρ π/4 (d₁² l₁ + d₂² l₂), so ∂m/∂dᵢ = ρ π/2 dᵢ lᵢ.
 TEST(Uncertainty, OfTheMassIsThatOfTheClosedForm) {
   const ProblemFile problem = uncertain_problem(
       R"({"parameters": {"crank_diameter": {"deviation": "0.2 mm"}, "rod_diameter": {"interval": "0.3 mm"}}})");
-  const UncertaintyStudy study = uncertainty_study(problem, {.tasks = {.jobs = 1}});
+  const UncertaintyStudy study = studied(problem, 1);
   const UncertainResponse& mass = response_of(problem, study, "crank_and_rod");
   const double crank = 7850 * pi / 2 * 0.030 * 0.120, rod = 7850 * pi / 2 * 0.030 * 0.180;
   const double of_crank = crank * 0.2e-3, of_rod = rod * 0.3e-3 / std::sqrt(3.0);
@@ -51,52 +67,37 @@ TEST(Uncertainty, OfTheMassIsThatOfTheClosedForm) {
 /// Deflections go with h⁻³: of 20 ± 3 mm, ε = 0.15, (1 + ε)⁻³ deviates by far more than 3 ε; the
 /// mass, which is linear in h, does not.
 TEST(Uncertainty, SaysWhereFirstOrderIsNotEnough) {
-  const ProblemFile problem = problem_from(R"({"scene": {
-          "bodies": {"b": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
-            "section": {"type": "rectangle", "width": 0.02, "height": {"variable": "h"}}, "elements": 1}},
-          "joints": {"f": {"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]}},
-          "loads": {"p": {"type": "force", "body": "b", "at": [1, 0, 0], "direction": [0, 1, 0], "value": 1}}},
-        "simulation": {"end_time": 2e-3, "step": 1e-3, "initial_state": "quasi-static"},
-        "variables": {"h": {"start": 0.02, "lower": 0.001, "upper": 0.1}},
-        "uncertainty": {"parameters": {"h": {"deviation": 0.003}}, "samples": 500},
-        "responses": {"mass": {"type": "mass"},
-          "sag": {"type": "deflection", "body": "b", "at": 1, "over_time": "max"}}})");
   const auto findings = [](const ProblemFile& of) {
     std::vector<std::string> texts;
-    for (const Finding& finding : uncertainty_study(of, {.tasks = {.jobs = 2}}).findings)
-      texts.push_back(finding.text);
+    for (const Finding& finding : studied(of).findings) texts.push_back(finding.text);
     return texts;
   };
-  const std::vector<std::string> found = findings(problem);
-  ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].find("\"sag\" is not linear"), 0u);
-  ProblemFile narrow = problem;
-  narrow.uncertainty->parameters[0].deviation = 2e-4;
-  EXPECT_TRUE(findings(narrow).empty());
+  ProblemFile problem =
+      pushed_cantilever(R"({"variable": "h"})", "1",
+                        R"("variables": {"h": {"start": 0.02, "lower": 0.001, "upper": 0.1}},
+        "uncertainty": {"parameters": {"h": {"deviation": 0.003}}, "samples": 500})");
+  EXPECT_THAT(findings(problem), ElementsAre(StartsWith("\"sag\" is not linear")));
+  problem.uncertainty->parameters[0].deviation = 2e-4;
+  EXPECT_THAT(findings(problem), IsEmpty());
 }
 
 /// A force F sin φ with φ within ± 1.5 rad: its deviation is F √(½ − sin(2a)/(4a)) = 0.690 F, and
 /// by first order F a/√3 = 0.866 F.
 TEST(Uncertainty, SaysWhereSamplesScatterLessThanFirstOrder) {
-  const ProblemFile problem = problem_from(R"({"scene": {
-          "bodies": {"b": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel",
-            "section": {"type": "rectangle", "width": 0.02, "height": 0.02}, "elements": 1}},
-          "joints": {"f": {"type": "fixed", "bodies": ["ground", "b"], "at": [0, 0, 0]}},
-          "loads": {"p": {"type": "force", "body": "b", "at": [1, 0, 0], "direction": [0, 1, 0],
-            "value": {"type": "harmonic", "amplitude": 1, "frequency": "1e-9 Hz",
-                      "phase": {"variable": "phase"}}}}},
-        "simulation": {"end_time": 2e-3, "step": 1e-3, "initial_state": "quasi-static"},
-        "variables": {"phase": {"start": 0, "lower": -3, "upper": 3}},
-        "uncertainty": {"parameters": {"phase": {"interval": 1.5}}, "samples": 500},
-        "responses": {"sag": {"type": "deflection", "body": "b", "at": 1, "over_time": "final"}}})");
-  const UncertaintyStudy study = uncertainty_study(problem, {.tasks = {.jobs = 2}});
-  const UncertainResponse& sag = study.responses[0];
+  const ProblemFile problem =
+      pushed_cantilever("0.02", R"({"type": "harmonic", "amplitude": 1, "frequency": "1e-9 Hz",
+                  "phase": {"variable": "phase"}})",
+                        R"("variables": {"phase": {"start": 0, "lower": -3, "upper": 3}},
+        "uncertainty": {"parameters": {"phase": {"interval": 1.5}}, "samples": 500})");
+  const UncertaintyStudy study = studied(problem);
+  const UncertainResponse sag = response_of(problem, study, "sag");
   const double ratio = std::sqrt(0.5 - std::sin(3.0) / 6.0) / (1.5 / std::sqrt(3.0));
   EXPECT_NEAR(sag.sampled->deviation / sag.deviation, ratio, 0.05);  // of 500 samples
-  const auto is_that = [](const Finding& finding) {
-    return finding.text.starts_with("\"sag\" is not linear");
-  };
-  EXPECT_EQ(std::count_if(study.findings.begin(), study.findings.end(), is_that), 1);
+  EXPECT_EQ(std::ranges::count_if(study.findings,
+                                  [](const Finding& finding) {
+                                    return finding.text.starts_with("\"sag\" is not linear");
+                                  }),
+            1);
 }
 
 /// Monte Carlo knows no derivative. N samples know a deviation to 1/√(2 (N − 1)) and a mean to
@@ -106,7 +107,7 @@ TEST(Uncertainty, IsThatOfMonteCarlo) {
   const ProblemFile problem = uncertain_problem(
       R"({"parameters": {"crank_diameter": {"deviation": "0.06 mm"},
                          "rod_diameter": {"deviation": "0.06 mm"}}, "samples": 400})");
-  const UncertaintyStudy study = uncertainty_study(problem, {.tasks = {.jobs = 2}});
+  const UncertaintyStudy study = studied(problem);
   ASSERT_EQ(study.samples, 400);
   EXPECT_EQ(study.failures, 0);
   const double of_deviation = 4.0 / std::sqrt(2.0 * 399), of_mean = 4.0 / std::sqrt(400.0);
@@ -128,14 +129,14 @@ TEST(Uncertainty, IsThatOfMonteCarlo) {
 TEST(Uncertainty, CountsTheSamplesThatBreakALimit) {
   ProblemFile problem = uncertain_problem(
       R"({"parameters": {"rod_diameter": {"deviation": "0.06 mm"}}, "samples": 40})");
-  const UncertaintyStudy free = uncertainty_study(problem, {.tasks = {.jobs = 2}});
+  const UncertaintyStudy free = studied(problem);
   const std::size_t bow = index_of_named(problem.responses, "rod_bow").value();
   const UncertainResponse& response = free.responses[bow];
   const double low = response.sampled->lowest, high = response.sampled->highest;
   const double between = 1.5e-4 * high;  // more than a verdict allows; deviations are 0.6 %
   problem.constraints = {{"high", "rod_bow", {}, {}, high - between},
                          {"low", "rod_bow", {}, low + between, high + between}};
-  const UncertaintyStudy study = uncertainty_study(problem, {.tasks = {.jobs = 2}});
+  const UncertaintyStudy study = studied(problem);
   ASSERT_EQ(study.limits.size(), 3u);
   EXPECT_EQ(study.limits[0].broken, 1);
   EXPECT_EQ(study.limits[1].broken, 0);  // the upper side of the second
@@ -159,7 +160,7 @@ TEST(Uncertainty, OfSamplesIsThatOfTheNumbersDrawn) {
   ASSERT_LT(drawn.cwiseAbs().maxCoeff(), 6.0);  // none is beyond what is sampled
   const double mean = drawn.mean();
   const double deviation = std::sqrt((drawn.array() - mean).square().sum() / (samples - 1));
-  const UncertaintyStudy study = uncertainty_study(problem, {.tasks = {.jobs = 2}});
+  const UncertaintyStudy study = studied(problem);
   for (std::size_t i = 0; i < study.responses.size(); ++i) {
     const UncertainResponse& response = study.responses[i];
     // The torque hardly depends on the rod: what is left of its deviation is of second order.
@@ -216,8 +217,7 @@ TEST(Uncertainty, SamplesNormalsUpToSixDeviations) {
     ASSERT_EQ(all.size(), of.samples + (std::abs(of.farthest) > 6.0 ? 1 : 0));
     const ProblemFile problem =
         brief_problem(of.seed, static_cast<int>(of.samples), R"("deviation": "0.06 mm")");
-    const UncertainResponse mass =
-        response_of(problem, uncertainty_study(problem, {.tasks = {.jobs = 1}}), "crank_and_rod");
+    const UncertainResponse mass = response_of(problem, studied(problem, 1), "crank_and_rod");
     const auto [least, most] = std::minmax_element(drawn.begin(), drawn.end());
     EXPECT_NEAR(drawn_by(problem, mass.sampled->highest) / 0.06e-3, *most, 1e-9);
     EXPECT_NEAR(drawn_by(problem, mass.sampled->lowest) / 0.06e-3, *least, 1e-9);
@@ -231,8 +231,7 @@ TEST(Uncertainty, SamplesIntervalsEvenly) {
   constexpr int samples = 1500;
   constexpr double r = 0.02e-3;
   const ProblemFile problem = brief_problem(3, samples, R"("interval": "0.02 mm")");
-  const UncertainResponse mass =
-      response_of(problem, uncertainty_study(problem, {.tasks = {.jobs = 2}}), "crank_and_rod");
+  const UncertainResponse mass = response_of(problem, studied(problem), "crank_and_rod");
   const double slope = 7850 * pi / 2 * 0.030 * 0.180, width = r * slope;
   const double root = std::sqrt(double(samples));
   // d² adds (r/d)²/3 · m/2 to the mean: 1e-7 of m, 2e-4 of the width.
@@ -265,7 +264,7 @@ TEST(Uncertainty, OfHistoriesIsThatOfMonteCarlo) {
 TEST(Uncertainty, SamplesNoHistoriesThatAreNotAskedFor) {
   const ProblemFile problem = uncertain_problem(
       R"({"parameters": {"rod_diameter": {"deviation": "0.06 mm"}}, "samples": 8})");
-  for (const UncertainHistory& one : uncertainty_study(problem, {.tasks = {.jobs = 1}}).histories) {
+  for (const UncertainHistory& one : studied(problem, 1).histories) {
     EXPECT_GT(one.deviations.size(), 0);
     EXPECT_EQ(one.sampled_deviations.size(), 0);
   }
@@ -291,7 +290,7 @@ TEST(Uncertainty, OfAnEnergyBalanceIsThatOfTheEndOfItsHistory) {
   const ProblemFile problem =
       quick_problem({R"(/responses/balance={"type": "energy-balance"})",
                      R"(/uncertainty={"parameters": {"rod_diameter": {"deviation": "0.1 mm"}}})"});
-  const UncertaintyStudy study = uncertainty_study(problem, {.tasks = {.jobs = 1}});
+  const UncertaintyStudy study = studied(problem, 1);
   const UncertainResponse balance = response_of(problem, study, "balance");
   const auto history = std::find_if(study.histories.begin(), study.histories.end(), [&](auto& one) {
     return problem.responses[one.response].name == "balance";
@@ -306,8 +305,7 @@ TEST(Uncertainty, OfAnEnergyBalanceIsThatOfTheEndOfItsHistory) {
 TEST(Uncertainty, DoesNotDependOnTheNumberOfJobs) {
   const ProblemFile problem = uncertain_problem(
       R"({"parameters": {"rod_diameter": {"interval": "0.1 mm"}}, "samples": 6})");
-  const UncertaintyStudy one = uncertainty_study(problem, {.tasks = {.jobs = 1}}),
-                         three = uncertainty_study(problem, {.tasks = {.jobs = 3}});
+  const UncertaintyStudy one = studied(problem, 1), three = studied(problem, 3);
   for (std::size_t i = 0; i < one.responses.size(); ++i) {
     EXPECT_EQ(one.responses[i].sampled->highest, three.responses[i].sampled->highest);
     EXPECT_EQ(one.responses[i].sampled->deviation, three.responses[i].sampled->deviation);
@@ -321,7 +319,7 @@ TEST(Uncertainty, MayBeOfFixedVariables) {
       quick_problem({R"(/scene/materials/steel/density={"variable": "density"})",
                      R"(/variables/density={"start": 7850, "lower": 7850, "upper": 7850})",
                      R"(/uncertainty={"parameters": {"density": {"deviation": 78.5}}})"});
-  const UncertaintyStudy study = uncertainty_study(problem, {.tasks = {.jobs = 1}});
+  const UncertaintyStudy study = studied(problem, 1);
   const UncertainResponse& mass = response_of(problem, study, "crank_and_rod");
   EXPECT_NEAR(mass.deviation, 0.01 * mass.value, 1e-12);
 }
@@ -410,7 +408,7 @@ TEST(Stability, RefusesABadFileBeforeAnyIsSimulated) {
 class MethodComparison : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    const auto [problem, x, analysis] = AtStart(test::quick_problem());
+    const auto [problem, x, analysis] = AtStart(quick_problem());
     compared_ = compare_methods(problem, x, *analysis);
   }
 
@@ -422,15 +420,12 @@ class MethodComparison : public ::testing::Test {
     return errors;
   }
 
-  static std::vector<ComparedMethod> compared_;
+  inline static std::vector<ComparedMethod> compared_;
 };
-
-std::vector<ComparedMethod> MethodComparison::compared_;
 
 TEST_F(MethodComparison, FindsTheExactMethodsTheSameUpToRoundOff) {
   for (const GradientMethod method : {GradientMethod::direct, GradientMethod::adjoint}) {
-    const auto found = std::find_if(compared_.begin(), compared_.end(),
-                                    [&](const auto& one) { return one.method == method; });
+    const auto found = std::ranges::find(compared_, method, &ComparedMethod::method);
     ASSERT_NE(found, compared_.end());
     EXPECT_EQ(found->step, 0.0);
     EXPECT_GT(found->seconds, 0.0);
@@ -515,9 +510,9 @@ TEST(Noise, OfAConstantIsZero) {
 /// Newton's method with a tolerance of 1e-4 leaves more than one with 1e-10, in every response of
 /// the motion; the mass (the first response) needs no simulation and has round-off only.
 TEST(Noise, GrowsWithTheToleranceOfNewtonsMethod) {
-  const ProblemFile tight = test::quick_problem({"/simulation/step=1 ms"});
+  const ProblemFile tight = quick_problem({"/simulation/step=1 ms"});
   const ProblemFile loose =
-      test::quick_problem({"/simulation/step=1 ms", "/simulation/newton_tolerance=1e-2"});
+      quick_problem({"/simulation/step=1 ms", "/simulation/newton_tolerance=1e-2"});
   const Eigen::VectorXd x = start_design(tight);
   const Eigen::VectorXd small = response_noise(tight, x).floor();
   const Eigen::VectorXd large = response_noise(loose, x).floor();
@@ -528,7 +523,7 @@ TEST(Noise, GrowsWithTheToleranceOfNewtonsMethod) {
 }
 
 TEST(Noise, DoesNotDependOnTheThreads) {
-  const ProblemFile problem = test::quick_problem();
+  const ProblemFile problem = quick_problem();
   const Eigen::VectorXd x = start_design(problem);
   EXPECT_EQ(response_noise(problem, x, 1).floor(), response_noise(problem, x, 2).floor());
 }
