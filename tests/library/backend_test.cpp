@@ -33,11 +33,13 @@ class Registered {
   Registered& operator=(const Registered&) = delete;
 };
 
-/// What a call throws.
-template <class Call>
-std::pair<pleuel_status, std::string> error_of(const Call& call) {
+constexpr const char* is_verified = "\"status\": \"verified\"";
+
+/// How an optimization of a problem ends.
+std::pair<pleuel_status, std::string> error_of(const Problem& problem,
+                                               const std::string& options = unchecked) {
   try {
-    call();
+    problem.optimize(options);
   } catch (const Error& error) {
     return {error.kind, error.what()};
   }
@@ -71,15 +73,19 @@ TEST(BackendOfTheCaller, IsJudgedAsOthersAre) {
     return y;
   });
   const std::string result = problem.optimize(unchecked);
-  EXPECT_THAT(result, HasSubstr("\"status\": \"verified\""));
+  EXPECT_THAT(result, HasSubstr(is_verified));
   EXPECT_THAT(result, HasSubstr("\"backend\": \"mine\""));
   EXPECT_GE(evaluations, 1);
 }
 
 TEST(BackendOfTheCaller, IsNotBelieved) {
-  const Problem problem = crank();
-  const Registered lazy([](const Search& search) { return stay(search); });
-  EXPECT_THAT(problem.optimize(unchecked), Not(HasSubstr("\"status\": \"verified\"")));
+  const Backend lost = [](const Search& search) {
+    return Numbers(search.start().size(), std::numeric_limits<double>::quiet_NaN());
+  };
+  for (const Backend& backend : {Backend(stay), lost}) {
+    const Registered lazy(backend);
+    EXPECT_THAT(crank().optimize(unchecked), Not(HasSubstr(is_verified)));
+  }
 }
 
 /// Central differences of the values, in numbers of order one: errors of some h² = 1e-8 and of round-off, 1e-11 / h.
@@ -107,27 +113,18 @@ TEST(BackendOfTheCaller, SeesDerivativesOfItsFunctions) {
 }
 
 TEST(BackendOfTheCaller, ThatFailsIsAnErrorWithItsText) {
-  const Problem problem = crank();
-  const Registered failing([](const Search&) -> Numbers { throw std::range_error("no way down"); });
-  const auto [status, text] = error_of([&] { problem.optimize(unchecked); });
-  EXPECT_EQ(status, PLEUEL_BAD_CALL);
-  EXPECT_THAT(text, HasSubstr("the backend \"mine\" failed: no way down"));
-}
-
-TEST(BackendOfTheCaller, ThatReturnsTooFewNumbersIsAnError) {
-  const Problem problem = crank();
-  const Registered short_of([](const Search&) { return Numbers(3); });
-  const auto [status, text] = error_of([&] { problem.optimize(unchecked); });
-  EXPECT_EQ(status, PLEUEL_BAD_CALL);
-  EXPECT_THAT(text, HasSubstr("3 numbers for 4 variables"));
-}
-
-TEST(BackendOfTheCaller, ThatReturnsNoNumbersIsNoOptimum) {
-  const Problem problem = crank();
-  const Registered lost([](const Search& search) {
-    return Numbers(search.start().size(), std::numeric_limits<double>::quiet_NaN());
-  });
-  EXPECT_THAT(problem.optimize(unchecked), Not(HasSubstr("\"status\": \"verified\"")));
+  const Backend failing = [](const Search&) -> Numbers { throw std::range_error("no way down"); };
+  const Backend short_of = [](const Search&) { return Numbers(3); };
+  const std::string two_starts = R"({"backend": "mine", "checks": false, "starts": 2})";
+  for (const auto& [backend, options, words] :
+       {std::tuple{failing, unchecked, "the backend \"mine\" failed: no way down"},
+        std::tuple{failing, two_starts, "no way down"},
+        std::tuple{short_of, unchecked, "3 numbers for 4 variables"}}) {
+    const Registered registered(backend);
+    const auto [status, text] = error_of(crank(), options);
+    EXPECT_EQ(status, PLEUEL_BAD_CALL) << words;
+    EXPECT_THAT(text, HasSubstr(words));
+  }
 }
 
 int throw_at_once(const pleuel_search*, double*, char*, void*) {
@@ -154,7 +151,7 @@ TEST(BackendOfTheCaller, MayMisbehaveInC) {
        {Case{throw_at_once, "threw an exception"}, Case{fail_with_code, "it returned 7"},
         Case{fill_reason, ""}}) {
     ASSERT_EQ(pleuel_register_backend("mine", 1, backend, nullptr), PLEUEL_OK);
-    const auto [status, text] = error_of([&] { problem.optimize(unchecked); });
+    const auto [status, text] = error_of(problem);
     EXPECT_EQ(status, *words == '\0' ? PLEUEL_OK : PLEUEL_BAD_CALL) << text;
     EXPECT_THAT(text, HasSubstr(words));
   }
@@ -168,7 +165,7 @@ TEST(BackendOfTheCaller, HasANameOfItsOwn) {
   EXPECT_EQ(pleuel_register_backend(nullptr, 0, throw_at_once, nullptr), PLEUEL_BAD_CALL);
   EXPECT_EQ(pleuel_register_backend("never", 0, nullptr, nullptr), PLEUEL_BAD_INPUT);
   const Problem problem = crank();
-  const auto [status, text] = error_of([&] { problem.optimize(unchecked); });
+  const auto [status, text] = error_of(problem);
   EXPECT_EQ(status, PLEUEL_BAD_INPUT);
   EXPECT_THAT(text, HasSubstr("no optimizer backend \"mine\""));
 }
@@ -195,12 +192,12 @@ TEST(BackendOfTheCaller, IsAskedForEqualitiesOnlyIfItTakesThem) {
   };
   {
     const Registered refusing(counting, false);
-    const auto [status, text] = error_of([&] { problem.optimize(unchecked); });
+    const auto [status, text] = error_of(problem);
     EXPECT_EQ(status, PLEUEL_BAD_INPUT);
     EXPECT_THAT(text, HasSubstr("crank_stiffness"));
   }
   const Registered taking(counting, true);
-  EXPECT_EQ(error_of([&] { problem.optimize(unchecked); }).first, PLEUEL_OK);
+  EXPECT_EQ(error_of(problem).first, PLEUEL_OK);
 }
 
 TEST(BackendOfTheCaller, IsToldWhatIsWrongWithItsQuestions) {
@@ -215,12 +212,15 @@ TEST(BackendOfTheCaller, IsToldWhatIsWrongWithItsQuestions) {
     };
     ended = search->number;
     const size_t right = rows.size();
-    EXPECT_EQ(status(ended, y.data(), y.size(), &objective, right), PLEUEL_OK);
-    EXPECT_EQ(status(ended + 1, y.data(), y.size(), &objective, right), PLEUEL_BAD_CALL);
-    EXPECT_EQ(status(ended, y.data(), y.size() + 1, &objective, right), PLEUEL_BAD_CALL);
-    EXPECT_EQ(status(ended, y.data(), y.size(), &objective, right + 1), PLEUEL_BAD_CALL);
-    EXPECT_EQ(status(ended, y.data(), y.size(), nullptr, right), PLEUEL_BAD_CALL);
-    EXPECT_EQ(status(ended, nullptr, y.size(), &objective, right), PLEUEL_BAD_CALL);
+    const size_t n = y.size();
+    EXPECT_EQ(status(ended, y.data(), n, &objective, right), PLEUEL_OK);
+    for (const pleuel_status refused : {status(ended + 1, y.data(), n, &objective, right),
+                                        status(ended, y.data(), n + 1, &objective, right),
+                                        status(ended, y.data(), n, &objective, right + 1),
+                                        status(ended, y.data(), n, nullptr, right),
+                                        status(ended, nullptr, n, &objective, right)}) {
+      EXPECT_EQ(refused, PLEUEL_BAD_CALL);
+    }
     y[1] = std::numeric_limits<double>::infinity();
     EXPECT_EQ(status(ended, y.data(), y.size(), &objective, right), PLEUEL_BAD_CALL);
     return 0;
@@ -285,15 +285,6 @@ TEST(BackendOfTheCaller, SearchesFromAllStartsInThisProcess) {
   EXPECT_THAT(ended,
               HasSubstr("\"evaluations\": 2"));  // heard at once, not when the search is over
   EXPECT_LT(starts.size(), 2 * all);
-}
-
-TEST(BackendOfTheCaller, ThatFailsAtOneOfSeveralStartsIsAnError) {
-  const Problem problem = crank();
-  const Registered failing([](const Search&) -> Numbers { throw std::range_error("no way down"); });
-  const auto [status, text] =
-      error_of([&] { problem.optimize(R"({"backend": "mine", "checks": false, "starts": 2})"); });
-  EXPECT_EQ(status, PLEUEL_BAD_CALL);
-  EXPECT_THAT(text, HasSubstr("no way down"));
 }
 
 }  // namespace

@@ -62,6 +62,17 @@ Found evaluated(const Crank& crank, const Numbers& x) {
   return found;
 }
 
+/// An optimization with an observer; its document.
+std::string optimized(const Crank& crank, pleuel_observer observer, pleuel_status expected,
+                      const char* options = nullptr, void* user = nullptr) {
+  char* result = nullptr;
+  EXPECT_EQ(pleuel_optimize(crank.number, nullptr, 0, options, observer, user, &result), expected)
+      << last_text();
+  const std::string text = result == nullptr ? "" : result;
+  pleuel_free(result);
+  return text;
+}
+
 /// The rows of responses and those of the limits on them come from two ways through the library.
 TEST(Border, ResponsesAgreeWithLimitsOnThem) {
   const Crank crank;
@@ -101,30 +112,20 @@ TEST(Border, HistoriesHaveThePeaksOfResponses) {
   EXPECT_EQ(of_mass, 0u);
 }
 
+/// Of problems of their own, and of one that they share.
 TEST(Border, ThreadsFindTheSameDigits) {
   const Crank first, second;
-  Numbers x = first.start;
-  x[2] *= 1.1;
-  const Found alone = evaluated(first, x);
-  std::array<Found, 2> together;
-  std::thread other([&] { together[1] = evaluated(second, x); });
-  evaluated(first, first.start);
-  together[0] = evaluated(first, x);
-  other.join();
-  EXPECT_EQ(together[0], alone);
-  EXPECT_EQ(together[1], alone);
-}
-
-TEST(Border, ThreadsMayShareAProblem) {
-  const Crank crank;
-  Numbers wide = crank.start;
+  Numbers wide = first.start;
   wide[0] *= 1.2;
-  const Found at_start = evaluated(crank, crank.start), at_wide = evaluated(crank, wide);
-  std::thread other([&] {
-    for (int i = 0; i < 5; ++i) EXPECT_EQ(evaluated(crank, wide), at_wide);
-  });
-  for (int i = 0; i < 5; ++i) EXPECT_EQ(evaluated(crank, crank.start), at_start);
-  other.join();
+  const Found at_start = evaluated(first, first.start), at_wide = evaluated(first, wide);
+  for (const Crank* other : {&second, &first}) {
+    std::thread thread([&] {
+      for (int i = 0; i < 5; ++i) EXPECT_EQ(evaluated(*other, wide), at_wide);
+    });
+    for (int i = 0; i < 5; ++i) EXPECT_EQ(evaluated(first, first.start), at_start);
+    EXPECT_EQ(evaluated(first, wide), at_wide);
+    thread.join();
+  }
 }
 
 TEST(Border, ErrorsAreOfTheirThread) {
@@ -155,11 +156,8 @@ int throw_at_once(const pleuel_progress*, void*) {
 
 TEST(Border, ObserversThatThrowAreErrors) {
   const Crank crank;
-  char* result = nullptr;
-  EXPECT_EQ(pleuel_optimize(crank.number, nullptr, 0, nullptr, throw_at_once, nullptr, &result),
-            PLEUEL_BAD_CALL);
+  EXPECT_EQ(optimized(crank, throw_at_once, PLEUEL_BAD_CALL), "");
   EXPECT_THAT(last_text(), HasSubstr("observer threw"));
-  EXPECT_EQ(result, nullptr);
 }
 
 int close_it(const pleuel_progress* progress, void* user) {
@@ -170,12 +168,8 @@ int close_it(const pleuel_progress* progress, void* user) {
 
 TEST(Border, ProblemsMayBeClosedWhileTheyAreOptimized) {
   Crank crank;
-  char* result = nullptr;
-  EXPECT_EQ(pleuel_optimize(crank.number, nullptr, 0, nullptr, close_it, &crank.number, &result),
-            PLEUEL_OK)
-      << last_text();
-  EXPECT_THAT(result, HasSubstr("interrupted"));
-  pleuel_free(result);
+  EXPECT_THAT(optimized(crank, close_it, PLEUEL_OK, nullptr, &crank.number),
+              HasSubstr("interrupted"));
 }
 
 int stop_all(const pleuel_progress*, void*) {
@@ -185,12 +179,7 @@ int stop_all(const pleuel_progress*, void*) {
 
 TEST(Border, AStopEndsWhatRunsAndNothingElse) {
   const Crank crank;
-  char* result = nullptr;
-  ASSERT_EQ(pleuel_optimize(crank.number, nullptr, 0, nullptr, stop_all, nullptr, &result),
-            PLEUEL_OK)
-      << last_text();
-  EXPECT_THAT(result, HasSubstr("\"status\": \"interrupted\""));
-  pleuel_free(result);
+  EXPECT_THAT(optimized(crank, stop_all, PLEUEL_OK), HasSubstr("\"status\": \"interrupted\""));
   pleuel_stop();  // nothing runs
   evaluated(crank, crank.start);
 }
@@ -200,10 +189,8 @@ TEST(Border, OptionsAreChecked) {
   for (const char* options :
        {"[]", "{", R"({"tolerance": 2})", R"({"starts": 0})", R"({"jobs": 1e9})",
         R"({"backend": 1})", R"({"backend": "x"})", R"({"backends": "x"})"}) {
-    char* result = nullptr;
-    EXPECT_EQ(pleuel_optimize(crank.number, nullptr, 0, options, nullptr, nullptr, &result),
-              PLEUEL_BAD_INPUT)
-        << options;
+    SCOPED_TRACE(options);
+    optimized(crank, nullptr, PLEUEL_BAD_INPUT, options);
   }
   EXPECT_THAT(last_text(), HasSubstr("did you mean \"backend\""));
 }
@@ -270,6 +257,10 @@ RegisteredBody registered(const std::function<std::string()>& fails) {
   return {"rod", [fails](const Numbers& x) { return x[0] < 0.02 ? fails() : rod(x[0]); }};
 }
 
+Problem problem_of_functions() {
+  return Problem("crank.json", quick_overrides, text_of_problem());
+}
+
 std::string failure_at(const Problem& problem, double height) {
   try {
     problem.responses({0.02, 0.03, height});
@@ -282,7 +273,7 @@ std::string failure_at(const Problem& problem, double height) {
 
 TEST(BodyMaker, MakesTheBodyOfADesign) {
   const RegisteredBody body = registered([] { return std::string(); });
-  const Problem problem("crank.json", quick_overrides, text_of_problem());
+  const Problem problem = problem_of_functions();
   Numbers jacobian;
   const Numbers thick = problem.responses({0.02, 0.03, 0.03}, &jacobian);
   const Numbers thin = problem.responses({0.02, 0.03, 0.025});
@@ -300,7 +291,7 @@ TEST(BodyMaker, FailsTheDesignWithItsWords) {
       {[] { return rod(0.03); }, "wrote a body of rod_height = 0.03"}};
   for (const auto& [fails, expected] : failures) {
     const RegisteredBody body = registered(fails);
-    const Problem problem("crank.json", quick_overrides, text_of_problem());
+    const Problem problem = problem_of_functions();
     EXPECT_THAT(failure_at(problem, 0.015),
                 AllOf(HasSubstr(expected), HasSubstr("rod_height = 0.015 m")));
     EXPECT_EQ(failure_at(problem, 0.025), "");
@@ -313,10 +304,10 @@ int silent(const double*, std::size_t, const char**, void*) {
 
 TEST(BodyMaker, MayFailWithoutAWord) {
   require(pleuel_register_body("rod", silent, nullptr));
-  EXPECT_THAT([] { Problem("crank.json", quick_overrides, text_of_problem()); },
+  EXPECT_THAT(problem_of_functions,
               testing::ThrowsMessage<Error>(HasSubstr("failed without a word")));
   require(pleuel_register_body("rod", nullptr, nullptr));
-  EXPECT_THAT([] { Problem("crank.json", quick_overrides, text_of_problem()); },
+  EXPECT_THAT(problem_of_functions,
               testing::ThrowsMessage<Error>(HasSubstr("needs a \"command\"")));
   EXPECT_EQ(pleuel_register_body(nullptr, silent, nullptr), PLEUEL_BAD_CALL);
 }
