@@ -36,8 +36,7 @@ KnownProblem hs035() {
                          2.0 * a * b + 2.0 * a * c,
                      a + b + 2.0 * c);
   };
-  return {"HS035",
-          {variables({0.5, 0.5, 0.5}, 0.0, infinity), limits(1, 3.0), by_complex_step(function)},
+  return {"HS035", by_formulas(variables({0.5, 0.5, 0.5}, 0.0, infinity), limits(1, 3.0), function),
           1.0 / 9.0};
 }
 
@@ -50,9 +49,9 @@ KnownProblem hs043() {
                      2.0 * a * a + b * b + c * c + 2.0 * a - b - d);
   };
   return {"HS043",
-          {variables({0.0, 0.0, 0.0, 0.0}, -infinity, infinity),
-           {{"g1", -infinity, 8.0}, {"g2", -infinity, 10.0}, {"g3", -infinity, 5.0}},
-           by_complex_step(function)},
+          by_formulas(variables({0.0, 0.0, 0.0, 0.0}, -infinity, infinity),
+                      {{"g1", -infinity, 8.0}, {"g2", -infinity, 10.0}, {"g3", -infinity, 5.0}},
+                      function),
           -44.0};
 }
 
@@ -62,9 +61,8 @@ KnownProblem hs071() {
                      x[0] * x[0] + x[1] * x[1] + x[2] * x[2] + x[3] * x[3]);
   };
   return {"HS071",
-          {variables({1.0, 5.0, 5.0, 1.0}, 1.0, 5.0),
-           {{"product", 25.0, infinity}, {"sphere", 40.0, 40.0}},
-           by_complex_step(function)},
+          by_formulas(variables({1.0, 5.0, 5.0, 1.0}, 1.0, 5.0),
+                      {{"product", 25.0, infinity}, {"sphere", 40.0, 40.0}}, function),
           17.0140172892};
 }
 
@@ -81,8 +79,8 @@ KnownProblem hs100() {
                      4.0 * a * a + b * b - 3.0 * a * b + 2.0 * c * c + 5.0 * p - 11.0 * q);
   };
   return {"HS100",
-          {variables({1.0, 2.0, 0.0, 4.0, 0.0, 1.0, 1.0}, -infinity, infinity), limits(4, 0.0),
-           by_complex_step(function)},
+          by_formulas(variables({1.0, 2.0, 0.0, 4.0, 0.0, 1.0, 1.0}, -infinity, infinity),
+                      limits(4, 0.0), function),
           680.630057374};
 }
 
@@ -94,9 +92,8 @@ KnownProblem cantilever(double limit) {
         61.0 / cube(0) + 37.0 / cube(1) + 19.0 / cube(2) + 7.0 / cube(3) + 1.0 / cube(4));
   };
   return {"cantilever",
-          {variables({5.0, 5.0, 5.0, 5.0, 5.0}, 1.0, 10.0),
-           {{"deflection", -infinity, limit}},
-           by_complex_step(function)},
+          by_formulas(variables({5.0, 5.0, 5.0, 5.0, 5.0}, 1.0, 10.0),
+                      {{"deflection", -infinity, limit}}, function),
           1.339956360599 * std::pow(limit, -1.0 / 3.0)};
 }
 
@@ -109,8 +106,7 @@ KnownProblem three_bar_truss() {
                      2.0 * b / denominator, 2.0 / (a + root * b));
   };
   return {"three-bar truss",
-          {variables({0.5, 0.5}, 1e-3, 1.0), limits(3, 2.0), by_complex_step(function)},
-          263.895843376};
+          by_formulas(variables({0.5, 0.5}, 1e-3, 1.0), limits(3, 2.0), function), 263.895843376};
 }
 
 KnownProblem tension_spring() {
@@ -121,14 +117,15 @@ KnownProblem tension_spring() {
                          1.0 / (5108.0 * d * d),
                      -140.45 * d / (D * D * N), (D + d) / 1.5);
   };
-  return {"tension spring",
-          {{{"wire", 0.07, 0.05, 2.0}, {"coil", 0.6, 0.25, 1.3}, {"turns", 9.0, 2.0, 15.0}},
-           {{"deflection", -infinity, -1.0},
-            {"shear", -infinity, 1.0},
-            {"surge", -infinity, -1.0},
-            {"size", -infinity, 1.0}},
-           by_complex_step(function)},
-          0.012665232798};
+  return {
+      "tension spring",
+      by_formulas({{"wire", 0.07, 0.05, 2.0}, {"coil", 0.6, 0.25, 1.3}, {"turns", 9.0, 2.0, 15.0}},
+                  {{"deflection", -infinity, -1.0},
+                   {"shear", -infinity, 1.0},
+                   {"surge", -infinity, -1.0},
+                   {"size", -infinity, 1.0}},
+                  function),
+      0.012665232798};
 }
 
 namespace {
@@ -185,10 +182,9 @@ KnownProblem ten_bar_truss() {
   const auto function = [](const auto& areas) { return mass_and_stresses(areas.eval()); };
   std::vector<Constraint> stresses;
   for (int j = 1; j <= 10; ++j) stresses.push_back({"stress" + std::to_string(j), -25.0, 25.0});
-  return {
-      "ten-bar truss",
-      {variables(std::vector<double>(10, 10.0), 0.1, 100.0), stresses, by_complex_step(function)},
-      1593.180909};
+  return {"ten-bar truss",
+          by_formulas(variables(std::vector<double>(10, 10.0), 0.1, 100.0), stresses, function),
+          1593.180909};
 }
 
 std::vector<KnownProblem> all_known_problems() {
