@@ -1,198 +1,156 @@
-#include <filesystem>
-#include <fstream>
-
-#include <nlohmann/json.hpp>
-
 #include "tests/cli/program.hpp"
-#include "tests/support/test.hpp"
 
 namespace pleuel::test::load_case_test {
 namespace {
 
-using LoadCases = InProgramFolder;
+class LoadCases : public InProgramFolder {
+ protected:
+  /// The shipped problem with a number of both cases, and a limit on it: "spread.json".
+  LoadCases() {
+    two_loads_ = nlohmann::ordered_json::parse(read_file(problem("two_loads")));
+    nlohmann::ordered_json spread = two_loads_;
+    spread["responses"]["spread"] = {{"type", "expression"},
+                                     {"value", "rod_bow[fast] - 2*rod_bow[heavy]"}};
+    spread["constraints"]["evenness"] = {{"response", "spread"}, {"upper", "0.05 mm"}};
+    folder_.write("spread.json", spread);
+  }
+
+  nlohmann::ordered_json two_loads_;
+};
 
 TEST_F(LoadCases, GoThroughSimulateOneAfterTheOther) {
-  const nlohmann::json cases =
-      exits(0, folder_.run({"simulate", problem("two_loads"), "--json"})).document().at("cases");
+  const json cases = document("simulate $problems/two_loads.json").at("cases");
   ASSERT_EQ(cases.size(), 2u);
-  const auto torque = [&](const char* name) {
-    return cases.at(name).at("responses").at("torque").at("value").get<double>();
-  };
-  EXPECT_NE(torque("fast"), torque("heavy"));
+  EXPECT_NE(number(cases, "fast/responses/torque/value"),
+            number(cases, "heavy/responses/torque/value"));
   // A limit that names a case is that of this case only.
-  EXPECT_FALSE(cases.at("fast").at("constraints").contains("rod_strength"));
-  EXPECT_TRUE(cases.at("heavy").at("constraints").contains("rod_strength"));
+  EXPECT_FALSE(at(cases, "fast/constraints").contains("rod_strength"));
+  EXPECT_TRUE(at(cases, "heavy/constraints").contains("rod_strength"));
 }
 
 TEST_F(LoadCases, AreTakenAloneByTheirNames) {
-  const ProgramRun run =
-      exits(0, folder_.run({"simulate", problem("two_loads"), "--case", "heavy", "-o", "one"}));
-  EXPECT_THAT(run.out, HasSubstr("two loads [heavy]"));
-  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "one" / "trajectory.csv"));
-  const ProgramRun unknown =
-      exits(2, folder_.run({"simulate", problem("two_loads"), "--case", "hevy"}));
-  EXPECT_THAT(unknown.err, HasSubstr("did you mean \"heavy\"?"));
-}
-
-TEST_F(LoadCases, HaveToBeNamedWhereACommandTakesOne) {
+  EXPECT_THAT(run("simulate $problems/two_loads.json --case heavy -o one").out,
+              HasSubstr("two loads [heavy]"));
+  EXPECT_TRUE(folder_.has("one/trajectory.csv"));
+  EXPECT_THAT(refusal("simulate $problems/two_loads.json --case hevy"),
+              HasSubstr("did you mean \"heavy\"?"));
+  // They have to be named where a command takes one.
   for (const std::string command : {"prices", "stability"}) {
-    const ProgramRun run = folder_.run({command, problem("two_loads")});
-    EXPECT_EQ(run.exit_code, 2) << command;
-    EXPECT_THAT(unwrapped(run.err), HasSubstr("--case")) << command;
+    EXPECT_THAT(refusal(command + " $problems/two_loads.json"), HasSubstr("--case"));
   }
-  EXPECT_FALSE(
-      exits(0, folder_.run({"stability", problem("two_loads"), "--case", "fast", "--json"}))
-          .document()
-          .at("formulations")
-          .empty());
-}
-
-/// The shipped problem with a number of both cases, and a limit on it.
-std::string with_spread(const ProgramFolder& folder) {
-  nlohmann::ordered_json document = nlohmann::ordered_json::parse(read_file(problem("two_loads")));
-  document["responses"]["spread"] = {{"type", "expression"},
-                                     {"value", "rod_bow[fast] - 2*rod_bow[heavy]"}};
-  document["constraints"]["evenness"] = {{"response", "spread"}, {"upper", "0.05 mm"}};
-  const std::filesystem::path file = folder.path() / "spread.json";
-  std::ofstream(file) << document.dump(2);
-  return file.string();
+  const json alone = document("stability $problems/two_loads.json --case fast");
+  EXPECT_FALSE(alone.at("formulations").empty());
 }
 
 TEST_F(LoadCases, MakeNumbersTogether) {
-  const std::string file = with_spread(folder_);
   for (const std::string command : {"simulate", "gradient"}) {
-    const nlohmann::json document = exits(0, folder_.run({command, file, "--json"})).document();
-    const auto entry = [&](const char* name) {
-      return document.at("cases").at(name).at("responses").at("rod_bow");
+    const json found = document(command + " spread.json");
+    const json spread = at(found, "over_cases/responses/spread");
+    const auto of_both = [&](const std::string& path) {
+      return number(found, "cases/fast/responses/rod_bow/" + path) -
+             2.0 * number(found, "cases/heavy/responses/rod_bow/" + path);
     };
-    const nlohmann::json spread = document.at("over_cases").at("responses").at("spread");
-    const auto of_both = [&](const auto& number) {
-      return number(entry("fast")) - 2.0 * number(entry("heavy"));
-    };
-    EXPECT_DOUBLE_EQ(spread.at("value"), of_both([](const nlohmann::json& one) {
-                       return one.at("value").template get<double>();
-                     }));
-    EXPECT_TRUE(document.at("over_cases").at("constraints").contains("evenness"));
+    EXPECT_DOUBLE_EQ(number(spread, "value"), of_both("value"));
+    EXPECT_TRUE(at(found, "over_cases/constraints").contains("evenness"));
     if (command == "simulate") continue;
     for (const auto& [method, gradient] : spread.at("gradients").items()) {
-      EXPECT_DOUBLE_EQ(
-          gradient.at("rod_diameter"), of_both([&](const nlohmann::json& one) {
-            return one.at("gradients").at(method).at("rod_diameter").template get<double>();
-          }));
+      EXPECT_DOUBLE_EQ(number(gradient, "rod_diameter"),
+                       of_both("gradients/" + method + "/rod_diameter"));
     }
   }
 }
 
 /// What both cases share cancels in a difference: its deviation is that of the difference of slopes.
 TEST_F(LoadCases, ShareTheirUncertainParameters) {
-  const nlohmann::json document =
-      exits(0, folder_.run(
-                   {"uncertainty", with_spread(folder_), "--json", "--set",
-                    R"(/uncertainty={"parameters": {"rod_diameter": {"deviation": "0.1 mm"}}})"}))
-          .document();
-  const auto deviation = [](const nlohmann::json& of) {
-    return of.at("responses").at("rod_bow").at("deviation").get<double>();
-  };
-  const double fast = deviation(document.at("cases").at("fast"));
-  const double heavy = deviation(document.at("cases").at("heavy"));
-  const nlohmann::json spread = document.at("over_cases").at("responses").at("spread");
-  EXPECT_NEAR(spread.at("deviation").get<double>(), fast - 2.0 * heavy, 1e-9 * fast);
-  EXPECT_NEAR(spread.at("shares").at("rod_diameter").get<double>(), 1.0, 1e-12);
+  const json found = document(
+      "uncertainty spread.json --set "
+      R"('/uncertainty={"parameters": {"rod_diameter": {"deviation": "0.1 mm"}}}')");
+  const double fast = number(found, "cases/fast/responses/rod_bow/deviation");
+  const double heavy = number(found, "cases/heavy/responses/rod_bow/deviation");
+  const json spread = at(found, "over_cases/responses/spread");
+  EXPECT_NEAR(number(spread, "deviation"), fast - 2.0 * heavy, 1e-9 * fast);
+  EXPECT_NEAR(number(spread, "shares/rod_diameter"), 1.0, 1e-12);
 }
 
 TEST_F(LoadCases, TellADesignThatBreaksALimitOnSeveral) {
-  const std::string file = with_spread(folder_);
-  const auto run_with = [&](const std::string& limit) {
-    return folder_.run({"simulate", file, "--no-report", "--set", "rod_diameter=20 mm", "--set",
-                        "/constraints/evenness/upper=" + limit});
-  };
-  EXPECT_THAT(run_with("-1 m").out, HasSubstr("BROKEN"));
-  EXPECT_EQ(run_with("-1 m").exit_code, 4);
-  EXPECT_THAT(run_with("1 m").out, Not(HasSubstr("made from several cases is broken")));
+  const std::string line =
+      "simulate spread.json --no-report --set 'rod_diameter=20 mm' "
+      "--set '/constraints/evenness/upper=";
+  EXPECT_THAT(run(line + "-1 m'", 4).out, HasSubstr("BROKEN"));
+  EXPECT_THAT(run_line(folder_.path(), line + "1 m'").out,
+              Not(HasSubstr("made from several cases is broken")));
 }
 
 TEST_F(LoadCases, TakenAloneSayWhichLimitsTheyLeaveOut) {
-  const std::string file = with_spread(folder_);
-  const ProgramRun alone = folder_.run({"simulate", file, "--no-report", "--case", "heavy"});
-  EXPECT_THAT(alone.out,
+  EXPECT_THAT(run("simulate spread.json --no-report --case heavy").out,
               HasSubstr("Not looked at, as it takes several cases: the limit evenness."));
-  const ProgramRun all = folder_.run({"simulate", file, "--no-report"});
-  EXPECT_THAT(all.out, Not(HasSubstr("Not looked at")));
+  EXPECT_THAT(run("simulate spread.json --no-report").out, Not(HasSubstr("Not looked at")));
 }
 
 /// What is found in the mechanism, after the file has been read: file, place and case.
 TEST_F(LoadCases, AreNamedWhereOneOfThemCannotBe) {
-  const auto complaint_with = [&](const std::string& place, const std::string& value) {
-    nlohmann::ordered_json document =
-        nlohmann::ordered_json::parse(read_file(problem("two_loads")));
-    document[nlohmann::ordered_json::json_pointer(place)] = nlohmann::ordered_json::parse(value);
-    const std::filesystem::path file = folder_.path() / "two.json";
-    std::ofstream(file) << document.dump(2);
-    return folder_.run({"simulate", file.string(), "--no-report"}).err;
-  };
-  // The frame of the rod holds its ends.
-  EXPECT_THAT(complaint_with(
-                  "/scene/bodies/rod/initial_deflections",
-                  R"([{"at": ["120 mm", 0, 0], "direction": [0, 1, 0], "displacement": "1 mm"}])"),
-              HasSubstr("two.json: in the case \"fast\": /scene/bodies/rod/initial_deflections/0"));
-  // Its drive begins from rest, which no period ends with.
-  EXPECT_THAT(complaint_with("/cases/heavy/~1simulation~1initial_state",
-                             R"({"type": "periodic", "period": "100 ms"})"),
-              HasSubstr("two.json: in the case \"heavy\": /simulation/initial_state: "));
+  for (const auto& [place, value, expected] :
+       {// The frame of the rod holds its ends.
+        std::tuple{"/scene/bodies/rod/initial_deflections",
+                   R"([{"at": ["120 mm", 0, 0], "direction": [0, 1, 0], "displacement": "1 mm"}])",
+                   "\"fast\": /scene/bodies/rod/initial_deflections/0"},
+        // Its drive begins from rest, which no period ends with.
+        {"/cases/heavy/~1simulation~1initial_state", R"({"type": "periodic", "period": "100 ms"})",
+         "\"heavy\": /simulation/initial_state: "}}) {
+    nlohmann::ordered_json problem = two_loads_;
+    problem[nlohmann::ordered_json::json_pointer(place)] = nlohmann::ordered_json::parse(value);
+    folder_.write("two.json", problem);
+    EXPECT_THAT(run_line(folder_.path(), "simulate two.json --no-report").err,
+                HasSubstr(std::string("two.json: in the case ") + expected));
+  }
 }
 
 TEST_F(LoadCases, AreLimitedTogether) {
-  const ProgramRun run = exits(0, folder_.run({"optimize", with_spread(folder_), "-o", "run"}));
-  EXPECT_THAT(run.out, HasSubstr("several"));
-  const nlohmann::json result = folder_.result("run");
-  const nlohmann::json limit = result.at("constraints").at("evenness");
-  EXPECT_LE(limit.at("value"), 0.05e-3 * (1.0 + 1e-6));
-  const nlohmann::json& responses = result.at("responses");
-  EXPECT_NEAR(responses.at("spread").at("value").get<double>(),
-              responses.at("rod_bow [fast]").at("value").get<double>() -
-                  2.0 * responses.at("rod_bow [heavy]").at("value").get<double>(),
-              1e-12);
-  const auto bound = [&](const char* name) {
-    return responses.at(name).at("error").at("total").get<double>();
-  };
+  EXPECT_THAT(run("optimize spread.json -o run").out, HasSubstr("several"));
+  EXPECT_LE(number(result(), "constraints/evenness/value"), 0.05e-3 * (1.0 + 1e-6));
+  const json responses = result().at("responses");
+  EXPECT_NEAR(
+      number(responses, "spread/value"),
+      number(responses, "rod_bow [fast]/value") - 2.0 * number(responses, "rod_bow [heavy]/value"),
+      1e-12);
   // Errors of two cases add up; that of the sum is found from the same runs, to the safety in it.
-  EXPECT_NEAR(bound("spread") / (bound("rod_bow [fast]") + 2.0 * bound("rod_bow [heavy]")), 1.0,
-              0.5);
-  EXPECT_THAT(read_file(folder_.path() / "run" / "history.csv"), HasSubstr("constraint:evenness"));
-  const ProgramRun again = folder_.run({"optimize", with_spread(folder_), "-o", "run", "--resume"});
-  EXPECT_THAT(again.out, HasSubstr("evaluations were known"));
+  EXPECT_NEAR(number(responses, "spread/error/total") /
+                  (number(responses, "rod_bow [fast]/error/total") +
+                   2.0 * number(responses, "rod_bow [heavy]/error/total")),
+              1.0, 0.5);
+  EXPECT_THAT(folder_.text("run/history.csv"), HasSubstr("constraint:evenness"));
+  EXPECT_THAT(run("optimize spread.json -o run --resume").out, HasSubstr("evaluations were known"));
 }
 
 /// The masses are the same in both and nothing has a price: what the verdict speaks of is shown.
 TEST_F(LoadCases, ShowTheOneWhoseLimitCannotBeKept) {
-  const ProgramRun run = exits(
-      4, folder_.run({"optimize", problem("two_loads"), "-o", "run", "--no-report", "--set",
-                      "/constraints/rod_strength/upper=1 kPa", "--set", "/simulation/step=0.4 ms",
-                      "--set", "/optimizer={\"max_iterations\": 3}"}));
-  const nlohmann::json result = folder_.result("run");
-  EXPECT_THAT(result.at("message").get<std::string>(), HasSubstr("rod_strength [heavy]"));
-  EXPECT_EQ(result.at("cases").at("shown"), "heavy");
+  run("optimize $problems/two_loads.json -o run --no-report "
+      "--set '/constraints/rod_strength/upper=1 kPa' --set '/simulation/step=0.4 ms' "
+      "--set '/optimizer={\"max_iterations\": 3}'",
+      4);
+  EXPECT_THAT(result().at("message").get<std::string>(), HasSubstr("rod_strength [heavy]"));
+  EXPECT_EQ(at(result(), "cases/shown"), "heavy");
 }
 
 TEST_F(LoadCases, SayWhichOfThemDecidesALimit) {
-  const ProgramRun run = exits(0, folder_.run({"optimize", problem("two_loads"), "-o", "run"}));
-  const nlohmann::json result = folder_.result("run");
-  EXPECT_EQ(result.at("constraints").at("crank_strength [heavy]").at("decides"), true);
-  EXPECT_EQ(result.at("constraints").at("crank_strength [fast]").at("decides"), false);
-  EXPECT_EQ(result.at("constraints").at("rod_stiffness [fast]").at("case"), "fast");
-  EXPECT_EQ(result.at("cases").at("shown"), "heavy");  // its limit costs most
-  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "run" / "trajectory-optimum-fast.csv"));
-  const ProgramRun again = folder_.run({"optimize", problem("two_loads"), "-o", "run", "--resume"});
-  EXPECT_THAT(again.out, HasSubstr("evaluations were known"));
-  EXPECT_EQ(folder_.result("run").at("variables"), result.at("variables"));
-  const ProgramRun motion = exits(0, folder_.run({"export", "run", "--vtk"}));
-  EXPECT_THAT(unwrapped(motion.out), HasSubstr("instants of the case \"heavy\" written to"));
-  EXPECT_TRUE(std::filesystem::exists(folder_.path() / "run" / "vtk" / "optimum-heavy.pvd"));
-  const ProgramRun drawn = exits(0, folder_.run({"plot", "run", "torque"}));
+  run("optimize $problems/two_loads.json -o run");
+  const json found = result();
+  EXPECT_EQ(at(found, "constraints/crank_strength [heavy]/decides"), true);
+  EXPECT_EQ(at(found, "constraints/crank_strength [fast]/decides"), false);
+  EXPECT_EQ(at(found, "constraints/rod_stiffness [fast]/case"), "fast");
+  EXPECT_EQ(at(found, "cases/shown"), "heavy");  // its limit costs most
+  EXPECT_TRUE(folder_.has("run/trajectory-optimum-fast.csv"));
+  EXPECT_THAT(run("optimize $problems/two_loads.json -o run --resume").out,
+              HasSubstr("evaluations were known"));
+  EXPECT_EQ(result().at("variables"), found.at("variables"));
+  EXPECT_THAT(unwrapped(run("export run --vtk").out),
+              HasSubstr("instants of the case \"heavy\" written to"));
+  EXPECT_TRUE(folder_.has("run/vtk/optimum-heavy.pvd"));
+  run("plot run torque");
 }
 
 /// A cantilever that a force bends at once, in two cases.
-class BentCantilever : public testing::Test {
+class BentCantilever : public InProgramFolder {
  protected:
   BentCantilever() {
     document_ = nlohmann::ordered_json::parse(R"json({
@@ -216,63 +174,53 @@ class BentCantilever : public testing::Test {
     })json");
   }
 
-  ProgramRun run(const std::vector<std::string>& words) const {
-    std::ofstream(folder_.path() / "bar.json") << document_.dump(2);
-    return folder_.run(words);
-  }
-
-  void write_table(const std::string& force) const {
-    std::ofstream(folder_.path() / "table.csv")
-        << "time [s],force [N]\n0," << force << "\n1," << force << "\n";
+  std::string line(const std::string& command, const std::string& options = "") const {
+    folder_.write("bar.json", document_);
+    return command + " bar.json " + options;
   }
 
   nlohmann::ordered_json document_;
-  const ProgramFolder folder_;
 };
 
 TEST_F(BentCantilever, SaysWhatHasNoNumberOverItsCases) {
   document_["cases"]["other"]["/scene/loads/weight/value"] = "0 N";
   document_["responses"]["ratio"] = {{"type", "expression"}, {"value", "sag[down]/sag[other]"}};
-  const nlohmann::json ratio = exits(3, run({"simulate", "bar.json", "--json"}))
-                                   .document()
-                                   .at("over_cases")
-                                   .at("responses")
-                                   .at("ratio");
+  const json ratio = at(document(line("simulate"), 3), "over_cases/responses/ratio");
   EXPECT_TRUE(ratio.at("value").is_null());
   EXPECT_THAT(ratio.at("error").get<std::string>(), HasSubstr("has no finite value there"));
-  EXPECT_EQ(run({"gradient", "bar.json", "--json"}).exit_code, 3);
-  EXPECT_THAT(unwrapped(run({"simulate", "bar.json"}).out), HasSubstr("has no finite value there"));
+  run(line("gradient", "--json"), 3);
+  EXPECT_THAT(unwrapped(run(line("simulate"), 3).out), HasSubstr("has no finite value there"));
 }
 
 TEST_F(BentCantilever, KeepsTheOtherCasesWhereOneCannotBeSimulated) {
   // Far above the critical load of the column, about 1 MN.
   document_["cases"]["other"] = {{"/scene/loads/weight/direction", {-1, 0, 0}},
                                  {"/scene/loads/weight/value", "50 MN"}};
-  const ProgramRun simulated = exits(3, run({"simulate", "bar.json", "--json"}));
-  const nlohmann::json cases = simulated.document().at("cases");
-  EXPECT_GT(cases.at("down").at("responses").at("sag").at("value"), 0.0);
-  EXPECT_FALSE(cases.at("other").at("error").get<std::string>().empty());
-  EXPECT_THAT(unwrapped(run({"simulate", "bar.json"}).out),
+  const json cases = document(line("simulate"), 3).at("cases");
+  EXPECT_GT(number(cases, "down/responses/sag/value"), 0.0);
+  EXPECT_FALSE(at(cases, "other/error").get<std::string>().empty());
+  EXPECT_THAT(unwrapped(run(line("simulate"), 3).out),
               HasSubstr("The case \"other\" cannot be simulated: "));
 }
 
 TEST_F(BentCantilever, IsAnotherOneWithAnotherFileOfACase) {
+  const auto write_table = [&](const std::string& force) {
+    folder_.write("table.csv", "time [s],force [N]\n0," + force + "\n1," + force + "\n");
+  };
   write_table("100");
   document_["cases"]["other"]["/scene/loads/weight/value"] = {
       {"type", "table"}, {"file", "table.csv"}, {"columns", {"time", "force"}}};
-  const std::vector<std::string> words = {"optimize", "bar.json", "-o", "run", "--resume"};
-  ASSERT_EQ(run(words).exit_code, 0);
-  EXPECT_EQ(run(words).exit_code, 0);
+  const std::string words = line("optimize", "-o run --resume");
+  run(words);
+  run(words);
   write_table("150");
-  EXPECT_THAT(exits(2, run(words)).err, HasSubstr("another file that the problem names"));
+  EXPECT_THAT(refusal(words), HasSubstr("another file that the problem names"));
 }
 
 TEST_F(BentCantilever, IsADesignWithAVariableWithoutUnit) {
-  ASSERT_EQ(run({"optimize", "bar.json", "-o", "run"}).exit_code, 0);
-  const ProgramRun again = exits(0, run({"simulate", "bar.json", "--design", "run", "--json"}));
-  const nlohmann::json best = folder_.result("run");
-  EXPECT_EQ(again.document().at("cases").at("down").at("variables").at("share").at("value"),
-            best.at("variables").at("share").at("value"));
+  run(line("optimize", "-o run"));
+  EXPECT_EQ(at(document(line("simulate", "--design run")), "cases/down/variables/share/value"),
+            at(result(), "variables/share/value"));
 }
 
 }  // namespace

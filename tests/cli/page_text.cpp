@@ -13,8 +13,6 @@
 
 namespace pleuel::test {
 
-using nlohmann::json;
-
 json data_of(const std::filesystem::path& page) {
   const std::string text = read_file(page);
   const std::string opening = R"(id="pleuel-data">)";
@@ -38,13 +36,6 @@ std::vector<float> unpacked(const json& packed) {
   std::vector<float> numbers(bytes.size() / 4);
   std::memcpy(numbers.data(), bytes.data(), 4 * numbers.size());
   return numbers;
-}
-
-const json& named(const json& list, const std::string& name) {
-  const auto found = std::find_if(list.begin(), list.end(),
-                                  [&](const json& one) { return one.at("name") == name; });
-  if (found == list.end()) throw std::runtime_error("nothing is called " + name);
-  return *found;
 }
 
 namespace {

@@ -17,9 +17,6 @@ nlohmann::json data_of(const std::filesystem::path& page);
 /// Numbers of a packed document, RFC 4648 and IEEE 754.
 std::vector<float> unpacked(const nlohmann::json& packed);
 
-/// The entry of a list that has this name. @throws std::runtime_error if there is none
-const nlohmann::json& named(const nlohmann::json& list, const std::string& name);
-
 /// An element of an XML document, without what it holds.
 struct XmlElement {
   std::string name;

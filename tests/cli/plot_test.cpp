@@ -1,10 +1,8 @@
-#include <fstream>
+#include <memory>
 
 #include "cli/text/log_log_chart.hpp"
 #include "tests/cli/page_text.hpp"
 #include "tests/cli/program.hpp"
-#include "tests/cli/readback.hpp"
-#include "tests/support/test.hpp"
 
 namespace pleuel::test::plot_test {
 namespace {
@@ -16,20 +14,15 @@ namespace fs = std::filesystem;
 class Plot : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = std::make_unique<TemporaryFolder>();
-    const ProgramRun run =
-        exits(0, run_program(folder(), joined({"simulate", problem("slider_crank_round"),
-                                               "--no-report", "-o", "one"},
-                                              quick())));
+    folder_ = std::make_unique<ProgramFolder>();
+    folder_->run("simulate $crank $quick --no-report -o one");
   }
   static void TearDownTestSuite() { folder_.reset(); }
 
-  static fs::path folder() { return folder_->path(); }
+  static const ProgramFolder& folder() { return *folder_; }
 
-  static std::unique_ptr<TemporaryFolder> folder_;
+  inline static std::unique_ptr<ProgramFolder> folder_;
 };
-
-std::unique_ptr<TemporaryFolder> Plot::folder_;
 
 double number_behind(const std::string& text, const std::string& words) {
   const std::size_t at = text.find(words);
@@ -38,41 +31,33 @@ double number_behind(const std::string& text, const std::string& words) {
 }
 
 TEST_F(Plot, DrawsThePeakOfTheTrajectoryInTheUnitsOfEngineers) {
-  const ProgramRun run = exits(0, run_program(folder(), {"plot", "one", "rod_stress"}));
-  EXPECT_THAT(run.out, HasSubstr("Drawn in one/plot-rod_stress.svg"));
-  const CsvRows rows = read_csv(folder() / "one/trajectory.csv");
-  const auto column = static_cast<std::size_t>(
-      std::find(rows[0].begin(), rows[0].end(), "rod_stress") - rows[0].begin());
-  double highest = 0.0;
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    highest = std::max(highest, std::stod(rows[i][column]));
-  }
-  const std::string svg = read_file(folder() / "one/plot-rod_stress.svg");
+  EXPECT_THAT(folder().run("plot one rod_stress").out,
+              HasSubstr("Drawn in one/plot-rod_stress.svg"));
+  const double highest =
+      std::ranges::max(numbers(folder().csv("one/trajectory.csv"), "rod_stress"));
+  const std::string svg = folder().text("one/plot-rod_stress.svg");
   EXPECT_NEAR(number_behind(svg, "data-peak=\""), highest / 1e6, 1e-9 * highest / 1e6);
   EXPECT_THAT(svg, HasSubstr("rod_stress [MPa]"));
   EXPECT_THAT(svg, HasSubstr("class=\"band\"")) << "the error band of the trajectory";
-  const std::string card = read_file(folder() / "one/run_card.json");
-  const ProgramRun refused =
-      run_program(folder(), {"plot", "one", "rod_stress", "-o", "one/run_card.json"});
-  EXPECT_THAT(exits(2, refused).err, HasSubstr("is there already"));
-  EXPECT_EQ(read_file(folder() / "one/run_card.json"), card);
+  const std::string card = folder().text("one/run_card.json");
+  EXPECT_THAT(folder().refusal("plot one rod_stress -o one/run_card.json"),
+              HasSubstr("is there already"));
+  EXPECT_EQ(folder().text("one/run_card.json"), card);
 }
 
 /// What the last bits of a number say is no change: ticks that far apart would be without end.
 TEST_F(Plot, DrawsWhatChangesByRoundOffOnlyAsAConstant) {
-  const fs::path copy = folder() / "constant";
-  fs::copy(folder() / "one", copy, fs::copy_options::recursive);
-  const CsvRows rows = read_csv(copy / "trajectory.csv");
-  const auto column = std::find(rows[0].begin(), rows[0].end(), "rod_stress") - rows[0].begin();
-  std::ofstream file(copy / "trajectory.csv");
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    std::vector<std::string> row = rows[i];
-    if (i > 0) row[column] = i % 2 == 0 ? "300000" : "300000.00000000006";
-    file << fmt::format("{}\n", fmt::join(row, ","));
+  fs::copy(folder() / "one", folder() / "constant", fs::copy_options::recursive);
+  CsvRows rows = folder().csv("one/trajectory.csv");
+  const auto column = std::ranges::find(rows[0], "rod_stress") - rows[0].begin();
+  std::string text = fmt::format("{}\n", fmt::join(rows[0], ","));
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    rows[i][column] = i % 2 == 0 ? "300000" : "300000.00000000006";
+    text += fmt::format("{}\n", fmt::join(rows[i], ","));
   }
-  file.close();
-  const ProgramRun run = exits(0, run_program(folder(), {"plot", "constant", "rod_stress"}));
-  const std::string svg = read_file(copy / "plot-rod_stress.svg");
+  folder().write("constant/trajectory.csv", text);
+  folder().run("plot constant rod_stress");
+  const std::string svg = folder().text("constant/plot-rod_stress.svg");
   EXPECT_NEAR(number_behind(svg, "data-peak=\""), 0.3, 1e-9);
   std::size_t ticks = 0, at = 0;
   while ((at = svg.find("class=\"grid\"", at) + 1) != 0) ++ticks;
@@ -81,42 +66,32 @@ TEST_F(Plot, DrawsWhatChangesByRoundOffOnlyAsAConstant) {
 }
 
 TEST_F(Plot, ShowsTheCurveInTheTerminal) {
-  const ProgramRun run = run_program(folder(), {"plot", "one", "rod_stress", "crank_tip"});
-  EXPECT_THAT(run.out, HasSubstr("rod_stress [MPa]"));
-  EXPECT_THAT(run.out, HasSubstr("crank_tip [mm]"));
-  // Letters of U+2800 … U+28FF other than the empty one.
-  EXPECT_NE(run.out.find("\xE2\xA1"), std::string::npos);
-  EXPECT_TRUE(fs::exists(folder() / "one/plot.svg"));
+  // U+2800 … U+28FF are letters of dots.
+  EXPECT_THAT(
+      folder().run("plot one rod_stress crank_tip").out,
+      AllOf(HasSubstr("rod_stress [MPa]"), HasSubstr("crank_tip [mm]"), HasSubstr("\xE2\xA1")));
+  EXPECT_TRUE(folder().has("one/plot.svg"));
 }
 
 TEST_F(Plot, ListsWhatThereIsIfNothingIsAskedFor) {
-  const ProgramRun run = exits(0, run_program(folder(), {"plot", "one"}));
-  EXPECT_THAT(unwrapped(run.out), HasSubstr("Histories in one: crank_stress, rod_stress"));
-  EXPECT_THAT(run.out, Not(HasSubstr(":error")));
+  const std::string out = unwrapped(folder().run("plot one").out);
+  EXPECT_THAT(out, AllOf(HasSubstr("Histories in one: crank_stress, rod_stress"),
+                         Not(HasSubstr(":error"))));
 }
 
-TEST_F(Plot, NamesWhatIsProbablyMeant) {
-  EXPECT_THAT(exits(2, run_program(folder(), {"plot", "one", "rod_stres"})).err,
+TEST_F(Plot, SaysWhyItCannotDraw) {
+  EXPECT_THAT(folder().refusal("plot one rod_stres"),
               HasSubstr("no history is called \"rod_stres\"; did you mean \"rod_stress\"?"));
-}
-
-TEST_F(Plot, SaysWhereAFileIsDamaged) {
   fs::create_directory(folder() / "torn");
-  const std::string whole = read_file(folder() / "one/trajectory.csv");
-  std::ofstream(folder() / "torn/trajectory.csv") << whole.substr(0, whole.size() / 2 + 3);
-  const ProgramRun run = exits(2, run_program(folder(), {"plot", "torn", "rod_stress"}));
-  EXPECT_THAT(run.err, HasSubstr("torn/trajectory.csv: is damaged: line "));
-}
-
-TEST_F(Plot, OfAFolderWithoutHistoriesSaysWhichCommandsWriteSome) {
+  const std::string whole = folder().text("one/trajectory.csv");
+  folder().write("torn/trajectory.csv", whole.substr(0, whole.size() / 2 + 3));
+  EXPECT_THAT(folder().refusal("plot torn rod_stress"),
+              HasSubstr("torn/trajectory.csv: is damaged: line "));
   fs::create_directory(folder() / "empty");
-  const ProgramRun run = exits(2, run_program(folder(), {"plot", "empty", "rod_stress"}));
-  EXPECT_THAT(run.err, HasSubstr("empty: has no histories"));
+  EXPECT_THAT(folder().refusal("plot empty rod_stress"), HasSubstr("empty: has no histories"));
 }
 
 // Diagrams: well-formed, and what stands in them stands where the data say.
-
-using nlohmann::json;
 
 LogLogChart chart_of(const std::vector<ChartPoint>& points) {
   LogLogChart chart;
@@ -222,70 +197,51 @@ double counted(const json& document, const json& errors) {
   return largest;
 }
 
+void expect_mark(const std::vector<ReadPoint>& marks, double x, double y, const json& of) {
+  EXPECT_TRUE(std::ranges::any_of(marks, [&](const ReadPoint& mark) {
+    return std::abs(std::log(mark.x / x)) < 0.03 && std::abs(std::log(mark.y / y)) < 0.03;
+  })) << of;
+}
+
 /// The runs, then the knobs: as in the document of the result.
 void expect_runs(const std::string& svg, const json& document, const char* errors,
                  const char* seconds) {
-  std::vector<ReadPoint> read = read_points(svg);
+  const std::vector<ReadPoint> marks = read_points(svg);
   std::size_t found = 0;
   for (const char* kind : {"runs", "knobs"}) {
     for (const json& run : document.at(kind)) {
       if (run.contains("failure")) continue;
-      const double x = 100.0 * counted(document, run.at(errors));
-      const double y = 1e3 * run.at(seconds).get<double>();
-      const bool stands = std::any_of(read.begin(), read.end(), [&](const ReadPoint& point) {
-        return std::abs(std::log(point.x / x)) < 0.03 && std::abs(std::log(point.y / y)) < 0.03;
-      });
-      EXPECT_TRUE(stands) << run;
+      expect_mark(marks, 100.0 * counted(document, run.at(errors)), 1e3 * number(run, seconds),
+                  run);
       ++found;
     }
   }
-  EXPECT_EQ(read.size(), found);
+  EXPECT_EQ(marks.size(), found);
 }
 
+/// In the charts and, for the optima, in what `optimize` finds with their overrides.
 TEST(AccuracyCharts, ShowWhatTheResultSays) {
   const ProgramFolder folder;
-  const json document =
-      exits(0, folder.run_quick(
-                   {"accuracy", problem("slider_crank_round"), "--json", "-o", "a", "--set",
-                    R"(/accuracy={"steps": [4e-4, 2e-4], "elements": [2, 4]})", "--optimum"}))
-          .document();
-  const auto svg = [&](const char* name) { return read_file(folder.path() / "a" / name); };
-  expect_runs(svg("accuracy.svg"), document, "errors", "simulation_seconds");
-  expect_runs(svg("accuracy-gradients.svg"), document, "gradient_errors", "seconds");
-  const std::vector<ReadPoint> optima = read_points(svg("accuracy-optimum.svg"));
-  const json& runs = document.at("optimum");
-  ASSERT_EQ(optima.size(), runs.size());
-  const double best = document.at("optimum_reference").at("objective");
-  const double floor = document.at("optimum_reference").at("error");
-  for (const json& one : runs) {
-    const double error = one.at("error");
-    EXPECT_NEAR(error, one.at("objective").get<double>() - best, 1e-15);
-    const double x = 100.0 * std::max(std::abs(error), floor) / best, y = one.at("seconds");
-    EXPECT_TRUE(std::any_of(optima.begin(), optima.end(), [&](const ReadPoint& point) {
-      return std::abs(std::log(point.x / x)) < 0.03 && std::abs(std::log(point.y / y)) < 0.03;
-    })) << one;
+  const json document = folder.document(
+      "accuracy $crank $quick -o a --optimum "
+      R"(--set '/accuracy={"steps": [4e-4, 2e-4], "elements": [2, 4]}')");
+  expect_runs(folder.text("a/accuracy.svg"), document, "errors", "simulation_seconds");
+  expect_runs(folder.text("a/accuracy-gradients.svg"), document, "gradient_errors", "seconds");
+  const std::vector<ReadPoint> marks = read_points(folder.text("a/accuracy-optimum.svg"));
+  const json& optima = document.at("optimum");
+  ASSERT_EQ(marks.size(), optima.size());
+  const double best = number(document, "optimum_reference/objective");
+  const double floor = number(document, "optimum_reference/error");
+  for (const json& one : optima) {
+    const double error = number(one, "error");
+    EXPECT_NEAR(error, number(one, "objective") - best, 1e-15);
+    expect_mark(marks, 100.0 * std::max(std::abs(error), floor) / best, number(one, "seconds"),
+                one);
   }
-}
-
-/// What `optimize` finds with the overrides is the optimum that stands there.
-TEST(AccuracyCommand, OptimaAreThoseOfOptimizeWithTheirOverrides) {
-  const ProgramFolder folder;
-  const std::string file = problem("slider_crank_round");
-  const ProgramRun run =
-      exits(0, folder.run_quick({"accuracy", file, "--json", "-o", "a", "--optimum", "--set",
-                                 R"(/accuracy={"steps": [4e-4, 2e-4], "elements": [2, 3]})"}));
-  const json optimum = run.document().at("optimum").front();
-  std::vector<std::string> words = joined({"optimize", file, "--json", "-o", "o"}, quick());
-  for (const auto& [pointer, value] : optimum.at("overrides").items()) {
-    words.insert(words.end(), {"--set", pointer + "=" + value.dump()});
-  }
-  const json found = folder.run(words).document();
-  EXPECT_NEAR(
-      found.at("objective").at("value").get<double>() / optimum.at("objective").get<double>(), 1.0,
-      1e-12);
-  for (const auto& [name, value] : optimum.at("variables").items()) {
-    EXPECT_NEAR(found.at("variables").at(name).at("value").get<double>() / value.get<double>(), 1.0,
-                1e-9);
+  const json found = folder.document("optimize $crank $quick -o o" + overrides_of(optima.front()));
+  EXPECT_NEAR(number(found, "objective/value") / number(optima.front(), "objective"), 1.0, 1e-12);
+  for (const auto& [name, value] : optima.front().at("variables").items()) {
+    EXPECT_NEAR(number(found, "variables/" + name + "/value") / value.get<double>(), 1.0, 1e-9);
   }
 }
 

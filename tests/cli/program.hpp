@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
 #include <random>
 #include <string>
 #include <vector>
@@ -15,91 +16,107 @@
 
 namespace pleuel::test {
 
+using nlohmann::json;
+
 /// What a run of the program left.
 struct ProgramRun {
   int exit_code = -1;
   std::string out, err;
 
   /// Standard output as one JSON document; a test failure otherwise.
-  nlohmann::json document() const;
+  json document() const;
 };
 
-/// A run; a test failure if it ended with another code.
-inline ProgramRun exits(int code, ProgramRun run) {
-  EXPECT_EQ(run.exit_code, code) << run.out << run.err;
-  return run;
-}
-
-/// Runs `pleuel words…` with this folder as the current one.
-ProgramRun run_program(const std::filesystem::path& folder, const std::vector<std::string>& words);
-
-/// The same with the words as a line for the shell, and whatever it shall do afterwards.
+/// Runs `pleuel LINE` in a shell with this folder as the current one. In the line stand
+///   $crank     for the usual problem, the round slider-crank
+///   $problems  for the folder of the problem files of the repository
+///   $quick     for overrides that make a simulation of slider-cranks take some milliseconds: coarse
+///              steps, and the ramp only; with the most robust of the backends
+///   $pleuel    for the program, where the shell shall run it once more
 ProgramRun run_line(const std::filesystem::path& folder, const std::string& line);
 
-nlohmann::json read_json(const std::filesystem::path& path);
+/// Of the shell: goes on as soon as a condition holds, or after half a minute.
+std::string wait_until(const std::string& condition);
 
 /// A folder of its own, for runs of the program.
 class ProgramFolder : public TemporaryFolder {
  public:
-  ProgramRun run(const std::vector<std::string>& words) const { return run_program(path(), words); }
-  /// With the overrides of quick() behind the words.
-  ProgramRun run_quick(const std::vector<std::string>& words) const;
-  ProgramRun run_line(const std::string& line) const { return test::run_line(path(), line); }
+  std::filesystem::path operator/(const std::string& name) const { return path() / name; }
+
+  /// A run of a line; a test failure if it ends with another code.
+  ProgramRun run(const std::string& line, int exit_code = 0) const;
+  /// The document that it writes because of --json.
+  json document(const std::string& line, int exit_code = 0) const;
+  /// What it says of bad input, in one line.
+  std::string refusal(const std::string& line) const;
+
+  std::string text(const std::string& name) const;
+  json read(const std::string& name) const { return json::parse(text(name)); }
   /// The document that a run left in a folder of this one.
-  nlohmann::json result(const std::string& name) const {
-    return read_json(path() / name / "result.json");
+  json result(const std::string& name = "run") const { return read(name + "/result.json"); }
+  CsvRows csv(const std::string& name) const { return parse_csv(text(name)); }
+  bool has(const std::string& name) const { return std::filesystem::exists(*this / name); }
+
+  template <class Content>
+  void write(const std::string& name, const Content& content) const {
+    std::ofstream(*this / name) << content;
   }
 };
 
 /// Tests of runs in a folder of their own.
 class InProgramFolder : public testing::Test {
  protected:
+  ProgramRun run(const std::string& line, int exit_code = 0) const {
+    return folder_.run(line, exit_code);
+  }
+  json document(const std::string& line, int exit_code = 0) const {
+    return folder_.document(line, exit_code);
+  }
+  std::string refusal(const std::string& line) const { return folder_.refusal(line); }
+  json result(const std::string& name = "run") const { return folder_.result(name); }
+
   const ProgramFolder folder_;
 };
 
-/// A problem file of the repository.
+/// A problem file of the repository, and what stands in it.
 std::string problem(const std::string& name);
-
-/// Overrides that make a simulation of the slider-crank problems take some milliseconds: coarse
-/// steps, and the ramp only; with the most robust of the backends.
-std::vector<std::string> quick();
-
-std::vector<std::string> joined(std::vector<std::string> words,
-                                const std::vector<std::string>& more);
+json read_problem(const std::string& name);
 
 /// The text with every run of spaces and line breaks as one space: sentences are broken into lines.
 std::string unwrapped(const std::string& text);
 
 std::string read_file(const std::filesystem::path& path);
+json read_json(const std::filesystem::path& path);
 
-/// The cells of a CSV file.
-CsvRows read_csv(const std::filesystem::path& path);
+/// What stands at a path of a document, as "responses/rod_bow/value".
+json at(const json& document, const std::string& path);
+double number(const json& document, const std::string& path);
+/// The overrides of a setting as options.
+std::string overrides_of(const json& setting);
+/// The entry of a list that has this name. @throws std::runtime_error if there is none
+json named(const json& list, const std::string& name);
 
-/// The overrides of quick(), for a line of the shell.
-std::string quick_line();
-
-/// A command for the usual mechanism, with these.
-std::string quick_run(const std::string& command);
+/// The cells below a title; a test failure if there is none.
+std::vector<std::string> column(const CsvRows& rows, const std::string& title);
+/// The same as numbers; empty cells are NaN.
+std::vector<double> numbers(const CsvRows& rows, const std::string& title);
 
 /// Evaluations in the record of a run.
 int count_evaluations(const std::filesystem::path& folder);
 
 /// Runs in one folder that should have come to the same.
-class ComparedRuns : public testing::Test {
+class ComparedRuns : public InProgramFolder {
  protected:
   /// But for times, which differ from run to run.
-  nlohmann::json result(const std::string& name) const;
-  CsvRows table(const std::string& name, const std::string& file) const;
+  json timeless_result(const std::string& name) const;
 
   /// The same result, the same table, and as many evaluations.
   void expect_same(const std::string& name, const std::string& other,
                    const std::string& file) const;
 
   /// Kills a command so many times after other times, and lets it end then.
-  void kill_and_end(const std::string& words, const std::string& name, int kills,
-                    std::mt19937& random, int exit_code = 0) const;
-
-  const ProgramFolder folder_;
+  void kill_and_end(const std::string& line, const std::string& name, int kills, unsigned seed,
+                    int exit_code = 0) const;
 };
 
 }  // namespace pleuel::test

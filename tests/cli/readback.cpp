@@ -3,8 +3,6 @@
 #include <map>
 #include <sstream>
 
-#include "tests/support/test.hpp"
-
 namespace pleuel::test {
 
 namespace {
@@ -86,25 +84,23 @@ TextTable::TextTable(const std::string& report, const std::string& first_title) 
   EXPECT_FALSE(rows_.empty()) << "no table of \"" << first_title << "\" in\n" << report;
 }
 
-std::size_t TextTable::column(const std::string& title, int n) const {
-  for (std::size_t i = 0; i < titles_.size(); ++i) {
-    if (titles_[i] == title && --n == 0) return i;
-  }
-  ADD_FAILURE() << "no column \"" << title << "\"";
-  return 0;
+std::size_t TextTable::column(const std::string& title) const {
+  const auto found = std::ranges::find(titles_, title);
+  EXPECT_NE(found, titles_.end()) << "no column \"" << title << "\"";
+  return static_cast<std::size_t>(found == titles_.end() ? 0 : found - titles_.begin());
 }
 
 bool TextTable::has(const std::string& title) const {
-  return std::find(titles_.begin(), titles_.end(), title) != titles_.end();
+  return std::ranges::find(titles_, title) != titles_.end();
 }
 
-std::string TextTable::text(std::size_t row, const std::string& title, int n) const {
-  const std::size_t i = column(title, n);
+std::string TextTable::text(std::size_t row, const std::string& title) const {
+  const std::size_t i = column(title);
   return row < rows_.size() && i < rows_[row].size() ? rows_[row][i] : "";
 }
 
-double TextTable::number(std::size_t row, const std::string& title, int n) const {
-  return number_in(text(row, title, n));
+double TextTable::number(std::size_t row, const std::string& title) const {
+  return number_in(text(row, title));
 }
 
 std::size_t TextTable::row_of(const std::string& name) const {
@@ -121,6 +117,16 @@ double number_in(std::string text) {
   return digits.empty() ? std::nan("") : std::stod(digits);
 }
 
+std::string behind(const std::string& text, const std::string& words) {
+  const std::string line = unwrapped(text);
+  const std::size_t at = line.find(words);
+  EXPECT_NE(at, std::string::npos) << "no \"" << words << "\" in\n" << line;
+  return at == std::string::npos ? "nan" : line.substr(at + words.size(), 24);
+}
+
+namespace {
+
+/// SI value of one of a unit of tables: written down here once more, from the definitions of units.
 double si_of(const std::string& unit) {
   static const std::map<std::string, double> units = {
       {"m", 1},   {"mm", 1e-3}, {"kg", 1},    {"g", 1e-3}, {"Pa", 1},    {"MPa", 1e6},    {"N", 1},
@@ -134,6 +140,7 @@ double si_of(const std::string& unit) {
   return std::nan("");
 }
 
+/// Half a unit of the last digit of a shown number.
 double resolution_of(const std::string& text) {
   const std::string digits = digits_of(text);
   const std::size_t mantissa = std::min(digits.find('e'), digits.size());
@@ -141,6 +148,32 @@ double resolution_of(const std::string& text) {
   const auto decimals = point == std::string::npos ? 0 : static_cast<int>(mantissa - point) - 1;
   const double exponent = mantissa < digits.size() ? std::stod(digits.substr(mantissa + 1)) : 0.0;
   return 0.5 * std::pow(10.0, exponent - decimals);
+}
+
+}  // namespace
+
+void expect_shown(const std::string& shown, const std::string& unit, double si) {
+  const double value = number_in(shown) * si_of(unit);
+  EXPECT_NEAR(value, si, 1.001 * resolution_of(shown) * si_of(unit) + 1e-12 * std::abs(si))
+      << shown << " " << unit;
+}
+
+Report report_of(const std::string& command, const std::string& options, int exit_code) {
+  const ProgramFolder folder;
+  Report report;
+  report.text = folder.run(command + " $crank -o run $quick " + options, exit_code).out;
+  report.document = folder.result();
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "run")) {
+    if (entry.path().extension() != ".csv") continue;
+    report.files[entry.path().filename().string()] = parse_csv(read_file(entry.path()));
+  }
+  return report;
+}
+
+double largest(const std::vector<double>& values) {
+  double most = 0.0;
+  for (const double value : values) most = std::max(most, std::abs(value));
+  return most;
 }
 
 }  // namespace pleuel::test

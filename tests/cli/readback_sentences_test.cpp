@@ -1,24 +1,13 @@
 #include "tests/cli/readback.hpp"
-#include "tests/support/test.hpp"
 
 /// Numbers in sentences and in tables of the model, read back.
 namespace pleuel::test::readback_sentences_test {
 namespace {
 
-using nlohmann::json;
-
-/// The number behind some words of a report, whose lines are broken anywhere.
-std::string behind(const std::string& text, const std::string& words) {
-  const std::string line = unwrapped(text);
-  const std::size_t at = line.find(words);
-  EXPECT_NE(at, std::string::npos) << "no \"" << words << "\" in\n" << line;
-  return at == std::string::npos ? "nan" : line.substr(at + words.size(), 24);
-}
-
 using ReadBackSentences = InProgramFolder;
 
 TEST_F(ReadBackSentences, OfSimulate) {
-  const Report report = run({"simulate", file, "--set", "/simulation/formulation=index-1"});
+  const Report report = report_of("simulate", "--set /simulation/formulation=index-1");
   const json& monitors = report.document.at("monitors");
   expect_shown(behind(report.text, "are kept to "), "1", monitors.at("position_drift"));
   expect_shown(behind(report.text, "their rates to "), "1", monitors.at("velocity_drift"));
@@ -31,56 +20,53 @@ TEST_F(ReadBackSentences, OfSimulate) {
 
 /// One step that is too long: Newton's method needs it in two halves.
 TEST_F(ReadBackSentences, OfStepsThatWereSplit) {
-  const auto report = [&](const std::string& step) {
-    const ProgramRun run = exits(
-        0, folder_.run(joined(joined({"simulate", file, "-o", "run", "--overwrite"}, quick()),
-                              {"--set", "/simulation/resolution_check=false", "--set",
-                               "/simulation/max_newton_iterations=3", "--set",
-                               "/simulation/step=" + step, "--set", "/simulation/end_time=2 ms"})));
-    return std::pair(unwrapped(run.out), folder_.result("run"));
-  };
-  const auto [split, of_split] = report("2 ms");
-  EXPECT_EQ(of_split.at("split_steps"), 1);
-  EXPECT_EQ(of_split.at("steps"), 2);
-  EXPECT_THAT(split, HasSubstr("Newton's method failed in 1 steps, which were split"));
-  const auto [whole, of_whole] = report("0.1 ms");
-  EXPECT_EQ(of_whole.at("split_steps"), 0);
-  EXPECT_THAT(whole, Not(HasSubstr("Newton's method failed")));
+  for (const bool is_long : {true, false}) {
+    const Report report = report_of(
+        "simulate", fmt::format("--set /simulation/resolution_check=false --set "
+                                "/simulation/max_newton_iterations=3 --set /simulation/step={} "
+                                "--set /simulation/end_time=2ms",
+                                is_long ? "2ms" : "0.1ms"));
+    EXPECT_EQ(report.document.at("split_steps"), is_long ? 1 : 0);
+    EXPECT_EQ(report.document.at("steps"), is_long ? 2 : 20);
+    const bool is_said =
+        unwrapped(report.text).find("Newton's method failed in 1 steps, which were split") !=
+        std::string::npos;
+    EXPECT_EQ(is_said, is_long) << report.text;
+  }
 }
 
 /// With too few iterations: what is left open, and what it took.
 TEST_F(ReadBackSentences, OfAnOptimumThatIsNotVerified) {
-  const Report report = run({"optimize", file, "--set", "/optimizer/max_iterations=2"}, 4);
+  const Report report = report_of("optimize", "--set /optimizer/max_iterations=2", 4);
   const json& document = report.document;
+  EXPECT_THAT(report.text, HasSubstr("NOT VERIFIED"));
   expect_shown(behind(report.text, "KKT residual "), "1", document.at("kkt_residual"));
   expect_shown(behind(report.text, "largest violation of a limit "), "1",
                document.at("max_violation"));
   EXPECT_NE(document.at("kkt_residual"), document.at("max_violation"));
+  EXPECT_FALSE(document.contains("checked"));
 }
 
 /// What was chosen is said, and can be passed on as it is said.
 TEST_F(ReadBackSentences, OfAChosenSetting) {
-  const Report report = run({"simulate", file, "--accuracy", "0.5%"});
+  const Report report = report_of("simulate", "--accuracy 0.5%");
   const json& setting = report.document.at("setting");
   EXPECT_EQ(setting.at("target"), 0.005);
   EXPECT_TRUE(setting.at("met"));
   const std::string of_setting = behind(report.text, "For 0.5 %: a step of ");
   expect_shown(of_setting, "ms", setting.at("step"));
   EXPECT_EQ(number_in(behind(of_setting, "ms and ")), setting.at("elements"));
-  std::vector<std::string> words = {"simulate", file};
-  for (const auto& [pointer, value] : setting.at("overrides").items()) {
-    words.insert(words.end(), {"--set", pointer + "=" + value.dump()});
-  }
-  const Report again = run(words);
+  const Report again = report_of("simulate", overrides_of(setting));
   for (const auto& [name, response] : again.document.at("responses").items()) {
     const double value = response.at("value");
-    EXPECT_NEAR(report.document.at("responses").at(name).at("value"), value, 1e-9 * std::abs(value))
+    EXPECT_NEAR(number(report.document, "responses/" + name + "/value"), value,
+                1e-9 * std::abs(value))
         << name;
   }
 }
 
 TEST_F(ReadBackSentences, OfWhatEffectsBring) {
-  const Report report = run({"simulate", file, "--effects"});
+  const Report report = report_of("simulate", "--effects");
   const TextTable table(report.text, "without");
   const json& responses = report.document.at("responses");
   std::size_t row = 0;
@@ -101,15 +87,14 @@ TEST_F(ReadBackSentences, OfWhatEffectsBring) {
     // "rod_bow +4.1e-05 mm (+0.14 %)", which stands for all others.
     const std::string name = largest.substr(0, largest.find(' '));
     const auto share = [&](const std::string& of) {
-      return effect.at("influence").at(of).get<double>() /
-             responses.at(of).at("value").get<double>();
+      return number(effect, "influence/" + of) / number(responses, of + "/value");
     };
     EXPECT_NEAR(number_in(largest.substr(largest.find('(') + 1)), 100 * share(name),
                 0.06 * std::abs(100 * share(name)))
         << largest;
     const std::string unit = largest.substr(0, largest.find(" ("));
     expect_shown(largest.substr(name.size() + 1), unit.substr(unit.find(' ', name.size() + 1) + 1),
-                 effect.at("influence").at(name));
+                 number(effect, "influence/" + name));
     for (const auto& [other, value] : responses.items()) {
       EXPECT_LE(std::abs(share(other)), std::abs(share(name)) * 1.0001) << other;
     }
@@ -120,9 +105,9 @@ TEST_F(ReadBackSentences, OfWhatEffectsBring) {
 
 /// Grams: what changes of all responses make of the optimum by the prices of the limits.
 TEST_F(ReadBackSentences, OfWhatEffectsBringInGrams) {
-  const Report report = run({"optimize", file, "--effects"});
+  const Report report = report_of("optimize", "--effects");
   const json& document = report.document;
-  const json limits = read_json(file).at("constraints");
+  const json limits = read_problem("slider_crank_round").at("constraints");
   const TextTable table(report.text, "without");
   std::size_t row = 0, priced = 0;
   for (const json& effect : document.at("effects")) {
@@ -134,8 +119,8 @@ TEST_F(ReadBackSentences, OfWhatEffectsBringInGrams) {
     }
     double change = effect.at("influence").at(document.at("objective").at("name"));
     for (const auto& [name, limit] : document.at("constraints").items()) {
-      change += limit.at("multiplier").get<double>() *
-                effect.at("influence").at(limits.at(name).at("response")).get<double>();
+      const std::string response = limits.at(name).at("response");
+      change += number(limit, "multiplier") * number(effect, "influence/" + response);
     }
     expect_shown(shown, "kg", change);
     ++priced;
@@ -147,9 +132,9 @@ TEST_F(ReadBackSentences, OfWhatEffectsBringInGrams) {
 /// Without --effects the table has the effects that matter by the numbers of the document: more than
 /// 0.1 % of a response or of the optimum. A sentence counts the rest.
 TEST_F(ReadBackSentences, OfWhichEffectsMatter) {
-  const Report report = run({"optimize", file, "--verbose"});
+  const Report report = report_of("optimize", "--verbose");
   const json& document = report.document;
-  const json limits = read_json(file).at("constraints");
+  const json limits = read_problem("slider_crank_round").at("constraints");
   const std::string text = unwrapped(report.text);
   std::size_t listed = 0, measured = 0;
   for (const json& effect : document.at("effects")) {
@@ -159,7 +144,7 @@ TEST_F(ReadBackSentences, OfWhichEffectsMatter) {
     }
     double most = 0.0;
     for (const auto& [name, change] : effect.at("influence").items()) {
-      const double value = document.at("responses").at(name).at("value");
+      const double value = number(document, "responses/" + name + "/value");
       most = std::max(most, std::abs(change.get<double>() / value));
     }
     if (most > 1e-3) {
@@ -185,29 +170,25 @@ TEST_F(ReadBackSentences, OfWhichEffectsMatter) {
 
 /// The verdict in plain words has the error that the document has.
 TEST_F(ReadBackSentences, OfAVerdictInPlainWords) {
-  const Report report = run({"optimize", file, "--verbose"});
+  const Report report = report_of("optimize", "--verbose");
   const std::string checked = report.document.at("checked");
   EXPECT_THAT(unwrapped(report.text), HasSubstr("In plain words: " + checked + "."));
   EXPECT_THAT(checked, HasSubstr("every limit holds; no design nearby that keeps them is "
                                  "lighter; "));
   const json& objective = report.document.at("objective");
-  const double error = objective.at("error").at("total").get<double>();
   expect_shown(behind(checked, "change crank_and_rod by "), "1",
-               100.0 * error / objective.at("value").get<double>());
-  EXPECT_FALSE(run({"optimize", file, "--set", "/optimizer/max_iterations=1"}, 4)
-                   .document.contains("checked"));
+               100.0 * number(objective, "error/total") / number(objective, "value"));
 }
 
 /// An optimum whose numbers are not known as well as the file asks for is not verified, whatever
 /// its gradients say.
 TEST_F(ReadBackSentences, OfAnOptimumThatIsNotResolved) {
-  const Report report = run({"optimize", file, "--set", "/scene/bodies/rod/elements=1", "--set",
-                             "/scene/bodies/crank/elements=1"},
-                            4);
+  const Report report = report_of(
+      "optimize", "--set /scene/bodies/rod/elements=1 --set /scene/bodies/crank/elements=1", 4);
   EXPECT_EQ(report.document.at("status"), "unresolved");
-  const std::string text = unwrapped(report.text);
-  EXPECT_THAT(text, HasSubstr(" NOT VERIFIED (unresolved): optimal by its numbers, but "));
-  EXPECT_THAT(text, Not(HasSubstr("VERIFIED:")));
+  EXPECT_THAT(unwrapped(report.text),
+              AllOf(HasSubstr(" NOT VERIFIED (unresolved): optimal by its numbers, but "),
+                    Not(HasSubstr("VERIFIED:"))));
   // Nor is its design called an optimum in the table.
   const TextTable table(report.text, "variable");
   EXPECT_TRUE(table.has("end"));
@@ -217,18 +198,17 @@ TEST_F(ReadBackSentences, OfAnOptimumThatIsNotResolved) {
 /// Points of which nothing is proven are no front, in the exit code either.
 TEST_F(ReadBackSentences, OfAFrontThatIsNotVerified) {
   const Report report =
-      run({"pareto", file, "--set", "/pareto/points=2", "--set", "/optimizer/max_iterations=2"}, 4);
+      report_of("pareto", "--set /pareto/points=2 --set /optimizer/max_iterations=2", 4);
   EXPECT_EQ(report.document.at("status"), "done");  // all points were looked for
   for (const json& point : report.document.at("points")) EXPECT_NE(point.at("status"), "verified");
-  const std::string text = unwrapped(report.text);
-  EXPECT_THAT(text, HasSubstr("; 0 of 2 points verified"));
-  EXPECT_THAT(text, HasSubstr("NOT VERIFIED: limit 0.1"));
+  EXPECT_THAT(unwrapped(report.text),
+              AllOf(HasSubstr("; 0 of 2 points verified"), HasSubstr("NOT VERIFIED: limit 0.1")));
 }
 
 TEST_F(ReadBackSentences, OfAccuracy) {
-  const Report report =
-      run({"accuracy", file, "--verbose", "--set",
-           R"(/accuracy={"steps": ["0.4 ms", "0.2 ms"], "elements": [2, 4], "target": 0.5})"});
+  const Report report = report_of(
+      "accuracy",
+      R"(--verbose --set '/accuracy={"steps": ["0.4 ms", "0.2 ms"], "elements": [2, 4], "target": 0.5}')");
   const json& reference = report.document.at("reference");
   const json& best = report.document.at("recommended");
   ASSERT_FALSE(best.is_null());
@@ -236,100 +216,93 @@ TEST_F(ReadBackSentences, OfAccuracy) {
   const std::string of_reference = behind(text, "relative to a reference with a step of ");
   expect_shown(of_reference, "ms", reference.at("step"));
   EXPECT_EQ(number_in(behind(of_reference, "ms and ")), reference.at("elements"));
-  double error = 0.0, of_gradients = 0.0;
-  for (const auto& name : report.document.at("counted")) {
-    error = std::max(error, reference.at("errors").at(name.get<std::string>()).get<double>());
-    of_gradients = std::max(
-        of_gradients, reference.at("gradient_errors").at(name.get<std::string>()).get<double>());
-  }
-  expect_shown(behind(text, "whose own error is estimated at "), "1", 100.0 * error);
-  expect_shown(behind(text, ", of gradients "), "1", 100.0 * of_gradients);
+  const auto worst = [&](const json& errors) {
+    double most = 0.0;
+    for (const std::string name : report.document.at("counted")) {
+      most = std::max(most, errors.at(name).get<double>());
+    }
+    return most;
+  };
+  expect_shown(behind(text, "whose own error is estimated at "), "1",
+               100.0 * worst(reference.at("errors")));
+  expect_shown(behind(text, ", of gradients "), "1",
+               100.0 * worst(reference.at("gradient_errors")));
   const std::string of_best = behind(text, "For 50 % take a step of ");
   expect_shown(of_best, "ms", best.at("step"));
   EXPECT_EQ(number_in(behind(of_best, "ms and ")), best.at("elements"));
   expect_shown(behind(text, "elements a segment: "), "ms", best.at("seconds"));
   for (const json& one : report.document.at("recommendations")) {
-    const std::string sentence =
-        fmt::format("For {:g} % {}", 100.0 * one.at("error").get<double>(),
-                    one.at("values").is_null() ? "none of these settings" : "take a step of ");
-    EXPECT_THAT(text, HasSubstr(sentence));
-    if (one.at("values").is_null()) break;  // what is more exact is not said
+    const bool is_none = one.at("values").is_null();
+    EXPECT_THAT(text,
+                HasSubstr(fmt::format("For {:g} % {}", 100.0 * number(one, "error"),
+                                      is_none ? "none of these settings" : "take a step of ")));
+    if (is_none) break;  // what is more exact is not said
   }
   // One row is marked, and it is that one.
-  EXPECT_THAT(report.text, ContainsRegex(fmt::format("\n *{:g} +{} .*← recommended\n",
-                                                     1e3 * best.at("step").get<double>(),
-                                                     best.at("elements").get<int>())));
+  EXPECT_THAT(report.text,
+              ContainsRegex(fmt::format("\n *{:g} +{} .*← recommended\n",
+                                        1e3 * number(best, "step"), number(best, "elements"))));
   EXPECT_EQ(report.text.find("← recommended"), report.text.rfind("← recommended"));
 }
 
 /// What nothing drives is left to the forces, be it one freedom only; and a beam is as heavy as all
 /// of its frames.
 TEST_F(ReadBackSentences, OfMechanismsThatForcesMove) {
-  const auto checked = [&](const std::string& name, const std::vector<std::string>& more) {
-    return unwrapped(folder_
-                         .run(joined({"check", problem(name), "--jobs", "1", "--set",
-                                      "/simulation/resolution_check=false"},
-                                     more))
-                         .out);
-  };
-  EXPECT_THAT(checked("hard/dead_centres", {"--set", "/simulation/end_time=4 ms"}),
+  EXPECT_THAT(unwrapped(run("check $problems/hard/dead_centres.json --jobs 1 --set "
+                            "/simulation/resolution_check=false --set '/simulation/end_time=4 ms'")
+                            .out),
               HasSubstr("(none of drives): 1 freedom is left to the forces"));
-  const std::string divided = folder_
-                                  .run(joined(joined({"check", file, "--jobs", "1"}, quick()),
-                                              {"--set", "/scene/bodies/rod/frames=3"}))
-                                  .out;
-  const TextTable bodies(divided, "body");
-  const std::size_t rod = bodies.row_of("rod");
-  EXPECT_EQ(bodies.number(rod, "frames"), 3);
+  const TextTable bodies(run("check $crank --jobs 1 $quick --set /scene/bodies/rod/frames=3").out,
+                         "body");
+  EXPECT_EQ(bodies.number("rod", "frames"), 3);
   // ρ π/4 d² L of 30 mm and 180 mm.
-  expect_shown(bodies.text(rod, "mass [kg]"), "kg", 7850 * M_PI / 4 * 0.03 * 0.03 * 0.18);
+  bodies.expect("rod", "mass [kg]", "kg", 7850 * M_PI / 4 * 0.03 * 0.03 * 0.18);
 }
 
 /// A sum of variables with its coefficients: 2 · 30 − 30 mm of the 10 mm that are allowed.
 TEST_F(ReadBackSentences, OfALimitOfVariables) {
-  const Report report = run(
-      {"simulate", file, "--set",
-       R"(/constraints/sizes={"linear": {"crank_diameter": 2, "rod_diameter": -1}, "upper": "10 mm"})"});
-  const json& sizes = report.document.at("constraints").at("sizes");
-  EXPECT_NEAR(sizes.at("value"), 0.03, 1e-15);
-  EXPECT_NEAR(sizes.at("utilisation"), 3.0, 1e-12);
+  const Report report = report_of(
+      "simulate",
+      R"(--set '/constraints/sizes={"linear": {"crank_diameter": 2, "rod_diameter": -1}, )"
+      R"("upper": "10 mm"}')");
+  const json sizes = at(report.document, "constraints/sizes");
+  EXPECT_NEAR(number(sizes, "value"), 0.03, 1e-15);
+  EXPECT_NEAR(number(sizes, "utilisation"), 3.0, 1e-12);
   EXPECT_EQ(sizes.at("kept"), false);
   const TextTable table(report.text, "constraint");
-  const std::size_t row = table.row_of("sizes");
-  expect_shown(table.text(row, "value"), "mm", 0.03);
-  EXPECT_NEAR(table.number(row, "used"), 300.0, 1e-9);
+  table.expect("sizes", "value", "mm", 0.03);
+  EXPECT_NEAR(table.number("sizes", "used"), 300.0, 1e-9);
 }
 
 /// Crank and rod of eight elements: rigid coordinates x, y, φ of bodies and x, y of the point mass.
 TEST_F(ReadBackSentences, OfCheck) {
-  const std::vector<std::string> words =
-      joined({"check", file, "--jobs", "1", "--effects"}, quick());
-  const std::string text = folder_.run(words).out;
-  const json document = folder_.run(joined(words, {"--json"})).document();
+  const std::string line = "check $crank --jobs 1 --effects $quick";
+  const std::string text = run(line).out;
+  const json checked = document(line);
   const TextTable bodies(text, "body"), effects(text, "effect");
-  for (const auto& body : document.at("bodies")) {
-    const std::size_t row = bodies.row_of(body.at("name"));
-    EXPECT_EQ(bodies.number(row, "frames"), body.at("frames"));
-    const bool is_beam = body.at("name") != "slider";
-    EXPECT_EQ(bodies.number(row, "rigid coordinates"), is_beam ? 3 : 2);
-    EXPECT_EQ(bodies.text(row, "elastic"),
-              is_beam ? fmt::format("{}", body.at("coordinates").get<int>() - 3) : "–");
+  for (const json& body : checked.at("bodies")) {
+    const std::string name = body.at("name");
+    const bool is_beam = name != "slider";
+    EXPECT_EQ(bodies.number(name, "frames"), body.at("frames"));
+    EXPECT_EQ(bodies.number(name, "rigid coordinates"), is_beam ? 3 : 2);
+    EXPECT_EQ(bodies.text(name, "elastic"),
+              is_beam ? fmt::format("{}", number(body, "coordinates") - 3) : "–");
     if (is_beam) {
-      EXPECT_EQ(bodies.number(row, "elements"), body.at("elements"));
+      EXPECT_EQ(bodies.number(name, "elements"), body.at("elements"));
     }
   }
-  const json& motion = document.at("rigid_motion");
-  EXPECT_THAT(unwrapped(text),
-              HasSubstr(fmt::format(
-                  "Rigid motion: {} coordinates, {} independent constraints ({} of drives): the "
-                  "drives prescribe it",
-                  motion.at("coordinates").get<int>(), motion.at("constraints").get<int>(),
-                  motion.at("drives").get<int>())));
+  const json& motion = checked.at("rigid_motion");
+  EXPECT_THAT(
+      unwrapped(text),
+      HasSubstr(fmt::format(
+          "Rigid motion: {} coordinates, {} independent constraints ({} of drives): the "
+          "drives prescribe it",
+          number(motion, "coordinates"), number(motion, "constraints"), number(motion, "drives"))));
   // 3 + 3 + 2 coordinates; two of each of three pins, one of the guide, one of the drive.
   EXPECT_EQ(motion.at("coordinates"), 8);
   EXPECT_EQ(motion.at("constraints"), 8);
   // Each effect stands in one row, with all bodies of which it is decided alike.
-  for (const json& effect : document.at("effects")) {
+  for (const json& effect : checked.at("effects")) {
     std::size_t rows = 0;
     for (std::size_t row = 0; row < effects.rows(); ++row) {
       const std::string of = ", " + effects.text(row, "of") + ",";
@@ -342,7 +315,7 @@ TEST_F(ReadBackSentences, OfCheck) {
     }
     EXPECT_EQ(rows, 1u) << effect;
   }
-  EXPECT_LT(effects.rows(), document.at("effects").size());
+  EXPECT_LT(effects.rows(), checked.at("effects").size());
 }
 
 }  // namespace

@@ -1,18 +1,13 @@
-#include <fstream>
-
 #include "tests/cli/readback.hpp"
-#include "tests/support/test.hpp"
 
 /// Studies, read back.
 namespace pleuel::test::readback_study_test {
 namespace {
 
-using nlohmann::json;
-
 using ReadBack = InProgramFolder;
 
 TEST_F(ReadBack, OfPareto) {
-  const Report report = run({"pareto", file, "--set", "/pareto/points=3"});
+  const Report report = report_of("pareto", "--set /pareto/points=3");
   const TextTable table(report.text, "limit [mm]");
   const json& points = report.document.at("points");
   ASSERT_EQ(table.rows(), 3u);
@@ -27,10 +22,10 @@ TEST_F(ReadBack, OfPareto) {
     const double mass = point.at("objectives").at("crank_and_rod");
     EXPECT_LT(bow, 0.5e-3);  // [m]
     EXPECT_GT(mass, 0.1);    // [kg]
-    expect_shown(table.text(i, "limit [mm]"), "mm", limit);
-    expect_shown(table.text(i, "rod_bow [mm]"), "mm", bow);
-    expect_shown(table.text(i, "crank_and_rod [kg]"), "kg", mass);
-    expect_shown(table.text(i, "multiplier [kg/mm]"), "kg/mm", multiplier);
+    table.expect(i, "limit [mm]", "mm", limit);
+    table.expect(i, "rod_bow [mm]", "mm", bow);
+    table.expect(i, "crank_and_rod [kg]", "kg", mass);
+    table.expect(i, "multiplier [kg/mm]", "kg/mm", multiplier);
     const std::string knee = point.at("knee") ? ", knee" : "";
     EXPECT_EQ(table.text(i, "status"), point.at("status").get<std::string>() + knee);
     EXPECT_EQ(report.files.at("pareto.csv")[i + 1][0], point.at("status"));
@@ -39,7 +34,7 @@ TEST_F(ReadBack, OfPareto) {
     EXPECT_EQ(column("limited")[i], bow);
     EXPECT_EQ(column("multiplier")[i], multiplier);
     for (const auto& [name, value] : point.at("variables").items()) {
-      expect_shown(table.text(i, name + " [mm]"), "mm", value);
+      table.expect(i, name + " [mm]", "mm", value);
       EXPECT_EQ(column(("variable:" + name).c_str())[i], value);
     }
     for (const char* key : {"kkt_residual", "evaluations", "seconds"}) {
@@ -49,8 +44,9 @@ TEST_F(ReadBack, OfPareto) {
 }
 
 TEST_F(ReadBack, OfAccuracy) {
-  const Report report = run({"accuracy", file, "--verbose", "--set",
-                             R"(/accuracy={"steps": ["0.4 ms", "0.2 ms"], "elements": [2, 4]})"});
+  const Report report = report_of(
+      "accuracy",
+      R"(--verbose --set '/accuracy={"steps": ["0.4 ms", "0.2 ms"], "elements": [2, 4]}')");
   const TextTable table(report.text, "step [ms]");
   const json& runs = report.document.at("runs");
   ASSERT_EQ(table.rows(), runs.size());
@@ -76,13 +72,13 @@ TEST_F(ReadBack, OfAccuracy) {
   const json& reference = report.document.at("reference");
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const json& study_run = runs.at(i);
-    expect_shown(table.text(i, "step [ms]"), "ms", study_run.at("settings").at("step"));
+    table.expect(i, "step [ms]", "ms", study_run.at("settings").at("step"));
     EXPECT_EQ(table.number(i, "elements"), study_run.at("settings").at("elements"));
     expect_worst(table.text(i, "largest error"), study_run.at("errors"), reference.at("errors"));
     expect_worst(table.text(i, "of a gradient"), study_run.at("gradient_errors"),
                  reference.at("gradient_errors"));
-    expect_shown(table.text(i, "simulation [ms]"), "ms", study_run.at("simulation_seconds"));
-    expect_shown(table.text(i, "gradient [ms]"), "ms", study_run.at("gradient_seconds"));
+    table.expect(i, "simulation [ms]", "ms", study_run.at("simulation_seconds"));
+    table.expect(i, "gradient [ms]", "ms", study_run.at("gradient_seconds"));
     EXPECT_EQ(table.number(i, "steps"), study_run.at("work").at("steps"));
     EXPECT_EQ(table.number(i, "factorizations"), study_run.at("work").at("factorizations"));
     const auto cell = [&](const std::string& title) {  // the reference is the first line
@@ -106,9 +102,9 @@ TEST_F(ReadBack, OfAccuracy) {
 
 /// Of all runs that are exact enough in what counts, for values and for gradients, the cheapest.
 TEST_F(ReadBack, OfRecommendationsForValuesAndForGradients) {
-  const Report report = run({"accuracy", file, "--verbose", "--set",
-                             R"(/accuracy={"steps": ["0.8 ms", "0.4 ms", "0.2 ms"],
-                                           "elements": [2, 4], "target": 0.02})"});
+  const Report report =
+      report_of("accuracy", R"(--verbose --set '/accuracy={"steps": ["0.8 ms", "0.4 ms", "0.2 ms"],
+                                           "elements": [2, 4], "target": 0.02}')");
   const json& document = report.document;
   const auto worst = [&](const json& errors) {
     double most = 0.0;
@@ -147,12 +143,11 @@ TEST_F(ReadBack, OfRecommendationsForValuesAndForGradients) {
 
 /// Deviations and bounds are made again from gradients of another command.
 TEST_F(ReadBack, OfUncertainty) {
-  const Report report = run({"uncertainty", file, "--histories", "--set",
-                             R"(/uncertainty={"parameters": {"rod_diameter":
-                                  {"deviation": "0.1 mm"}, "crank_diameter":
-                                  {"interval": "0.2 mm"}}, "samples": 8})"});
+  const Report report =
+      report_of("uncertainty", R"(--histories --set '/uncertainty={"samples": 8, "parameters":
+      {"rod_diameter": {"deviation": "0.1 mm"}, "crank_diameter": {"interval": "0.2 mm"}}}')");
   const json gradients =
-      run({"gradient", file, "--histories", "--method", "direct"}).document.at("responses");
+      report_of("gradient", "--histories --method direct").document.at("responses");
   const TextTable table(report.text, "response"), parameters(report.text, "parameter");
   for (const auto& [name, response] : report.document.at("responses").items()) {
     const json& of = gradients.at(name).at("gradients").at("direct");
@@ -166,35 +161,33 @@ TEST_F(ReadBack, OfUncertainty) {
     EXPECT_NEAR(response.at("bounds").at(1), value + bound, 1e-6 * bound) << name;
     EXPECT_NEAR(response.at("shares").at("rod_diameter"),
                 parts[0] * parts[0] / (deviation * deviation), 1e-6);
-    const std::size_t row = table.row_of(name);
-    const std::string unit = table.text(row, "unit");
-    expect_shown(table.text(row, "value"), unit, value);
-    expect_shown(table.text(row, "deviation"), unit, response.at("deviation"));
-    expect_shown(table.text(row, "bounds ±"), unit, bound);
+    const std::string unit = table.text(name, "unit");
+    table.expect(name, "value", unit, value);
+    table.expect(name, "deviation", unit, response.at("deviation"));
+    table.expect(name, "bounds ±", unit, bound);
     const json& sampled = response.at("sampled");
-    expect_shown(table.text(row, "sampled mean"), unit, sampled.at("mean"));
-    expect_shown(table.text(row, "sampled deviation"), unit, sampled.at("deviation"));
-    expect_shown(table.text(row, "lowest"), unit, sampled.at("lowest"));
-    expect_shown(table.text(row, "highest"), unit, sampled.at("highest"));
+    table.expect(name, "sampled mean", unit, sampled.at("mean"));
+    table.expect(name, "sampled deviation", unit, sampled.at("deviation"));
+    table.expect(name, "lowest", unit, sampled.at("lowest"));
+    table.expect(name, "highest", unit, sampled.at("highest"));
     const bool is_rod = parts[0] * parts[0] > parts[1] * parts[1];
-    EXPECT_THAT(table.text(row, "from"), StartsWith(is_rod ? "rod_diameter " : "crank_diameter "));
+    EXPECT_THAT(table.text(name, "from"), StartsWith(is_rod ? "rod_diameter " : "crank_diameter "));
     const double share = response.at("shares").at(is_rod ? "rod_diameter" : "crank_diameter");
-    EXPECT_NEAR(number_in(table.text(row, "from").substr(is_rod ? 13 : 15)), 100 * share, 0.5);
+    EXPECT_NEAR(number_in(table.text(name, "from").substr(is_rod ? 13 : 15)), 100 * share, 0.5);
     // The other one, too, if it is half a percent or more.
-    EXPECT_EQ(table.text(row, "from").find(is_rod ? "crank_diameter " : "rod_diameter ") !=
+    EXPECT_EQ(table.text(name, "from").find(is_rod ? "crank_diameter " : "rod_diameter ") !=
                   std::string::npos,
               1 - share >= 0.005)
-        << table.text(row, "from");
+        << table.text(name, "from");
   }
   for (const auto& [name, parameter] : report.document.at("parameters").items()) {
-    const std::size_t row = parameters.row_of(name);
-    expect_shown(parameters.text(row, "value"), "mm", parameter.at("value"));
-    expect_shown(parameters.text(row, "deviation"), "mm", parameter.at("deviation"));
-    expect_shown(parameters.text(row, "half width"), "mm", parameter.at("interval"));
-    EXPECT_EQ(parameters.text(row, "unit"), "mm");
+    parameters.expect(name, "value", "mm", parameter.at("value"));
+    parameters.expect(name, "deviation", "mm", parameter.at("deviation"));
+    parameters.expect(name, "half width", "mm", parameter.at("interval"));
+    EXPECT_EQ(parameters.text(name, "unit"), "mm");
   }
-  EXPECT_EQ(parameters.text(parameters.row_of("rod_diameter"), "sampled as"), "normal");
-  EXPECT_EQ(parameters.text(parameters.row_of("crank_diameter"), "sampled as"), "uniform");
+  EXPECT_EQ(parameters.text("rod_diameter", "sampled as"), "normal");
+  EXPECT_EQ(parameters.text("crank_diameter", "sampled as"), "uniform");
   EXPECT_EQ(report.document.at("samples"), 8);
   EXPECT_EQ(report.files.at("uncertainty.csv")[0].size(), 1u + 3 * 7);  // the mass has no history
   // Of the position, whose response is the end of its history.
@@ -210,7 +203,7 @@ TEST_F(ReadBack, OfUncertainty) {
 }
 
 TEST_F(ReadBack, OfStability) {
-  const Report report = run({"stability", file});
+  const Report report = report_of("stability");
   const TextTable table(report.text, "case");
   const json& runs = report.document.at("runs");
   ASSERT_EQ(table.rows(), runs.size());
@@ -242,9 +235,9 @@ TEST_F(ReadBack, OfStability) {
 
 /// The monitors are those of a simulation with that formulation.
 TEST_F(ReadBack, OfStabilityIsThatOfSimulations) {
-  const json runs = run({"stability", file}).document.at("runs");
+  const json runs = report_of("stability").document.at("runs");
   for (const std::string formulation : {"index-3", "stabilized-index-2", "index-1"}) {
-    const json monitors = run({"simulate", file, "--set", "/simulation/formulation=" + formulation})
+    const json monitors = report_of("simulate", "--set /simulation/formulation=" + formulation)
                               .document.at("monitors");
     const auto found = std::find_if(runs.begin(), runs.end(), [&](const json& one) {
       return one.at("formulation") == formulation;
@@ -261,7 +254,7 @@ TEST_F(ReadBack, OfStabilityIsThatOfSimulations) {
 /// From φ = −0.3 the optimum of a low limit is the bound at −1, that of 0.2 is on the far side,
 /// where both are better: the points before are dominated.
 TEST_F(ReadBack, OfDominatedPoints) {
-  std::ofstream(folder_.path() / "arm.json") << R"({"name": "arm", "scene": {
+  folder_.write("arm.json", R"({"name": "arm", "scene": {
       "bodies": {"arm": {"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "rigid": true,
         "material": "steel", "elements": 2, "section": {"type": "circle", "diameter": "50 mm"}}},
       "joints": {"bearing": {"type": "revolute", "bodies": ["ground", "arm"], "at": [0, 0, 0],
@@ -273,12 +266,11 @@ TEST_F(ReadBack, OfDominatedPoints) {
       "y": {"type": "position", "body": "arm", "at": 1, "direction": "y", "over_time": "final"}},
     "objective": {"minimize": "x"},
     "constraints": {"high": {"response": "y", "lower": 0}},
-    "pareto": {"constraint": "high", "from": -0.9, "to": 0.2, "points": 3}})";
-  const ProgramRun text = folder_.run({"pareto", "arm.json", "-o", "text"});
-  const json points = folder_.result("text").at("points");
-  const TextTable table(text.out, "limit [mm]");
+    "pareto": {"constraint": "high", "from": -0.9, "to": 0.2, "points": 3}})");
+  const TextTable table(run("pareto arm.json -o run").out, "limit [mm]");
+  const json points = result().at("points");
   ASSERT_EQ(points.size(), 3u);
-  ASSERT_NEAR(points.at(2).at("objectives").at("x"), -std::sqrt(1 - 0.04), 1e-3);
+  ASSERT_NEAR(number(points.at(2), "objectives/x"), -std::sqrt(1 - 0.04), 1e-3);
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(points.at(i).at("dominated"), i < 2) << i;
     EXPECT_EQ(table.text(i, "status"), i < 2 ? "verified, dominated" : "verified");
