@@ -5,7 +5,6 @@
 #include "core/base/eager_matrices.hpp"
 #include "core/base/error.hpp"
 #include "core/response/make_responses.hpp"
-#include "core/scene/response_kind.hpp"
 
 namespace pleuel {
 
@@ -16,21 +15,15 @@ constexpr int most_instants = 6000;
 constexpr int most_instants_if_redundant = 400;
 
 bool is_asked_for(const ProblemFile& problem, const ResponseSettings& wanted) {
-  return std::any_of(
-      problem.responses.begin(), problem.responses.end(), [&](const ResponseSettings& response) {
-        return response.type == wanted.type && response.joint == wanted.joint &&
-               response.bodies == wanted.bodies && is_peak(response.over_time) &&
-               response.direction == wanted.direction && !response.from && !response.to;
-      });
+  return std::any_of(problem.responses.begin(), problem.responses.end(),
+                     [&](const ResponseSettings& response) {
+                       return response.what == wanted.what && is_peak(response.over_time) &&
+                              !response.from && !response.to;
+                     });
 }
 
-ResponseSettings settings_of(ResponseType type, const std::string& joint, const std::string& name) {
-  ResponseSettings settings;
-  settings.name = name;
-  settings.type = type;
-  settings.joint = joint;
-  settings.over_time = OverTime::max_abs;
-  return settings;
+ResponseSettings largest(const std::string& name, const AnyResponse& what) {
+  return {name, what, OverTime::max_abs};
 }
 
 std::vector<ResponseSettings> drive_settings(const ProblemFile& problem) {
@@ -39,10 +32,10 @@ std::vector<ResponseSettings> drive_settings(const ProblemFile& problem) {
     if (!joint.drive) continue;
     const bool turns = joint.drive->coordinate == DrivenCoordinate::angle;
     wanted.push_back(
-        settings_of(turns ? ResponseType::drive_torque : ResponseType::drive_force, joint.name,
-                    (turns ? "torque of the drive " : "force of the drive ") + joint.name));
+        largest((turns ? "torque of the drive " : "force of the drive ") + joint.name,
+                DriveResponse{joint.name, turns ? DriveNumber::torque : DriveNumber::force}));
     wanted.push_back(
-        settings_of(ResponseType::drive_power, joint.name, "power of the drive " + joint.name));
+        largest("power of the drive " + joint.name, DriveResponse{joint.name, DriveNumber::power}));
   }
   return wanted;
 }
@@ -51,11 +44,11 @@ std::vector<ResponseSettings> wanted_settings(const ProblemFile& problem) {
   std::vector<ResponseSettings> wanted = drive_settings(problem);
   for (const Joint& joint : problem.scene.joints) {
     wanted.push_back(
-        settings_of(ResponseType::reaction_force, joint.name, "force in the joint " + joint.name));
-    wanted.back().direction = magnitude_direction;
+        largest("force in the joint " + joint.name,
+                ReactionResponse{joint.name, ReactionKind::force, magnitude_direction}));
   }
-  wanted.push_back(settings_of(ResponseType::kinetic_energy, "", "kinetic energy"));
-  wanted.push_back(settings_of(ResponseType::elastic_energy, "", "elastic energy"));
+  wanted.push_back(largest("kinetic energy", EnergyResponse{.kind = EnergyKind::kinetic}));
+  wanted.push_back(largest("elastic energy", EnergyResponse{.kind = EnergyKind::elastic}));
   std::erase_if(wanted, [&](const auto& settings) { return is_asked_for(problem, settings); });
   return wanted;
 }

@@ -24,16 +24,6 @@ namespace {
 /// Of one beam; thinned where the mesh is finer.
 constexpr std::size_t fewest_stations = 13, most_stations = 33;
 
-ResponseSettings place_settings(const std::string& body, double share, int direction) {
-  ResponseSettings settings;
-  settings.name = body;
-  settings.type = ResponseType::position;
-  settings.bodies = {body};
-  settings.at = share;
-  settings.direction = direction;
-  return settings;
-}
-
 /// Shares of the nodes of a beam, of all its parts.
 std::vector<double> node_shares(const std::vector<const BodyModel*>& parts) {
   std::vector<double> shares = {0.0};
@@ -101,7 +91,7 @@ class BodySampler {
     } else {
       motion_.stations = {0.0};
       motion_.parts = {0};
-      add_position(place_settings(body.name, 0.0, 0), model);
+      add_position({body.name}, model);
     }
     motion_.positions.resize(positions_.size(), instants);
     motion_.rotations.resize(4 * static_cast<Eigen::Index>(parts_.size()), instants);
@@ -134,9 +124,10 @@ class BodySampler {
   BodyTrack take() { return std::move(motion_); }
 
  private:
-  void add_position(ResponseSettings settings, const Model& model) {
-    for (settings.direction = 0; settings.direction < 3; ++settings.direction) {
-      positions_.push_back(make_signal_of_body(settings, model));
+  void add_position(const ResponsePoint& point, const Model& model) {
+    for (int direction = 0; direction < 3; ++direction) {
+      const PointMotionResponse motion{point, {direction}};
+      positions_.push_back(make_signal_of_body({point.body, motion}, model));
     }
   }
 
@@ -144,15 +135,13 @@ class BodySampler {
     motion_.stations = beam_stations(parts_);
     for (const double share : motion_.stations) {
       motion_.parts.push_back(part_at(parts_, share));
-      add_position(place_settings(motion_.body, share, 0), model);
+      add_position({motion_.body, share}, model);
     }
     if (!parts_.front()->is_elastic) return;
     for (const double share : motion_.stations) {
-      ResponseSettings settings = place_settings(motion_.body, share, 0);
-      settings.type = ResponseType::stress;
-      settings.station = share;
+      const StressResponse stress{{.bodies = {motion_.body}, .station = share}};
       try {
-        stresses_.push_back(make_signal_of_body(settings, model));
+        stresses_.push_back(make_signal_of_body({motion_.body, stress}, model));
       } catch (const InputError&) {  // no such stress of this body
         stresses_.clear();
         return;
@@ -169,9 +158,7 @@ class BodySampler {
     for (const int place : order) {
       motion_.stations.push_back(places.positions(0, place));
       motion_.parts.push_back(0);
-      ResponseSettings settings = place_settings(motion_.body, 0.0, 0);
-      settings.place = places.names[place];
-      add_position(settings, model);
+      add_position({motion_.body, 0.0, places.names[place]}, model);
     }
   }
 

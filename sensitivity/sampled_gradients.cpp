@@ -162,7 +162,7 @@ class SampledGradients {
     if (const auto* constant = std::get_if<DesignConstant>(&response.source)) {
       gradients_.row(row) += part.weight * constant->derivatives.transpose();
     } else if (response.mode()) {
-      gradients_.row(row) += part.weight * frequency_gradient(response.mode()->choice);
+      gradients_.row(row) += part.weight * frequency_gradient(*response.mode());
     } else {
       Signal* signal = response.history()->signal.get();
       for (const Sample& sample : part.samples) {

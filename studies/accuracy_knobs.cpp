@@ -176,16 +176,13 @@ std::optional<Variation> scaled_modes(const ProblemFile& problem, double factor)
 }
 
 /// What is nothing, or nothing but noise, in a rigid mechanism.
-constexpr std::array of_elasticity = {
-    ResponseType::stress,           ResponseType::fatigue,       ResponseType::fatigue_damage,
-    ResponseType::shear_stress,     ResponseType::deflection,    ResponseType::frequency,
-    ResponseType::damping_ratio,    ResponseType::growth_rate,   ResponseType::buckling,
-    ResponseType::lateral_buckling, ResponseType::elastic_energy};
+bool is_of_elasticity(const ResponseSettings& response) {
+  return stress_places(response) || response.is(EnergyKind::elastic) ||
+         response.is<DeflectionResponse, ModeResponse, BucklingResponse, LateralBucklingResponse>();
+}
 
 bool needs_elasticity(const ProblemFile& problem) {
-  return std::ranges::any_of(problem.responses, [](const ResponseSettings& response) {
-    return std::ranges::count(of_elasticity, response.type) > 0;
-  });
+  return std::ranges::any_of(problem.responses, is_of_elasticity);
 }
 
 Override make_choice(const std::string& effect, const char* choice) {

@@ -120,9 +120,9 @@ Eigen::MatrixXd joined_gradients(const Optimum& optimum, const std::vector<CaseD
   return all;
 }
 
-const char* word_of(ResponseType type) {
-  if (type == ResponseType::drive_torque) return "torque";
-  return type == ResponseType::drive_force ? "force" : "power";
+const char* word_of(DriveNumber number) {
+  if (number == DriveNumber::torque) return "torque";
+  return number == DriveNumber::force ? "force" : "power";
 }
 
 /// "Drive bearing: torque 464.28 → 199.13 N m (−57.1 %), power 92856 → 39826 W (−57.1 %)", a line
@@ -136,15 +136,16 @@ std::string drives_text(const ProblemFile& problem, const Analysis& start,
     const ResponseSettings& settings = after.all[i].settings;
     const ShownUnit unit = unit_of(settings);
     const double from = before.all[i].value, to = after.all[i].value;
-    const bool is_power = settings.type == ResponseType::drive_power;
-    line += fmt::format("{} {} → {} {}{}", word_of(settings.type), significant(unit.shown(from)),
+    const auto& drive = *settings.as<DriveResponse>();
+    const bool is_power = drive.kind == DriveNumber::power;
+    line += fmt::format("{} {} → {} {}{}", word_of(drive.kind), significant(unit.shown(from)),
                         significant(unit.shown(to)), unit.name,
                         from == 0.0 ? "" : fmt::format(" ({})", signed_percent(to / from - 1.0)));
     if (!is_power) {
       line += ", ";
       continue;
     }
-    text += wrapped(fmt::format("Drive {}: {}\n", settings.joint, line), "  ");
+    text += wrapped(fmt::format("Drive {}: {}\n", drive.joint, line), "  ");
     line.clear();
   }
   return text;

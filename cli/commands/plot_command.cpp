@@ -83,8 +83,7 @@ std::vector<double> limits_on(const ProblemFile& problem, const std::string& nam
   std::vector<double> limits;
   const ResponseSettings& response = find_response(problem, name);
   if (!limits_each_instant(response)) return limits;
-  const bool has_signs =
-      response.over_time == OverTime::max_abs && response.type != ResponseType::stress;
+  const bool has_signs = response.over_time == OverTime::max_abs && !response.is<StressResponse>();
   for (const ConstraintSettings& constraint : problem.constraints) {
     if (constraint.response != name) continue;
     if (constraint.lower) limits.push_back(*constraint.lower);

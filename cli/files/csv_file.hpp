@@ -97,11 +97,9 @@ inline ShownUnit history_unit(const ResponseSettings& response) {
 /// Whether a limit on the number is one on each instant of its history: so of peaks, but not of what
 /// cycles of stress, a mean or an integral make of the history.
 inline bool limits_each_instant(const ResponseSettings& response) {
-  const bool is_of_cycles =
-      response.type == ResponseType::fatigue || response.type == ResponseType::fatigue_damage;
   const bool is_peak = response.over_time == OverTime::max || response.over_time == OverTime::min ||
                        response.over_time == OverTime::max_abs;
-  return is_peak && !is_of_cycles;
+  return is_peak && !response.is<FatigueResponse>();
 }
 
 }  // namespace pleuel

@@ -63,15 +63,14 @@ Json unit_document(const ShownUnit& unit) {
 }
 
 Json meaning_document(const ResponseSettings& response) {
-  Json document = {{"type", kind_of(response.type).word},
+  Json document = {{"type", kind_of(response.what).word},
                    {"over_time", word_of(over_time_kinds, response.over_time)},
-                   {"bodies", response.bodies},
+                   {"bodies", bodies_of(response)},
                    {"unit", unit_document(unit_of(response))},
                    {"history_unit", unit_document(history_unit(response))},
                    {"limits_history", limits_each_instant(response)}};
-  if (!response.joint.empty()) document["joint"] = response.joint;
-  if (response.station) document["at"] = *response.station;
-  if (kind_of(response.type).is_of_point) document["at"] = response.at;
+  if (const std::string joint = joint_of(response); !joint.empty()) document["joint"] = joint;
+  if (const std::optional<double> at = place_along(response)) document["at"] = *at;
   return document;
 }
 

@@ -87,10 +87,9 @@ std::optional<double> stress_limit(const ProblemFile& problem, const std::string
   for (const ConstraintSettings& constraint : problem.constraints) {
     if (constraint.response.empty() || !constraint.upper) continue;
     const ResponseSettings& response = find_response(problem, constraint.response);
-    const std::vector<std::string>& bodies = response.bodies;
-    const bool is_of_body = response.type == ResponseType::stress &&
-                            response.part == StressPart::von_mises &&
-                            std::ranges::find(bodies, body) != bodies.end();
+    const auto* stress = response.as<StressResponse>();
+    const bool is_of_body = stress != nullptr && stress->part == StressPart::von_mises &&
+                            std::ranges::count(stress->where.bodies, body) > 0;
     if (is_of_body && (!limit || *constraint.upper < *limit)) limit = *constraint.upper;
   }
   return limit;

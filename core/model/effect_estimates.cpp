@@ -128,16 +128,20 @@ double rotary_share(const BodyModel& body) {
   return std::numbers::pi * std::numbers::pi * share / (length * length);
 }
 
+/// What is made from section forces, which needs all strain of the body.
+bool is_of_forces(const ResponseSettings& response) {
+  return stress_places(response) || response.is<SectionForceResponse>() ||
+         response.is(EnergyKind::elastic);
+}
+
 bool asks_for(const ProblemFile& problem, const std::string& body,
-              std::initializer_list<ResponseType> types) {
-  for (const ResponseSettings& response : problem.responses) {
-    if (std::ranges::find(types, response.type) == types.end()) continue;
-    if (response.bodies.empty()) return true;  // frequencies of the whole mechanism
-    if (std::ranges::find(response.bodies, body) != response.bodies.end()) {
-      return true;
-    }
-  }
-  return false;
+              bool (*is_meant)(const ResponseSettings&)) {
+  return std::ranges::any_of(problem.responses, [&](const ResponseSettings& response) {
+    if (!is_meant(response)) return false;
+    const std::vector<std::string> bodies = bodies_of(response);
+    // Without one: frequencies of the whole mechanism.
+    return bodies.empty() || std::ranges::find(bodies, body) != bodies.end();
+  });
 }
 
 /// The elastic model moved like the rigid one.
@@ -237,17 +241,13 @@ class Estimation {
     constexpr double always = std::numeric_limits<double>::infinity();
     BeamEstimates estimates;
     estimates.elasticity = change(d.displacement, d.acceleration);
-    // What is made from section forces needs all strain of the body.
-    const bool asks_for_forces =
-        asks_for(problem_, body.name,
-                 {ResponseType::stress, ResponseType::elastic_energy, ResponseType::section_force,
-                  ResponseType::fatigue, ResponseType::fatigue_damage, ResponseType::shear_stress});
-    const bool asks_for_buckling =
-        asks_for(problem_, body.name, {ResponseType::buckling, ResponseType::lateral_buckling});
-    const bool asks_for_bending =
-        asks_for(problem_, body.name,
-                 {ResponseType::deflection, ResponseType::frequency, ResponseType::damping_ratio,
-                  ResponseType::growth_rate});
+    const bool asks_for_forces = asks_for(problem_, body.name, is_of_forces);
+    const bool asks_for_buckling = asks_for(problem_, body.name, [](const ResponseSettings& one) {
+      return one.is<BucklingResponse, LateralBucklingResponse>();
+    });
+    const bool asks_for_bending = asks_for(problem_, body.name, [](const ResponseSettings& one) {
+      return one.is<DeflectionResponse, ModeResponse>();
+    });
     if (asks_for_forces || asks_for_buckling || asks_for_bending) estimates.elasticity = always;
     estimates.axial_elasticity = change(d.axial, d.axial_acceleration);
     if (asks_for_forces || asks_for_buckling) estimates.axial_elasticity = always;

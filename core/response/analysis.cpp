@@ -23,7 +23,6 @@
 #include "core/response/recorder.hpp"
 #include "core/response/validity.hpp"
 #include "core/response/whole_turns.hpp"
-#include "core/scene/response_kind.hpp"
 #include "core/scene/time_breaks.hpp"
 #include "core/start/equilibrium.hpp"
 #include "core/start/initial_state.hpp"
@@ -34,7 +33,7 @@ namespace {
 
 bool asks_for_modes(const ProblemFile& problem) {
   return std::ranges::any_of(problem.responses,
-                             [](const auto& response) { return is_of_modes(response.type); });
+                             [](const ResponseSettings& one) { return one.is<ModeResponse>(); });
 }
 
 /// What the model leaves out of the motion is part of its frequencies.
@@ -56,7 +55,7 @@ void choose_modes(bool is_damped, MotionAxes::Kind axes, Analysis& analysis) {
   for (std::size_t i = 0; i < analysis.responses.size(); ++i) {
     const Response& response = analysis.responses[i];
     if (!response.mode()) continue;
-    const ModeChoice& choice = response.mode()->choice;
+    const ModeChoice& choice = *response.mode();
     if (choice.counts_damping() != is_damped || axes_of(choice) != axes) continue;
     if (!mechanism) {
       mechanism.emplace(model_of_modes(analysis), analysis.vibrating->initial.state, is_damped,
@@ -100,12 +99,12 @@ ProblemFile without_elasticity(const ProblemFile& problem) {
   ProblemFile rigid = problem;
   rigid.effects.elasticity = EffectChoice::off;
   rigid.simulation.quasi_static_start = false;
-  std::erase_if(rigid.responses, [](const ResponseSettings& response) {
-    return response.against != DeflectionReference::rigid_mechanism;
-  });
-  for (ResponseSettings& response : rigid.responses) {
-    response.type = ResponseType::position;
-    response.against = DeflectionReference::frame;
+  rigid.responses.clear();
+  for (ResponseSettings response : problem.responses) {
+    const auto* deflection = std::get_if<DeflectionResponse>(&response.what);
+    if (!is_against_rigid_mechanism(response)) continue;
+    response.what = PointMotionResponse{deflection->point, {deflection->direction}};
+    rigid.responses.push_back(std::move(response));
   }
   return rigid;
 }
@@ -226,12 +225,12 @@ Reduction reduce_response(std::size_t i, ShortWindow short_window, Analysis& ana
     constant.value = numbers_of(analysis.responses, analysis.reductions, analysis.x).value(i);
     return constant;
   }
-  const InitialMode* mode = response.mode();
+  const ModeChoice* mode = response.mode();
   const int number = analysis.mechanism_modes[i];
   if (!mode) {
     constant.value = std::get<DesignConstant>(response.source).value;
-  } else if (mode->choice.counts_damping()) {
-    constant.value = number_of(mode->choice.of, analysis.damped_modes(number));
+  } else if (mode->counts_damping()) {
+    constant.value = number_of(mode->of, analysis.damped_modes(number));
   } else {
     constant.value = analysis.mechanism_frequencies(number);
   }

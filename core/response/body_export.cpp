@@ -17,7 +17,6 @@
 #include "core/response/stress_signal.hpp"
 #include "core/scene/beam_mesh.hpp"
 #include "core/scene/held_points.hpp"
-#include "core/scene/response_kind.hpp"
 
 namespace pleuel {
 
@@ -102,8 +101,9 @@ class PlaceFinder {
 
  private:
   void add_response(const ResponseSettings& response) {
-    if (!kind_of(response.type).is_of_point || response.bodies.front() != body_.name) return;
-    add(response.name, place_at(body_, response.at));
+    const auto* point = response_point(response);
+    if (point == nullptr || point->body != body_.name) return;
+    add(response.name, place_at(body_, point->at));
   }
 
   void add(const std::string& name, const BeamPlace& place) {

@@ -7,6 +7,7 @@
 #include "core/model/body_frames.hpp"
 #include "core/model/body_point.hpp"
 #include "core/response/signal.hpp"
+#include "core/scene/response_settings.hpp"
 
 namespace pleuel {
 
@@ -144,8 +145,6 @@ class BodyGradient {
   const BodyState& state_;
   SignalGradient& gradient_;
 };
-
-enum class TimeDerivative { none, first, second };
 
 /// Position of a place of a body, or its velocity or acceleration, global axes.
 /// @param p  in the frame, with its rates

@@ -10,7 +10,7 @@
 #include "core/base/int_size.hpp"
 #include "core/frame/body_frame.hpp"
 #include "core/response/signal.hpp"
-#include "core/scene/response_kind.hpp"
+#include "core/scene/response_settings.hpp"
 #include "core/system/projected_term.hpp"
 
 namespace pleuel {

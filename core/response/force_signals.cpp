@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
+#include "core/base/find_named.hpp"
 #include "core/model/body_energy.hpp"
 #include "core/model/joint_reaction.hpp"
 #include "core/response/composed_signals.hpp"
 #include "core/response/response.hpp"
-#include "core/scene/response_kind.hpp"
 #include "core/system/term.hpp"
 
 namespace pleuel {
@@ -84,53 +84,57 @@ class GaugeSignal final : public Signal {
   std::string name_;
 };
 
-Reading reading_of(ResponseType type) {
-  switch (type) {
-    case ResponseType::joint_velocity:
-      return Reading::rate;
-    case ResponseType::spring_force:
+Reading reading_of(LoadNumber number) {
+  switch (number) {
+    case LoadNumber::spring_force:
       return Reading::force;
-    case ResponseType::motor_power:
+    case LoadNumber::motor_power:
       return Reading::motor_power;
-    case ResponseType::damper_power:
+    case LoadNumber::damper_power:
       return Reading::damper_power;
     default:
       return Reading::coordinate;
   }
 }
 
-const std::optional<GaugeModel>& find_gauge(const ResponseSettings& settings, const Model& model) {
-  if (!settings.joint.empty()) {
-    const JointModel& joint = model.joint(settings.joint);
-    return settings.coordinate == DrivenCoordinate::angle ? joint.angle : joint.displacement;
+/// @param name  of what is read
+std::unique_ptr<Signal> make_gauge_signal(const std::string& response, const std::string& name,
+                                          const std::optional<GaugeModel>& found, Reading reading,
+                                          const Model& model) {
+  if (!found) {
+    refuse_response(response, fmt::format("\"{}\" has no such relative coordinate: one of its "
+                                          "bodies is a point that does not turn",
+                                          name));
   }
-  return std::ranges::find_if(model.loads,
-                              [&](const LoadModel& load) { return load.name == settings.load; })
-      ->gauge;
+  auto signal = std::make_unique<GaugeSignal>(found->gauge, reading, name);
+  if (!found->map) return signal;
+  return std::make_unique<ProjectedSignal>(std::move(signal), *found->map,
+                                           model.mechanism.system->variables());
 }
 
 }  // namespace
 
-std::unique_ptr<Signal> make_gauge_signal(const ResponseSettings& settings, const Model& model) {
-  const std::string name = settings.joint.empty() ? settings.load : settings.joint;
-  const std::optional<GaugeModel>& found = find_gauge(settings, model);
-  if (!found) {
-    refuse_response(settings.name, fmt::format("\"{}\" has no such relative coordinate: one of its "
-                                               "bodies is a point that does not turn",
-                                               name));
-  }
-  auto signal =
-      std::make_unique<GaugeSignal>(found->gauge, reading_of(observed_type(settings.type)), name);
-  if (!found->map) return signal;
-  return std::make_unique<ProjectedSignal>(std::move(signal), *found->map,
-                                           model.mechanism.system->variables());
+std::unique_ptr<Signal> make_gauge_signal(const std::string& response,
+                                          const JointMotionResponse& motion, const Model& model) {
+  const JointModel& joint = model.joint(motion.joint);
+  const bool is_position = motion.derivative == TimeDerivative::none;
+  return make_gauge_signal(
+      response, motion.joint,
+      motion.coordinate == DrivenCoordinate::angle ? joint.angle : joint.displacement,
+      is_position ? Reading::coordinate : Reading::rate, model);
+}
+
+std::unique_ptr<Signal> make_gauge_signal(const std::string& response, const LoadResponse& load,
+                                          const Model& model) {
+  const LoadModel& one = *find_named(model.loads, load.load);
+  return make_gauge_signal(response, load.load, one.gauge, reading_of(load.kind), model);
 }
 
 namespace {
 
 class ReactionSignal final : public Signal {
  public:
-  ReactionSignal(const JointModel& joint, const ReactionPart& part)
+  ReactionSignal(const JointModel& joint, const ReactionResponse& part)
       : reaction_(joint), part_(part) {}
 
   int channels() const override { return 1; }
@@ -161,16 +165,17 @@ class ReactionSignal final : public Signal {
   /// The rows of the force or of the moment.
   template <class Rows>
   Eigen::Matrix<double, 3, Rows::ColsAtCompileTime> part_of(const Rows& rows) const {
-    return rows.template middleRows<3>(part_.kind == ReactionPart::Kind::force ? 0 : 3);
+    return rows.template middleRows<3>(part_.kind == ReactionKind::force ? 0 : 3);
   }
 
   JointReaction reaction_;
-  ReactionPart part_;
+  ReactionResponse part_;
 };
 
 }  // namespace
 
-std::unique_ptr<Signal> make_reaction_signal(const JointModel& joint, const ReactionPart& part) {
+std::unique_ptr<Signal> make_reaction_signal(const JointModel& joint,
+                                             const ReactionResponse& part) {
   return std::make_unique<ReactionSignal>(joint, part);
 }
 

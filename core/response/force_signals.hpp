@@ -5,32 +5,26 @@
 #include "core/model/model.hpp"
 #include "core/response/signal.hpp"
 #include "core/response/term_product.hpp"
+#include "core/scene/response_settings.hpp"
 #include "core/start/redundancy.hpp"
 
 namespace pleuel {
 
-enum class DriveNumber {
-  /// −λ of its equation: the torque [N m] about the joint's axis that a drive of an angle exerts on the
-  /// second body of its joint, or the force [N] along the axis (of a distance: along the connection) of
-  /// a drive of a displacement.
-  effort,
-  power  ///< −λ ḟ(t) [W]: what the drive f(t) supplies to the mechanism, −λᵀ ∂Φ/∂t
-};
-
+/// The effort −λ of its equation: the torque [N m] about the joint's axis that a drive of an angle exerts
+/// on the second body of its joint, or the force [N] along the axis (of a distance: along the
+/// connection) of a drive of a displacement. Or its power −λ ḟ(t) [W]: what the drive f(t) supplies
+/// to the mechanism, −λᵀ ∂Φ/∂t.
 /// @param joint  must outlive the signal
 std::unique_ptr<Signal> make_drive_signal(const JointModel& joint, DriveNumber number);
 
 /// Position and velocity of a joint, length and pull of a spring, power of a motor: what a gauge of
 /// the model reads (core/system/term.hpp).
+/// @param response  its name
 /// @throws InputError where the model has no such gauge
-std::unique_ptr<Signal> make_gauge_signal(const ResponseSettings& settings, const Model& model);
-
-/// What is asked for of the wrench of a joint.
-struct ReactionPart {
-  enum class Kind { force, moment };
-  Kind kind = Kind::force;
-  int direction = 0;  ///< 0 … 2: global x, y, z, or magnitude_direction
-};
+std::unique_ptr<Signal> make_gauge_signal(const std::string& response,
+                                          const JointMotionResponse& motion, const Model& model);
+std::unique_ptr<Signal> make_gauge_signal(const std::string& response, const LoadResponse& load,
+                                          const Model& model);
 
 /// What a joint, its drive included, exerts on its second body at that body's point of the joint:
 ///     force = −(∂Φ/∂P₂)ᵀ λ [N],    moment about the point = −(∂Φ/∂θ₂)ᵀ λ [N m]
@@ -43,7 +37,7 @@ struct ReactionPart {
 /// The signal is written in the numbers of the joint: local ones where the joint has a map, so that
 /// a ProjectedSignal must lead there.
 /// @param joint  must outlive the signal
-std::unique_ptr<Signal> make_reaction_signal(const JointModel& joint, const ReactionPart& part);
+std::unique_ptr<Signal> make_reaction_signal(const JointModel& joint, const ReactionResponse& part);
 
 /// A signal of multipliers where constraints are redundant: sees those of least norm in place of
 /// those of the constraints that were kept.

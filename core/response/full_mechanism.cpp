@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "core/scene/response_kind.hpp"
-
 namespace pleuel {
 
 namespace {
@@ -29,8 +27,10 @@ void complete_inertia(RigidBody& body) {
 }
 
 bool asks_for_damping(const ProblemFile& problem) {
-  return std::ranges::any_of(problem.responses,
-                             [](const auto& response) { return response.mode.counts_damping(); });
+  return std::ranges::any_of(problem.responses, [](const ResponseSettings& response) {
+    const auto* one = response.as<ModeResponse>();
+    return one != nullptr && one->mode.counts_damping();
+  });
 }
 
 bool has_modal_damping(const BeamBody& beam) {
@@ -45,8 +45,9 @@ bool is_reduced(const Body& body) {
 }  // namespace
 
 bool asks_for_mechanism_modes(const ProblemFile& problem) {
-  return std::ranges::any_of(problem.responses, [](const auto& response) {
-    return is_of_modes(response.type) && response.bodies.empty();
+  return std::ranges::any_of(problem.responses, [](const ResponseSettings& response) {
+    const auto* one = response.as<ModeResponse>();
+    return one != nullptr && one->body.empty();
   });
 }
 

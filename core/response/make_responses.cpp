@@ -16,23 +16,29 @@
 #include "core/response/history_map.hpp"
 #include "core/response/motion_signals.hpp"
 #include "core/response/signal_of_body.hpp"
-#include "core/scene/response_kind.hpp"
 #include "core/scene/shown_unit.hpp"
 
 namespace pleuel {
 
 namespace {
 
-DesignConstant mass_of(const ResponseSettings& settings, const Model& model) {
-  DesignConstant mass{0.0, Eigen::VectorXd::Zero(model.mechanism.system->variables())};
+DesignConstant mass_of(const MassResponse& mass, const Model& model) {
+  DesignConstant sum{0.0, Eigen::VectorXd::Zero(model.mechanism.system->variables())};
   for (const BodyModel& body : model.bodies) {
-    const bool is_counted = settings.bodies.empty() ||
-                            std::ranges::find(settings.bodies, body.name) != settings.bodies.end();
+    const bool is_counted =
+        mass.bodies.empty() || std::ranges::find(mass.bodies, body.name) != mass.bodies.end();
     if (!is_counted) continue;
-    mass.value += body.mass;
-    mass.derivatives += body.mass_x;
+    sum.value += body.mass;
+    sum.derivatives += body.mass_x;
   }
-  return mass;
+  return sum;
+}
+
+/// Whether the signal shows what changes, and not its rate, which is asked for.
+bool is_rate(const ResponseSettings& settings) {
+  const TimeDerivative least =
+      settings.is<JointMotionResponse>() ? TimeDerivative::second : TimeDerivative::third;
+  return time_derivative_of(settings) >= least;
 }
 
 /// By what they observe.
@@ -59,19 +65,9 @@ class ResponseMaker {
         norm_(std::move(norm)),
         signals_(signals) {}
 
-  Response make() {
+  Response make() const {
     Response response{settings_.name, std::string(quantity_of(settings_).unit), {}};
-    if (settings_.type == ResponseType::mass) {
-      response.source = mass_of(settings_, model_);
-    } else if (settings_.type == ResponseType::expression) {
-      response.source = ResponseExpression{settings_.expression};
-    } else if (!is_of_modes(settings_.type)) {
-      response.source = history();
-    } else if (settings_.bodies.empty()) {
-      response.source = InitialMode{settings_.mode};
-    } else {
-      response.source = frequency_of_body();
-    }
+    std::visit([&](const auto& one) { response.source = source(one); }, settings_.what);
     return response;
   }
 
@@ -80,93 +76,95 @@ class ResponseMaker {
 
   int variables() const { return model_.mechanism.system->variables(); }
 
-  ResponseHistory history() {
+  using Source = decltype(Response::source);
+
+  Source source(const MassResponse& mass) const { return mass_of(mass, model_); }
+  Source source(const ExpressionResponse& expression) const { return expression; }
+  Source source(const ModeResponse& mode) const {
+    if (mode.body.empty()) return mode.mode;
+    return frequency_of_body(mode);
+  }
+  template <class Other>
+  Source source(const Other& other) const {
     std::shared_ptr<Signal>& signal = signals_[observed_by(settings_)];
-    if (!signal) signal = make_signal();
-    ResponseHistory history{signal, settings_.over_time, settings_.from, settings_.to};
-    if (settings_.type == ResponseType::energy_balance) {
-      history.map = std::make_unique<BalanceMap>();
-    }
-    if (kind_of(settings_.type).rate_of) history.map = std::make_unique<RateMap>();
+    if (!signal) signal = make_signal(other);
+    return history(signal);
+  }
+
+  ResponseHistory history(std::shared_ptr<Signal> signal) const {
+    ResponseHistory history{std::move(signal), settings_.over_time, settings_.from, settings_.to};
+    if (settings_.is<EnergyBalanceResponse>()) history.map = std::make_unique<BalanceMap>();
+    if (is_rate(settings_)) history.map = std::make_unique<RateMap>();
     // Both sides of a load: a force is not larger because it points the other way.
-    if (settings_.type == ResponseType::section_force) {
-      history.among = AmongChannels::largest_magnitude;
-    }
-    if (settings_.type == ResponseType::fatigue) history.fatigue = {settings_.criterion};
-    if (settings_.type == ResponseType::fatigue_damage) {
-      const BodyModel& body = *model_.parts(settings_.bodies.front()).front();
-      history.fatigue = {settings_.criterion, strengths_of(body).fatigue_exponent};
-    }
+    if (settings_.is<SectionForceResponse>()) history.among = AmongChannels::largest_magnitude;
+    if (const auto* fatigue = settings_.as<FatigueResponse>()) history.fatigue = rule_of(*fatigue);
     return history;
   }
 
-  std::unique_ptr<Signal> make_signal() {
-    switch (observed_type(settings_.type)) {
-      case ResponseType::drive_torque:
-      case ResponseType::drive_force:
-        return of_multipliers(make_drive_signal(driven_joint(), DriveNumber::effort));
-      case ResponseType::drive_power:
-        return of_multipliers(make_drive_signal(driven_joint(), DriveNumber::power));
-      case ResponseType::reaction_force:
-        return make_reaction(ReactionPart::Kind::force);
-      case ResponseType::reaction_moment:
-        return make_reaction(ReactionPart::Kind::moment);
-      case ResponseType::kinetic_energy:
-        return make_kinetic_energy_signal(model_, settings_.bodies);
-      case ResponseType::elastic_energy:
-        return make_elastic_energy_signal(model_, settings_.bodies);
-      case ResponseType::energy_balance:
-        return make_energy_and_power_signal(model_);
-      case ResponseType::constraint_drift:
-        if (model_.mechanism.system->multipliers() == 0) fail("the mechanism has no constraints");
-        return make_drift_signal(model_, settings_.level);
-      case ResponseType::transmission_angle:
-        return make_transmission();
-      case ResponseType::joint_position:
-      case ResponseType::joint_velocity:
-      case ResponseType::spring_length:
-      case ResponseType::spring_force:
-      case ResponseType::motor_power:
-      case ResponseType::damper_power:
-        return make_reading();
-      default:
-        return make_signal_of_body(settings_, model_);
-    }
+  FatigueRule rule_of(const FatigueResponse& fatigue) const {
+    if (fatigue.kind == FatigueNumber::utilization) return {fatigue.criterion};
+    const BodyModel& body = *model_.parts(fatigue.where.bodies.front()).front();
+    return {fatigue.criterion, strengths_of(body).fatigue_exponent};
   }
 
-  std::unique_ptr<Signal> make_transmission() const {
-    const BodyModel& body = *model_.parts(settings_.bodies.front()).front();
-    if (settings_.along) {
-      return make_transmission_angle(
-          body, Eigen::Map<const Eigen::Vector3d>(settings_.along->data()).eval());
-    }
-    return make_transmission_angle(body, *model_.parts(settings_.bodies.back()).front());
+  template <class Other>
+  std::unique_ptr<Signal> make_signal(const Other&) const {
+    return make_signal_of_body(settings_, model_);
   }
 
-  std::unique_ptr<Signal> make_reading() const { return make_gauge_signal(settings_, model_); }
-
-  DesignConstant frequency_of_body() const {
-    const BodyModel& body = with_all_modes_.body(settings_.bodies.front());
-    try {
-      return body_frequency(body, settings_.mode, variables());
-    } catch (const InputError& error) {
-      fail(error.what());
-    }
-  }
-
-  const JointModel& driven_joint() const {
-    const JointModel& joint = model_.joint(settings_.joint);
+  std::unique_ptr<Signal> make_signal(const DriveResponse& drive) const {
+    const JointModel& joint = model_.joint(drive.joint);
     if (joint.drive_row < 0) fail(fmt::format("the joint \"{}\" has no drive", joint.name));
-    return joint;
+    return of_multipliers(make_drive_signal(joint, drive.kind));
   }
 
-  std::unique_ptr<Signal> make_reaction(ReactionPart::Kind kind) const {
-    const JointModel& joint = model_.joint(settings_.joint);
-    auto signal = make_reaction_signal(joint, {kind, settings_.direction});
+  std::unique_ptr<Signal> make_signal(const ReactionResponse& reaction) const {
+    const JointModel& joint = model_.joint(reaction.joint);
+    auto signal = make_reaction_signal(joint, reaction);
     if (joint.map) {
       signal = std::make_unique<ProjectedSignal>(std::move(signal), *joint.map, variables());
     }
     return of_multipliers(std::move(signal));
+  }
+
+  std::unique_ptr<Signal> make_signal(const EnergyResponse& energy) const {
+    const auto make = energy.kind == EnergyKind::kinetic ? make_kinetic_energy_signal
+                                                         : make_elastic_energy_signal;
+    return make(model_, bodies_of(settings_));
+  }
+
+  std::unique_ptr<Signal> make_signal(const EnergyBalanceResponse&) const {
+    return make_energy_and_power_signal(model_);
+  }
+
+  std::unique_ptr<Signal> make_signal(const DriftResponse& drift) const {
+    if (model_.mechanism.system->multipliers() == 0) fail("the mechanism has no constraints");
+    return make_drift_signal(model_, drift.level);
+  }
+
+  std::unique_ptr<Signal> make_signal(const TransmissionAngleResponse& angle) const {
+    const BodyModel& body = *model_.parts(angle.bodies.front()).front();
+    if (angle.guide) {
+      return make_transmission_angle(body,
+                                     Eigen::Map<const Eigen::Vector3d>(angle.guide->data()).eval());
+    }
+    return make_transmission_angle(body, *model_.parts(angle.bodies.back()).front());
+  }
+
+  std::unique_ptr<Signal> make_signal(const JointMotionResponse& motion) const {
+    return make_gauge_signal(settings_.name, motion, model_);
+  }
+
+  std::unique_ptr<Signal> make_signal(const LoadResponse& load) const {
+    return make_gauge_signal(settings_.name, load, model_);
+  }
+
+  DesignConstant frequency_of_body(const ModeResponse& mode) const {
+    try {
+      return body_frequency(with_all_modes_.body(mode.body), mode.mode, variables());
+    } catch (const InputError& error) {
+      fail(error.what());
+    }
   }
 
   /// Where constraints are redundant, multipliers are those of least norm.
@@ -200,7 +198,7 @@ std::vector<Response> make_responses(const std::vector<ResponseSettings>& settin
   std::size_t against_rigid = 0;  // the rigid mechanism has these only, in this order
   for (const ResponseSettings& setting : settings) {
     responses.push_back(ResponseMaker(setting, model, with_all_modes, norm, signals).make());
-    if (setting.against == DeflectionReference::rigid_mechanism) {
+    if (is_against_rigid_mechanism(setting)) {
       std::get<ResponseHistory>(responses.back().source).rigid_response = against_rigid++;
     }
   }

@@ -52,7 +52,7 @@ std::optional<Peak> find_peak(const ProblemFile& problem, const Analysis& analys
     return std::abs(a.weight) < std::abs(b.weight);
   });
   Peak peak{analysis.trajectory.time(sample.step), of.history()->signal->describe(sample.channel)};
-  const std::vector<std::string>& bodies = problem.responses[response].bodies;
+  const std::vector<std::string> bodies = bodies_of(problem.responses[response]);
   if (bodies.size() == 1) peak.share = share_of_place(analysis.model, bodies.front(), peak.place);
   return peak;
 }

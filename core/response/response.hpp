@@ -8,7 +8,7 @@
 #include "core/response/history_map.hpp"
 #include "core/response/reduction.hpp"
 #include "core/response/signal.hpp"
-#include "core/scene/mode_choice.hpp"
+#include "core/scene/response_settings.hpp"
 
 namespace pleuel {
 
@@ -16,16 +16,6 @@ namespace pleuel {
 struct DesignConstant {
   double value = 0.0;
   Eigen::VectorXd derivatives;  ///< one a design variable
-};
-
-/// A number of a mode of the whole mechanism at its initial state, whose derivatives it takes.
-struct InitialMode {
-  ModeChoice choice;  ///< its axis is a global one
-};
-
-/// A formula of other responses and of design variables (core/response/expression_value.hpp).
-struct ResponseExpression {
-  std::shared_ptr<const Expression> expression;
 };
 
 /// How cycles of stress become a number, in place of a reduction over time. The channels of the
@@ -53,13 +43,15 @@ struct ResponseHistory {
 struct Response {
   std::string name;
   std::string unit;  ///< SI
-  std::variant<DesignConstant, InitialMode, ResponseHistory, ResponseExpression> source;
+  /// A mode is one of the whole mechanism at its initial state, whose derivatives it takes; a formula is
+  /// evaluated by core/response/expression_value.hpp.
+  std::variant<DesignConstant, ModeChoice, ResponseHistory, ExpressionResponse> source;
 
   /// What is observed; null for a number that is none of a motion.
   const ResponseHistory* history() const { return std::get_if<ResponseHistory>(&source); }
-  const InitialMode* mode() const { return std::get_if<InitialMode>(&source); }
+  const ModeChoice* mode() const { return std::get_if<ModeChoice>(&source); }
   const Expression* expression() const {
-    const auto* formula = std::get_if<ResponseExpression>(&source);
+    const auto* formula = std::get_if<ExpressionResponse>(&source);
     return formula ? formula->expression.get() : nullptr;
   }
   bool is_fatigue() const { return history() && history()->fatigue; }

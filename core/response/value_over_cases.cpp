@@ -12,7 +12,7 @@ namespace {
 ResponseNumbers numbers_over_cases(const ProblemFile& joined, const Eigen::VectorXd& x,
                                    const ValueInCase& value_in_case) {
   const auto expression_of = [&](std::size_t response) {
-    return is_over_cases(joined, response) ? joined.responses[response].expression.get() : nullptr;
+    return is_over_cases(joined, response) ? formula_of(joined.responses[response]) : nullptr;
   };
   const auto value_of = [&](std::size_t response) {
     return value_over_cases(joined, response, x, value_in_case);

@@ -4,16 +4,14 @@
 #include <numbers>
 
 #include "core/base/eager_matrices.hpp"
-#include "core/scene/shown_unit.hpp"
-
 namespace pleuel {
 
 bool is_counted_angle(const ResponseSettings& response) {
-  if (response.type == ResponseType::angle) return true;
-  ResponseSettings at_an_instant = response;
-  at_an_instant.over_time = OverTime::final;
-  return response.type == ResponseType::joint_position &&
-         quantity_of(at_an_instant) == quantities::angle;
+  const auto* turning = response.as<TurningResponse>();
+  if (turning != nullptr) return turning->derivative == TimeDerivative::none;
+  const auto* motion = response.as<JointMotionResponse>();
+  return motion != nullptr && motion->derivative == TimeDerivative::none &&
+         motion->coordinate == DrivenCoordinate::angle;
 }
 
 void count_turns(Eigen::MatrixXd& history) {

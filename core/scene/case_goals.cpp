@@ -62,14 +62,13 @@ ResponseSettings response_over_cases(const ProblemFile& joined, const Objective&
   const Quantity quantity = quantity_of(first);
   ResponseSettings over_cases;
   over_cases.name = name_in_case(goal.response, word_of(goal));
-  over_cases.type = ResponseType::expression;
   over_cases.unit = first.unit;
   over_cases.unit_scale = first.unit_scale;
   Expression formula = formula_over_cases(joined, goal, index);
   formula.text = over_cases.name;
   formula.quantity = quantity.name;
   formula.unit = quantity.unit;
-  over_cases.expression = std::make_shared<const Expression>(std::move(formula));
+  over_cases.what = ExpressionResponse{std::make_shared<const Expression>(std::move(formula))};
   return over_cases;
 }
 
@@ -105,14 +104,15 @@ void add_responses(ProblemFile& joined, const std::vector<bool>& is_same) {
 void renumber_formulas(ProblemFile& joined) {
   for (std::size_t i = 0; i < joined.responses.size(); ++i) {
     ResponseSettings& response = joined.responses[i];
-    if (!response.expression) continue;
-    Expression expression = *response.expression;
+    const Expression* formula = formula_of(response);
+    if (formula == nullptr) continue;
+    Expression expression = *formula;
     for (ExpressionArgument& argument : expression.arguments) {
       if (argument.kind != ExpressionArgument::Kind::response) continue;
       argument.index =
           joined_response(joined, {joined.case_responses[i].load_case, argument.index});
     }
-    response.expression = std::make_shared<const Expression>(std::move(expression));
+    response.what = ExpressionResponse{std::make_shared<const Expression>(std::move(expression))};
   }
 }
 
@@ -171,7 +171,7 @@ Objective goal_of_problem(ProblemFile& problem, Objective goal) {
   const std::size_t index = index_of(problem.cases.front(), goal.response);
   ResponseSettings over_cases = response_over_cases(problem, goal, index);
   const ResponseSettings* known = find_named(problem.responses, over_cases.name);
-  while (known != nullptr && !is_same(*known->expression, *over_cases.expression)) {
+  while (known != nullptr && !is_same(*formula_of(*known), *formula_of(over_cases))) {
     over_cases.name += " (other weights)";
     known = find_named(problem.responses, over_cases.name);
   }

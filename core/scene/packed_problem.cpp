@@ -63,6 +63,10 @@ void transfer(Archive& archive, SimulationSettings& settings) {
           settings.moves_by_bending, settings.checks_resolution);
 }
 
+/// It has no members.
+template <class Archive>
+void transfer(Archive&, EnergyBalanceResponse&) {}
+
 // Declared elsewhere: the members are packed here alone.
 
 void transfer(Packer& archive, ProblemFile& problem) {

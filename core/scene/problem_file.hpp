@@ -2,7 +2,6 @@
 
 /// Everything that a problem file says, as plain structs.
 
-#include <array>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -13,8 +12,7 @@
 
 #include "core/base/time_integration.hpp"
 #include "core/scene/kind_table.hpp"
-#include "core/scene/mode_choice.hpp"
-#include "core/scene/scene.hpp"
+#include "core/scene/response_settings.hpp"
 
 namespace pleuel {
 
@@ -137,128 +135,6 @@ struct DesignVariable {
   std::vector<SizeChoice> choices = {};
 
   bool has_choices() const { return !choices.empty(); }
-};
-
-enum class ResponseType {
-  mass,
-  stress,
-  deflection,
-  position,
-  velocity,
-  acceleration,
-  drive_torque,  ///< of a drive of an angle
-  drive_force,   ///< of a drive of a displacement
-  drive_power,
-  reaction_force,
-  reaction_moment,
-  frequency,
-  buckling,
-  kinetic_energy,
-  elastic_energy,
-  energy_balance,
-  constraint_drift,
-  expression,        ///< a formula of other responses and of variables
-  section_force,     ///< of a beam, at a place
-  angular_velocity,  ///< of a body frame
-  joint_position,    ///< relative angle or displacement of both bodies
-  joint_velocity,
-  spring_length,
-  spring_force,  ///< positive: it pulls
-  motor_power,   ///< of a motor in a joint
-  damper_power,  ///< what damper and resistance to a rate take, of a spring or in a joint
-  angle,         ///< of a body frame
-  angular_acceleration,
-  fatigue,           ///< utilization by the cycle of a window of time
-  shear_stress,      ///< of shear forces and torsion
-  fatigue_damage,    ///< by all cycles of a window of time
-  lateral_buckling,  ///< out of the plane in which a beam bends
-  jerk,
-  angular_jerk,
-  joint_acceleration,
-  damping_ratio,      ///< of a mode of the mechanism
-  growth_rate,        ///< of the mode that grows fastest, or decays most slowly
-  transmission_angle  ///< between two members, or a member and the normal of a guide
-};
-enum class OverTime { max, min, max_abs, rms, mean, integral, final };
-
-/// What of the stress at a point is asked for.
-enum class StressPart {
-  von_mises,
-  normal,      ///< signed: axial and bending
-  axial,       ///< N/A
-  bending,     ///< without N/A
-  shear,       ///< of torsion
-  utilization  ///< von Mises stress over the strength of the material
-};
-
-/// Section forces of a beam, local axes: those of the part behind the section on the part before it.
-enum class SectionForcePart {
-  axial,     ///< N, positive: tension
-  moment_y,  ///< bends in the plane of x and z
-  moment_z,  ///< bends in the plane of x and y
-  torque,    ///< about the axis of the beam
-  shear_y,   ///< across it, along local y
-  shear_z
-};
-
-/// From which side a section is looked at where a load or a joint acts.
-enum class SectionSide { before, behind };
-
-inline bool is_force(SectionForcePart part) {
-  return part == SectionForcePart::axial || part == SectionForcePart::shear_y ||
-         part == SectionForcePart::shear_z;
-}
-
-/// How much mean stress a cycle bears beside its amplitude (core/response/fatigue.hpp).
-enum class FatigueCriterion { goodman, gerber, soderberg };
-
-/// What a deflection is measured against.
-enum class DeflectionReference {
-  frame,           ///< the body frame
-  chord,           ///< the straight line through both ends of the beam
-  rigid_mechanism  ///< the same place in the same mechanism without elasticity, same drives and
-                   ///< loads
-};
-
-/// Whether constraints themselves or their rates are looked at.
-enum class DriftLevel { position, velocity };
-
-struct ResponseSettings {
-  std::string name;
-  ResponseType type = ResponseType::mass;
-  /// Mass: those counted; energies: the one that is counted (empty = all); else the one body.
-  std::vector<std::string> bodies;
-  std::optional<int> segment;     ///< stress, fatigue: only this segment, from 0
-  std::optional<double> station;  ///< stress, fatigue: only at this place along the beam, 0 … 1
-  StressPart part = StressPart::von_mises;
-  FatigueCriterion criterion = FatigueCriterion::goodman;  ///< fatigue, fatigue damage
-  SectionForcePart section_part = SectionForcePart::axial;
-  double at = 0.0;    ///< deflection, position …: place along the beam, 0 … 1
-  std::string place;  ///< the same of an imported body: its name
-  /// Deflection of an imported body against a chord: the names of the places at its ends.
-  std::optional<std::array<std::string, 2>> chord = {};
-  /// Section force: of the part before the place, or of that behind it.
-  std::optional<SectionSide> side = {};
-  DeflectionReference against = DeflectionReference::frame;
-  /// deflection: 0 … 2 = local x, y, z, magnitude_direction = √(y² + z²); deflection against the
-  /// rigid mechanism, position, velocity, acceleration, angular velocity, reaction: 0 … 2 global
-  /// axes, magnitude_direction
-  int direction = 1;
-  /// position, velocity, acceleration, angular velocity and acceleration: the component along this
-  /// unit vector, global axes; in place of `direction`. Transmission angle: the axis of a guide
-  std::optional<std::array<double, 3>> along = {};
-  std::string joint;  ///< drive torque and power, reactions, position and velocity of a joint
-  DrivenCoordinate coordinate = DrivenCoordinate::angle;  ///< position and velocity of a joint
-  std::string load;                                       ///< spring length and force, motor power
-  ModeChoice mode;                                        ///< frequency, damping ratio, growth rate
-  DriftLevel level = DriftLevel::position;                ///< constraint drift
-  OverTime over_time = OverTime::max;
-  std::optional<double> from, to;                     ///< window of time [s]
-  std::shared_ptr<const Expression> expression = {};  ///< expression
-  std::string unit;         ///< as the user wants to see it: said, or that of a limit; may be empty
-  double unit_scale = 1.0;  ///< SI value of that unit
-
-  auto operator<=>(const ResponseSettings&) const = default;
 };
 
 /// Whether the objective is to be small or large.

@@ -20,7 +20,7 @@ void add_parts(const ProblemFile& problem, std::size_t response, const IsMade& i
     parts.insert(response);
     return;
   }
-  for (const ExpressionArgument& argument : problem.responses[response].expression->arguments) {
+  for (const ExpressionArgument& argument : formula_of(problem.responses[response])->arguments) {
     if (argument.kind != ExpressionArgument::Kind::response) continue;
     add_parts(problem, argument.index, is_made, parts);
   }
@@ -38,7 +38,7 @@ std::vector<std::size_t> all_parts(const ProblemFile& problem, std::size_t respo
 
 std::vector<std::size_t> parts_of(const ProblemFile& problem, std::size_t response) {
   return all_parts(problem, response, [&](std::size_t one) {
-    return problem.responses[one].type == ResponseType::expression;
+    return problem.responses[one].is<ExpressionResponse>();
   });
 }
 
@@ -55,8 +55,8 @@ std::vector<std::string> names_made_of(
 }
 
 std::vector<std::string> bodies_about(const ResponseSettings& response, const Scene& scene) {
-  std::vector<std::string> about = response.bodies;
-  const Joint* joint = find_named(scene.joints, response.joint);
+  std::vector<std::string> about = bodies_of(response);
+  const Joint* joint = find_named(scene.joints, joint_of(response));
   if (joint != nullptr) about.insert(about.end(), joint->bodies.begin(), joint->bodies.end());
   return about;
 }
@@ -84,8 +84,8 @@ bool add_extreme_parts(const Expression& expression, std::size_t step, Operation
 
 std::vector<std::size_t> extreme_parts(const ProblemFile& problem, std::size_t response,
                                        Extreme extreme) {
-  const auto& expression = problem.responses[response].expression;
-  if (!expression) return {};
+  const Expression* expression = formula_of(problem.responses[response]);
+  if (expression == nullptr) return {};
   std::set<std::size_t> parts;
   const Operation operation = extreme == Extreme::largest ? Operation::larger : Operation::smaller;
   const bool is_one =
@@ -158,8 +158,8 @@ LinearForm linear_form(const ProblemFile& problem, const Expression& expression,
 }
 
 LinearForm linear_form(const ProblemFile& problem, std::size_t response) {
-  const auto& expression = problem.responses[response].expression;
-  if (!expression) return {std::nullopt, {{response, 1.0}}};
+  const Expression* expression = formula_of(problem.responses[response]);
+  if (expression == nullptr) return {std::nullopt, {{response, 1.0}}};
   std::vector<LinearForm> forms;
   for (const ExpressionStep& step : expression->steps) {
     forms.push_back(linear_form(problem, *expression, step, forms));
@@ -170,7 +170,7 @@ LinearForm linear_form(const ProblemFile& problem, std::size_t response) {
 }  // namespace
 
 std::vector<LinearPart> linear_parts(const ProblemFile& problem, std::size_t response) {
-  if (!problem.responses[response].expression) return {};
+  if (formula_of(problem.responses[response]) == nullptr) return {};
   const LinearForm form = linear_form(problem, response);
   std::vector<LinearPart> parts;
   for (const auto& [part, factor] : form.factors) {
@@ -182,15 +182,14 @@ std::vector<LinearPart> linear_parts(const ProblemFile& problem, std::size_t res
 bool is_monitor(const ProblemFile& problem, std::size_t response) {
   const std::vector<std::size_t> parts = parts_of(problem, response);
   return std::ranges::any_of(parts, [&](std::size_t part) {
-    const ResponseType type = problem.responses[part].type;
-    return type == ResponseType::energy_balance || type == ResponseType::constraint_drift;
+    return problem.responses[part].is<EnergyBalanceResponse, DriftResponse>();
   });
 }
 
 bool depends_on_masses_only(const ProblemFile& problem, std::size_t response) {
   const std::vector<std::size_t> parts = parts_of(problem, response);
   return std::ranges::all_of(
-      parts, [&](std::size_t part) { return problem.responses[part].type == ResponseType::mass; });
+      parts, [&](std::size_t part) { return problem.responses[part].is<MassResponse>(); });
 }
 
 }  // namespace pleuel

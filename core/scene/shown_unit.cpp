@@ -1,7 +1,6 @@
 #include "core/scene/shown_unit.hpp"
 
 #include <algorithm>
-#include <iterator>
 #include <numbers>
 #include <stdexcept>
 
@@ -13,40 +12,26 @@
 
 namespace pleuel {
 
-namespace {
-
 Quantity instant_quantity(const ResponseSettings& response) {
-  const bool is_angle = response.coordinate == DrivenCoordinate::angle;
-  switch (response.type) {
-    case ResponseType::stress:
-    case ResponseType::shear_stress:
-      if (response.part == StressPart::utilization) return quantities::pure_number;
-      break;
-    case ResponseType::section_force:
-      return is_force(response.section_part) ? quantities::force : quantities::torque;
-    case ResponseType::joint_position:
-      if (is_angle) return quantities::angle;
-      break;
-    case ResponseType::joint_velocity:
-      if (is_angle) return quantities::angular_speed;
-      break;
-    case ResponseType::joint_acceleration:
-      if (is_angle) return kind_of(ResponseType::angular_acceleration).quantity;
-      break;
-    default:
-      break;
+  if (const auto* stress = response.as<StressResponse>()) {
+    if (stress->part == StressPart::utilization) return quantities::pure_number;
   }
-  return kind_of(response.type).quantity;
+  if (const auto* force = response.as<SectionForceResponse>()) {
+    return is_force(force->part) ? quantities::force : quantities::torque;
+  }
+  if (const auto* motion = response.as<JointMotionResponse>()) {
+    const bool is_angle = motion->coordinate == DrivenCoordinate::angle;
+    if (is_angle) return kind_of(TurningResponse{.derivative = motion->derivative}).quantity;
+  }
+  return kind_of(response.what).quantity;
 }
-
-}  // namespace
 
 Quantity times_time(const Quantity& quantity) {
   if (quantity == quantities::pure_number) return quantities::time;
   if (quantity == quantities::power) return quantities::energy;
   // Of a unit the first quantity that has it; rad/s is not called a frequency.
-  const auto kind = std::ranges::find(response_kinds, quantity, &ResponseKind::quantity);
-  if (kind == std::end(response_kinds)) {
+  const auto kind = std::ranges::find(response_kinds(), quantity, &ResponseKind::quantity);
+  if (kind == response_kinds().end()) {
     throw std::logic_error(fmt::format("no response measures {}", quantity.name));
   }
   const Quantity& base =
@@ -56,9 +41,7 @@ Quantity times_time(const Quantity& quantity) {
 }
 
 Quantity quantity_of(const ResponseSettings& response) {
-  if (response.type == ResponseType::expression) {
-    return {response.expression->quantity, response.expression->unit};
-  }
+  if (const Expression* formula = formula_of(response)) return {formula->quantity, formula->unit};
   const Quantity quantity = instant_quantity(response);
   return response.over_time == OverTime::integral ? times_time(quantity) : quantity;
 }

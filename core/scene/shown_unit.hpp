@@ -13,6 +13,9 @@ namespace pleuel {
 /// [N m]; an integral over time multiplies by [s]. `.unit` is the SI unit of values and limits.
 Quantity quantity_of(const ResponseSettings& response);
 
+/// The same at an instant, before it is reduced over time.
+Quantity instant_quantity(const ResponseSettings& response);
+
 /// The quantity of the integral over time of what a response measures: "Pa s".
 Quantity times_time(const Quantity& quantity);
 

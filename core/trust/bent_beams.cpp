@@ -164,10 +164,10 @@ double share_by_proportions(const TrustedRun& run, const std::string& name) {
 int most_half_waves(const ProblemFile& problem) {
   int most = 0;
   for (const ResponseSettings& response : problem.responses) {
-    const bool is_load =
-        response.type == ResponseType::buckling || response.type == ResponseType::lateral_buckling;
-    if (is_load) most = std::max(most, 1);
-    if (response.type == ResponseType::frequency) most = std::max(most, response.mode.number + 1);
+    if (response.is<BucklingResponse, LateralBucklingResponse>()) most = std::max(most, 1);
+    const auto* one = response.as<ModeResponse>();
+    const bool is_frequency = one != nullptr && one->mode.of == ModeNumber::frequency;
+    if (is_frequency) most = std::max(most, one->mode.number + 1);
   }
   return most;
 }

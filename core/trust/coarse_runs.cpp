@@ -62,9 +62,7 @@ class ResponseChanges {
     if (response.expression() != nullptr) {
       return {std::max({size, cancelled * magnitude(i), least}), round_off_of_sums * magnitude(i)};
     }
-    if (problem_.responses[i].type == ResponseType::fatigue_damage) {
-      return {std::max(size, least), 0.0};
-    }
+    if (problem_.responses[i].is(FatigueNumber::damage)) return {std::max(size, least), 0.0};
     if (response.is_reduced_by(OverTime::integral)) {
       const Eigen::VectorXd& time = reference_.trajectory.time;
       const double sum = magnitude(i) * (time(time.size() - 1) - time(0));
@@ -79,15 +77,9 @@ class ResponseChanges {
   }
 
   bool is_coordinate(std::size_t i) const {
-    switch (problem_.responses[i].type) {
-      case ResponseType::position:
-      case ResponseType::angle:
-      case ResponseType::joint_position:
-      case ResponseType::spring_length:
-        return true;
-      default:
-        return false;
-    }
+    const ResponseSettings& response = problem_.responses[i];
+    return time_derivative_of(response) == TimeDerivative::none ||
+           response.is(LoadNumber::spring_length);
   }
 
   /// The farthest from where the file draws it.

@@ -163,10 +163,10 @@ double element_order(const ProblemFile& problem, std::size_t response) {
   const std::vector<std::size_t> parts = parts_of(problem, response);
   const bool is_of_shear = std::ranges::any_of(parts, [&](std::size_t part) {
     const ResponseSettings& one = problem.responses[part];
-    if (one.type == ResponseType::shear_stress) return true;
-    return one.type == ResponseType::section_force &&
-           (one.section_part == SectionForcePart::shear_y ||
-            one.section_part == SectionForcePart::shear_z);
+    if (one.is<ShearStressResponse>()) return true;
+    const auto* force = one.as<SectionForceResponse>();
+    return force != nullptr &&
+           (force->part == SectionForcePart::shear_y || force->part == SectionForcePart::shear_z);
   });
   return is_of_shear ? 1.0 : 2.0;
 }

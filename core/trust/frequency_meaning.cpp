@@ -53,7 +53,7 @@ std::optional<std::complex<double>> same_mode(const Analysis& analysis, std::siz
                                               const Eigen::VectorXcd& others) {
   if (others.size() == 0) return std::nullopt;
   const int mode = analysis.mechanism_modes[response];
-  if (analysis.responses[response].mode()->choice.counts_damping()) {
+  if (analysis.responses[response].mode()->counts_damping()) {
     Eigen::Index nearest = 0;
     (others.array() - analysis.damped_modes(mode)).abs().minCoeff(&nearest);
     return others(nearest);
@@ -84,7 +84,7 @@ void add_turning(const TrustedRun& run, const std::vector<const Response*>& resp
   for (const bool is_damped : {false, true}) {
     std::optional<Eigen::VectorXcd> turning;
     for (const Response* response : responses) {
-      const ModeChoice& choice = response->mode()->choice;
+      const ModeChoice& choice = *response->mode();
       if (choice.counts_damping() != is_damped) continue;
       const MotionAxes axes(mechanism, state, axes_of(choice));
       if (axes.kind() == MotionAxes::Kind::rotor) continue;  // is right

@@ -190,12 +190,8 @@ class InitialMotion {
   /// How far a place of a beam starts from a point, along the direction of a deflection.
   double moved_along(const std::string& body, const InitialDeflection& one, double share,
                      const Eigen::Vector3d& drawn) const {
-    ResponseSettings settings;
-    settings.name = "place";
-    settings.type = ResponseType::position;
-    settings.bodies = {body};
-    settings.at = share;
-    settings.along = one.direction;
+    const ResponseSettings settings{"place",
+                                    PointMotionResponse{{body, share}, {.along = one.direction}}};
     const std::vector<Response> responses = make_responses({settings}, run_.analysis.model);
     Signal& signal = *responses.front().history()->signal;
     Eigen::VectorXd value(signal.channels());

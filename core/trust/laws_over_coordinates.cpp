@@ -37,21 +37,18 @@ class CoordinateHistory {
  public:
   CoordinateHistory(const TrustedRun& run, const LawOverCoordinate& of)
       : time_(run.analysis.trajectory.time), values_(time_.size()), rates_(time_.size()) {
-    ResponseSettings settings;
-    settings.name = of.load;
+    const auto read_motion = [&](TimeDerivative derivative, Eigen::VectorXd& history) {
+      const JointMotionResponse motion{of.joint, of.coordinate, derivative};
+      read(run, *make_gauge_signal(of.load, motion, run.analysis.model), history);
+    };
     if (of.joint.empty()) {
-      settings.load = of.load;
-      settings.type = ResponseType::spring_length;
-      read(run, settings, values_);
+      const LoadResponse length{of.load, LoadNumber::spring_length};
+      read(run, *make_gauge_signal(of.load, length, run.analysis.model), values_);
       take_differences();
       return;
     }
-    settings.joint = of.joint;
-    settings.coordinate = of.coordinate;
-    settings.type = ResponseType::joint_position;
-    read(run, settings, values_);
-    settings.type = ResponseType::joint_velocity;
-    read(run, settings, rates_);
+    read_motion(TimeDerivative::none, values_);
+    read_motion(TimeDerivative::first, rates_);
     if (of.coordinate == DrivenCoordinate::angle) count_turns();
   }
 
@@ -70,12 +67,10 @@ class CoordinateHistory {
   double value(int instant) const { return values_(instant); }
 
  private:
-  static void read(const TrustedRun& run, const ResponseSettings& settings,
-                   Eigen::VectorXd& history) {
-    const std::unique_ptr<Signal> signal = make_gauge_signal(settings, run.analysis.model);
+  static void read(const TrustedRun& run, Signal& signal, Eigen::VectorXd& history) {
     for (int i = 0; i < static_cast<int>(history.size()); ++i) {
       const State state = run.analysis.trajectory.state_at(i);
-      signal->observe(state, history.segment(i, 1));
+      signal.observe(state, history.segment(i, 1));
     }
   }
 

@@ -9,7 +9,6 @@
 #include "core/response/history_reduction.hpp"
 #include "core/response/make_responses.hpp"
 #include "core/response/recorder.hpp"
-#include "core/scene/response_kind.hpp"
 #include "core/scene/response_parts.hpp"
 #include "core/scene/shown_unit.hpp"
 
@@ -42,7 +41,7 @@ constexpr int enough_instants = 200;
 
 /// What a response is compared with: a share of another response of the same run.
 struct Measure {
-  ResponseSettings settings;
+  AnyResponse what;
   double share = tiny_force;
 };
 
@@ -61,7 +60,10 @@ class RoundOff {
   std::vector<bool> find() {
     const std::vector<ResponseSettings>& responses = run_.problem.responses;
     std::vector<std::vector<Measure>> measures;
-    for (const ResponseSettings& response : responses) measures.push_back(measures_of(response));
+    for (const ResponseSettings& response : responses) {
+      measures.push_back(
+          std::visit([&](const auto& one) { return measures_of(one); }, response.what));
+    }
     const std::vector<double> measured = measure(measures);
     std::vector<bool> is_round_off(responses.size(), false);
     std::size_t next = 0;
@@ -76,7 +78,7 @@ class RoundOff {
                                   largest(run_.analysis.histories[i]) <= scale;
     }
     for (std::size_t i = 0; i < responses.size(); ++i) {
-      if (responses[i].type == ResponseType::expression) is_round_off[i] = are_all(is_round_off, i);
+      if (responses[i].is<ExpressionResponse>()) is_round_off[i] = are_all(is_round_off, i);
     }
     return is_round_off;
   }
@@ -84,7 +86,7 @@ class RoundOff {
  private:
   /// Of a damped mode: whether its number is next to nothing beside its eigenvalue.
   bool is_tiny_rate(std::size_t response) const {
-    if (!run_.analysis.responses[response].mode()->choice.counts_damping()) return false;
+    if (!run_.analysis.responses[response].mode()->counts_damping()) return false;
     const std::complex<double> s =
         run_.analysis.damped_modes(run_.analysis.mechanism_modes[response]);
     return std::abs(s.real()) <= tiny_rate * std::abs(s);
@@ -102,9 +104,7 @@ class RoundOff {
     constexpr int most_rates = 3;
     const Trajectory& trajectory = run_.analysis.trajectory;
     const double step = trajectory.time(trajectory.steps()) / trajectory.steps();
-    ResponseSettings instant = response;
-    instant.over_time = OverTime::final;
-    const Quantity quantity = quantity_of(instant);
+    const Quantity quantity = instant_quantity(response);
     for (auto [one, size] :
          {std::pair(quantities::length, size_), std::pair(quantities::angle, 1.0)}) {
       if (quantity == one) return tiny_length * size;
@@ -122,7 +122,7 @@ class RoundOff {
   /// carry it.
   double strain_scale(const ResponseSettings& response) const {
     double scale = 0.0;
-    for (const std::string& name : response.bodies) {
+    for (const std::string& name : bodies_of(response)) {
       for (const BodyModel* body : model_.parts(name)) {
         if (!body->is_beam() || !body->is_elastic) continue;
         for (const BeamElement<double>& element : body->beam.elements) {
@@ -136,61 +136,65 @@ class RoundOff {
   double of_unit_strain(const ResponseSettings& response,
                         const BeamElement<double>& element) const {
     const double force = element.young * element.section.area;
-    switch (observed_type(response.type)) {
-      case ResponseType::buckling:
-      case ResponseType::lateral_buckling:
-        return tiny_share / tiny_strain;
-      case ResponseType::section_force:
-        return is_force(response.section_part) ? force : force * size_;
-      case ResponseType::shear_stress:
-        return element.young;
-      case ResponseType::stress:
-        return response.part == StressPart::utilization ? 0.0 : element.young;
-      default:
-        return 0.0;
+    if (response.is<BucklingResponse, LateralBucklingResponse>()) return tiny_share / tiny_strain;
+    if (const auto* section = response.as<SectionForceResponse>()) {
+      return is_force(section->part) ? force : force * size_;
     }
+    const auto* stress = response.as<StressResponse>();
+    const bool is_share = stress != nullptr && stress->part == StressPart::utilization;
+    const bool is_stress = response.is<StressResponse, ShearStressResponse>();
+    return is_stress && !is_share ? element.young : 0.0;
   }
 
-  std::vector<Measure> measures_of(const ResponseSettings& response) const {
-    ResponseSettings whole = response;
-    whole.over_time = OverTime::max_abs;
-    whole.from = whole.to = std::nullopt;
-    switch (observed_type(response.type)) {
-      case ResponseType::stress:
-        whole.segment = std::nullopt;
-        whole.station = std::nullopt;
-        if (response.part != StressPart::utilization) whole.part = StressPart::von_mises;
-        return {{whole, response.station ? vanishing : tiny_force}};
-      case ResponseType::shear_stress:
-        whole.type = ResponseType::stress;
-        whole.segment = std::nullopt;
-        whole.station = std::nullopt;
-        whole.part = StressPart::von_mises;
-        return {{whole}};
-      case ResponseType::section_force:
-        return section_forces(whole);
-      case ResponseType::velocity:
-      case ResponseType::acceleration:
-      case ResponseType::angular_velocity:
-      case ResponseType::angular_acceleration:
-        whole.direction = magnitude_direction;
-        whole.along = std::nullopt;
-        return {{whole}};
-      case ResponseType::reaction_force:
-      case ResponseType::reaction_moment:
-      case ResponseType::drive_torque:
-      case ResponseType::drive_force:
-        return reactions(whole, response.type);
-      case ResponseType::drive_power:
-      case ResponseType::motor_power:
-      case ResponseType::damper_power: {
-        whole.type = ResponseType::kinetic_energy;
-        const Eigen::VectorXd& time = run_.analysis.trajectory.time;
-        return {{whole, tiny_energy() / time(time.size() - 1)}};
-      }
-      default:
-        return {};
-    }
+  template <class Other>
+  std::vector<Measure> measures_of(const Other&) const {
+    return {};
+  }
+
+  std::vector<Measure> measures_of(const StressResponse& stress) const {
+    StressResponse whole{anywhere_in(stress.where)};
+    if (stress.part == StressPart::utilization) whole.part = stress.part;
+    return {{whole, stress.where.station ? vanishing : tiny_force}};
+  }
+
+  std::vector<Measure> measures_of(const ShearStressResponse& stress) const {
+    return {{StressResponse{anywhere_in(stress.where)}}};
+  }
+
+  static StressPlaces anywhere_in(StressPlaces places) {
+    places.segment.reset();
+    places.station.reset();
+    return places;
+  }
+
+  /// Of a rate of a vector.
+  template <class OfVector>
+  requires requires(OfVector motion) { motion.component; }
+  std::vector<Measure> measures_of(const OfVector& motion) const {
+    if (motion.derivative == TimeDerivative::none) return {};
+    OfVector whole = motion;
+    whole.component = {magnitude_direction};
+    return {{whole}};
+  }
+
+  std::vector<Measure> measures_of(const ReactionResponse& reaction) const {
+    return reactions(reaction.joint, reaction.kind == ReactionKind::moment);
+  }
+
+  std::vector<Measure> measures_of(const DriveResponse& drive) const {
+    if (drive.kind == DriveNumber::power) return power();
+    return reactions(drive.joint, drive.kind == DriveNumber::torque);
+  }
+
+  std::vector<Measure> measures_of(const LoadResponse& load) const {
+    const bool is_power =
+        load.kind == LoadNumber::motor_power || load.kind == LoadNumber::damper_power;
+    return is_power ? power() : std::vector<Measure>();
+  }
+
+  std::vector<Measure> power() const {
+    const Eigen::VectorXd& time = run_.analysis.trajectory.time;
+    return {{EnergyResponse(), tiny_energy() / time(time.size() - 1)}};
   }
 
   /// Of the energy in the motion: what holds it.
@@ -201,17 +205,18 @@ class RoundOff {
 
   /// Bending moments and axial force anywhere in the body: at a pin or a free end that of the section
   /// itself is nothing but round-off. A force is a moment by the size of the mechanism.
-  std::vector<Measure> section_forces(ResponseSettings whole) const {
-    const bool is_force = pleuel::is_force(whole.section_part);
-    whole.station = std::nullopt;
-    whole.side = std::nullopt;
+  std::vector<Measure> measures_of(const SectionForceResponse& force) const {
+    SectionForceResponse whole = force;
+    const bool is_force = pleuel::is_force(whole.part);
+    whole.station.reset();
+    whole.side.reset();
     std::vector<Measure> measures = {{whole, vanishing}};
     for (const SectionForcePart part : {SectionForcePart::moment_y, SectionForcePart::moment_z}) {
-      whole.section_part = part;
+      whole.part = part;
       measures.push_back({whole, tiny_force / (is_force ? size_ : 1.0)});
     }
-    if (has_stretch(whole.bodies.front())) {
-      whole.section_part = SectionForcePart::axial;
+    if (has_stretch(whole.body)) {
+      whole.part = SectionForcePart::axial;
       measures.push_back({whole, tiny_force * (is_force ? 1.0 : size_)});
     }
     return measures;
@@ -228,23 +233,22 @@ class RoundOff {
 
   /// Force and moment in the joint, and the energy of motion; a moment as a force at the size of
   /// the mechanism, or as an energy by one radian.
-  std::vector<Measure> reactions(ResponseSettings whole, ResponseType type) const {
-    const bool is_moment =
-        type == ResponseType::reaction_moment || type == ResponseType::drive_torque;
-    whole.direction = magnitude_direction;
-    whole.type = ResponseType::reaction_force;
-    const Measure force{whole, tiny_force * (is_moment ? size_ : 1.0)};
-    whole.type = ResponseType::reaction_moment;
-    const Measure moment{whole, tiny_force / (is_moment ? 1.0 : size_)};
-    whole.type = ResponseType::kinetic_energy;
-    return {force, moment, {whole, tiny_energy() / (is_moment ? 1.0 : size_)}};
+  std::vector<Measure> reactions(const std::string& joint, bool is_moment) const {
+    const double arm = is_moment ? 1.0 : size_;
+    return {{ReactionResponse{joint, ReactionKind::force, magnitude_direction},
+             tiny_force * (is_moment ? size_ : 1.0)},
+            {ReactionResponse{joint, ReactionKind::moment, magnitude_direction}, tiny_force / arm},
+            {EnergyResponse(), tiny_energy() / arm}};
   }
 
   /// The largest magnitudes over the simulation, in order.
   std::vector<double> measure(const std::vector<std::vector<Measure>>& measures) const {
     std::vector<ResponseSettings> settings;
-    for (const auto& of_one : measures) {
-      for (const Measure& one : of_one) settings.push_back(one.settings);
+    for (std::size_t i = 0; i < measures.size(); ++i) {
+      const std::string& name = run_.problem.responses[i].name;
+      for (const Measure& one : measures[i]) {
+        settings.push_back({name, one.what, OverTime::max_abs});
+      }
     }
     if (settings.empty()) return {};
     const std::vector<Response> responses = make_responses(settings, model_);

@@ -285,14 +285,15 @@ std::vector<Finding> check_promised_buckling(const TrustedRun& run) {
   constexpr double notable = 1.1;
   const auto& responses = run.problem.responses;
   const bool is_asked = std::ranges::any_of(
-      responses, [](const auto& response) { return response.type == ResponseType::buckling; });
+      responses, [](const ResponseSettings& one) { return one.is<BucklingResponse>(); });
   if (!is_asked) return {};
   const LoadFactor load_factor(run);
   if (!load_factor.is_known()) return {};
   std::vector<Finding> findings;
   for (std::size_t i = 0; i < responses.size(); ++i) {
     const ResponseSettings& response = responses[i];
-    if (response.type != ResponseType::buckling) continue;
+    const auto* column = response.as<BucklingResponse>();
+    if (column == nullptr) continue;
     const int peak = instant_of_peak(run.analysis, i);
     const double promised = run.analysis.histories[i](0, peak);
     const double factor = load_factor.at(peak);
@@ -304,9 +305,8 @@ std::vector<Finding> check_promised_buckling(const TrustedRun& run) {
              "{2:.3g} times what presses it at t = {3:.4g} s. Together with the bodies that "
              "it is connected to, something buckles at {4:.3g} times the loads of that "
              "instant. For {5:.3g} times limit \"{0}\" to some {6:.2g}.",
-             response.name, response.bodies.front(), 1.0 / promised,
-             run.analysis.trajectory.time(peak), factor, 1.0 / allowed,
-             promised * factor * allowed),
+             response.name, column->body, 1.0 / promised, run.analysis.trajectory.time(peak),
+             factor, 1.0 / allowed, promised * factor * allowed),
          false,
          {response.name}});
   }

@@ -132,25 +132,19 @@ namespace {
 
 /// Its zero is its middle: what loads a part to one side loads it to the other.
 bool has_two_sides(const ResponseSettings& response) {
-  switch (response.type) {
-    case ResponseType::deflection:
-    case ResponseType::drive_torque:
-    case ResponseType::drive_force:
-    case ResponseType::reaction_moment:
-      return true;
-    case ResponseType::section_force:
-      return response.section_part != SectionForcePart::axial;
-    default:
-      return false;
-  }
+  const auto* section = response.as<SectionForceResponse>();
+  if (section != nullptr) return section->part != SectionForcePart::axial;
+  return response.is<DeflectionResponse>() || response.is(DriveNumber::torque) ||
+         response.is(DriveNumber::force) || response.is(ReactionKind::moment);
 }
 
+/// Forces of one section, and of others of the beam, count as one.
 bool have_one_history(const ResponseSettings& one, const ResponseSettings& other) {
-  return one.type == other.type && one.bodies == other.bodies && one.at == other.at &&
-         one.place == other.place && one.chord == other.chord && one.against == other.against &&
-         one.direction == other.direction && one.joint == other.joint &&
-         one.coordinate == other.coordinate && one.section_part == other.section_part &&
-         one.side == other.side;
+  const auto anywhere = [](AnyResponse response) {
+    if (auto* force = std::get_if<SectionForceResponse>(&response)) force->station.reset();
+    return response;
+  };
+  return anywhere(one.what) == anywhere(other.what);
 }
 
 /// Whether one looks at all instants that the other looks at.

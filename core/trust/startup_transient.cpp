@@ -52,23 +52,13 @@ bool begins_with_a_shock(const Analysis& analysis) {
 
 /// Whether deformation and forces are all that it is made from, so that it changes at once where a vibration
 /// begins; a velocity does not.
-bool changes_at_once(ResponseType type) {
-  switch (type) {
-    case ResponseType::mass:
-    case ResponseType::stress:
-    case ResponseType::shear_stress:
-    case ResponseType::section_force:
-    case ResponseType::deflection:
-    case ResponseType::position:
-    case ResponseType::joint_position:
-    case ResponseType::drive_torque:
-    case ResponseType::drive_force:
-    case ResponseType::reaction_force:
-    case ResponseType::reaction_moment:
-      return true;
-    default:
-      return false;
+bool changes_at_once(const ResponseSettings& response) {
+  if (response.is<PointMotionResponse, JointMotionResponse>()) {
+    return time_derivative_of(response) == TimeDerivative::none;
   }
+  if (response.is<DriveResponse>()) return !response.is(DriveNumber::power);
+  return response.is<MassResponse, StressResponse, ShearStressResponse, SectionForceResponse,
+                     DeflectionResponse, ReactionResponse>();
 }
 
 /// The first step of a motion that begins in equilibrium.
@@ -91,7 +81,7 @@ bool may_decide(const TrustedRun& run) {
     const auto is_small = [&](std::size_t response) {
       double sum = 0.0;
       for (const WeightedResponse& part : linearized(sudden, response).parts) {
-        if (!changes_at_once(run.problem.responses[part.response].type)) return false;
+        if (!changes_at_once(run.problem.responses[part.response])) return false;
         if (sudden.histories[part.response].size() == 0) continue;
         const Eigen::VectorXd change =
             settled->histories[part.response].col(0) - sudden.histories[part.response].col(0);

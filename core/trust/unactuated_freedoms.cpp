@@ -12,7 +12,6 @@
 #include "core/model/body_frames.hpp"
 #include "core/scene/body_groups.hpp"
 #include "core/scene/joint_kind.hpp"
-#include "core/scene/response_kind.hpp"
 #include "core/scene/response_parts.hpp"
 #include "core/start/degrees_of_freedom.hpp"
 #include "core/trust/check_list.hpp"
@@ -129,14 +128,13 @@ class IdleFreedoms {
   bool looks_at_no_motion() const {
     const auto& responses = run_.problem.responses;
     return !responses.empty() &&
-           std::ranges::all_of(responses,
-                               [](const ResponseSettings& response) {
-                                 return is_of_modes(response.type) ||
-                                        response.type == ResponseType::mass ||
-                                        response.type == ResponseType::expression;
-                               }) &&
+           std::ranges::all_of(
+               responses,
+               [](const ResponseSettings& response) {
+                 return response.is<ModeResponse, MassResponse, ExpressionResponse>();
+               }) &&
            std::ranges::any_of(responses, [](const ResponseSettings& response) {
-             return is_of_modes(response.type);
+             return response.is<ModeResponse>();
            });
   }
 
@@ -307,7 +305,7 @@ class IdleFreedoms {
   std::vector<std::string> concerned(const std::vector<std::string>& names) const {
     return names_made_of(run_.problem, [&](const ResponseSettings& response) {
       const std::vector<std::string> about = bodies_about(response, run_.problem.scene);
-      return response.type != ResponseType::mass &&
+      return !response.is<MassResponse>() &&
              (about.empty() || std::ranges::find_first_of(about, names) != about.end());
     });
   }
@@ -349,10 +347,9 @@ std::vector<Finding> check_unconnected_bodies(const TrustedRun& run) {
       "initial velocity is given: {}. Is a joint missing?",
       quoted(names), is_pushed ? "loads push it away" : stands);
   for (const ResponseSettings& response : run.problem.responses) {
-    const bool looks_there = std::ranges::any_of(response.bodies, [&](const std::string& name) {
-      return std::ranges::find(names, name) != names.end();
-    });
-    if (looks_there && response.type != ResponseType::mass) {
+    const std::vector<std::string> about = bodies_of(response);
+    const bool looks_there = std::ranges::find_first_of(about, names) != about.end();
+    if (looks_there && !response.is<MassResponse>()) {
       finding.responses.push_back(response.name);
     }
   }

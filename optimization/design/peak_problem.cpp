@@ -113,15 +113,11 @@ struct Sources {
     return source;
   }
 
-  static bool can_be_divided(const ResponseSettings& response) {
-    return has_peaks(response) || is_fatigue(response);
-  }
-
   /// @param most  peaks
   PeakDivision division_of(const ProblemFile& file, const ResponseSettings& response,
                            int most) const {
     const int places = place_count(file, response);
-    if (is_fatigue(response)) return {1, places};
+    if (response.is<FatigueResponse>()) return {1, places};
     const int most_windows = std::min(windows, step_count(file.simulation) + 1);
     const int fewest = std::min(least_windows, most_windows);
     const auto limits = int_size(problem.file().constraints);

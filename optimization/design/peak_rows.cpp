@@ -4,11 +4,11 @@
 #include <utility>
 
 #include "core/base/eager_matrices.hpp"
+#include "core/base/find_named.hpp"
 #include "core/base/int_size.hpp"
 #include "core/model/motion_plane.hpp"
 #include "core/response/history_reduction.hpp"
 #include "core/response/signal_of_body.hpp"
-#include "core/scene/response_kind.hpp"
 
 namespace pleuel {
 
@@ -21,11 +21,6 @@ constexpr int places_of_a_part = 4, most_places = 256;
 struct ChannelRange {
   Eigen::Index first = 0, count = 0;
 };
-
-const Body& body_of(const ProblemFile& file, const ResponseSettings& response) {
-  return *std::ranges::find_if(
-      file.scene.bodies, [&](const Body& body) { return body.name == response.bodies.front(); });
-}
 
 /// Ends of the places of equal size.
 /// @param together  channels of one point, which stay together
@@ -40,19 +35,14 @@ std::vector<ChannelRange> equal_places(Eigen::Index channels, int places, Eigen:
   return ranges;
 }
 
-bool is_of_stress(const ResponseSettings& response) {
-  return response.type == ResponseType::stress || response.type == ResponseType::shear_stress ||
-         is_fatigue(response);
-}
-
 bool is_round(const Section& section) {
   return std::holds_alternative<CircleSection>(section) ||
          std::holds_alternative<TubeSection>(section);
 }
 
 /// Whether the Euler loads of a beam in both planes are two numbers.
-bool has_two_euler_loads(const ProblemFile& file, const ResponseSettings& response) {
-  const auto* beam = std::get_if<BeamBody>(&body_of(file, response).shape);
+bool has_two_euler_loads(const ProblemFile& file, const BucklingResponse& buckling) {
+  const auto* beam = std::get_if<BeamBody>(&find_named(file.scene.bodies, buckling.body)->shape);
   return beam != nullptr && !std::ranges::all_of(beam->segments, [](const Segment& one) {
            return is_round(one.section);
          });
@@ -69,24 +59,31 @@ bool moves_in_a_plane(const ProblemFile& file) {
 /// is that of the worse plane at each instant.
 int planes_of(const ProblemFile& file, const ResponseSettings& response) {
   if (response.over_time == OverTime::min) return 1;
-  if (response.type == ResponseType::buckling) {
-    return has_two_euler_loads(file, response) ? 2 : 1;
+  if (const auto* buckling = response.as<BucklingResponse>()) {
+    return has_two_euler_loads(file, *buckling) ? 2 : 1;
   }
-  if (response.type == ResponseType::lateral_buckling) return moves_in_a_plane(file) ? 1 : 2;
+  if (response.is<LateralBucklingResponse>()) return moves_in_a_plane(file) ? 1 : 2;
   return 1;
+}
+
+/// A response of stress with one segment alone.
+ResponseSettings with_segment(ResponseSettings response, int segment) {
+  const auto set = [&](auto& one) {
+    if constexpr (requires { one.where; }) one.where.segment = segment;
+  };
+  std::visit(set, response.what);
+  return response;
 }
 
 /// One place a segment; empty where the segments do not add up to the channels of the response.
 std::vector<ChannelRange> places_of_segments(const Analysis& analysis,
                                              const ResponseSettings& response,
                                              Eigen::Index channels, int segments) {
-  if (analysis.model.parts(response.bodies.front()).size() != 1) return {};
+  if (analysis.model.parts(bodies_of(response).front()).size() != 1) return {};
   std::vector<ChannelRange> ranges;
   Eigen::Index first = 0;
   for (int segment = 0; segment < segments; ++segment) {
-    ResponseSettings of_segment = response;
-    of_segment.segment = segment;
-    const auto signal = make_signal_of_body(of_segment, analysis.model);
+    const auto signal = make_signal_of_body(with_segment(response, segment), analysis.model);
     ranges.push_back({first, signal->channels()});
     first += signal->channels();
   }
@@ -97,19 +94,21 @@ std::vector<ChannelRange> places_of_segments(const Analysis& analysis,
 }
 
 /// Number of segments that a response looks at; 0 if it is not of a beam.
-int segments_of(const ProblemFile& file, const ResponseSettings& response) {
-  const auto* beam = std::get_if<BeamBody>(&body_of(file, response).shape);
+int segments_of(const ProblemFile& file, const StressPlaces& places) {
+  const Body& body = *find_named(file.scene.bodies, places.bodies.front());
+  const auto* beam = std::get_if<BeamBody>(&body.shape);
   if (beam == nullptr) return 0;
-  return response.segment ? 1 : int_size(beam->segments);
+  return places.segment ? 1 : int_size(beam->segments);
 }
 
 /// Number of points of an imported body that a response looks at; 0 if it is of another one.
-int points_of(const ProblemFile& file, const ResponseSettings& response) {
-  const auto* imported = std::get_if<ImportedBody>(&body_of(file, response).shape);
+int points_of(const ProblemFile& file, const StressPlaces& places) {
+  const Body& body = *find_named(file.scene.bodies, places.bodies.front());
+  const auto* imported = std::get_if<ImportedBody>(&body.shape);
   if (imported == nullptr) return 0;
   const StressRecovery& stress = *imported->file->constants.stress;
-  return response.place.empty() ? int_size(stress.points)
-                                : int_size(named_points(stress, response.place));
+  return places.place.empty() ? int_size(stress.points)
+                              : int_size(named_points(stress, places.place));
 }
 
 void shift_channels(std::vector<Sample>& samples, Eigen::Index first) {
@@ -133,12 +132,13 @@ std::vector<ChannelRange> places_of(const Analysis& analysis, const ProblemFile&
                                     std::size_t response, int places) {
   const Eigen::Index channels = analysis.histories[response].rows();
   const ResponseSettings& settings = file.responses[response];
-  const bool is_of_beam = is_of_stress(settings) && settings.bodies.size() == 1;
-  if (is_of_beam && places == segments_of(file, settings)) {
+  const auto* stress = stress_places(settings);
+  const bool is_of_one = stress != nullptr && stress->bodies.size() == 1;
+  if (is_of_one && places == segments_of(file, *stress)) {
     auto ranges = places_of_segments(analysis, settings, channels, places);
     if (!ranges.empty()) return ranges;
   }
-  return equal_places(channels, places, is_fatigue(settings) ? 2 : 1);
+  return equal_places(channels, places, settings.is<FatigueResponse>() ? 2 : 1);
 }
 
 /// The peak of each window of some channels of a response.
@@ -150,26 +150,26 @@ std::vector<Reduction> peaks_of(const Analysis& analysis, std::size_t response,
 
 }  // namespace
 
-bool is_fatigue(const ResponseSettings& response) {
-  return response.type == ResponseType::fatigue || response.type == ResponseType::fatigue_damage;
-}
-
 bool has_peaks(const ResponseSettings& response) {
-  const bool is_constant = response.type == ResponseType::mass || is_of_modes(response.type) ||
-                           response.type == ResponseType::expression;
+  const bool is_constant = response.is<MassResponse, ModeResponse, ExpressionResponse>();
   return !is_constant && is_peak(response.over_time);
 }
 
+bool can_be_divided(const ResponseSettings& response) {
+  return has_peaks(response) || response.is<FatigueResponse>();
+}
+
 int place_count(const ProblemFile& file, const ResponseSettings& response) {
-  if (!has_peaks(response) && !is_fatigue(response)) return 1;
-  if (!is_of_stress(response)) return planes_of(file, response);
-  if (response.station) return 1;
-  if (response.bodies.size() > 1) {
-    return std::min(places_of_a_part * int_size(response.bodies), most_places);
+  if (!can_be_divided(response)) return 1;
+  const auto* stress = stress_places(response);
+  if (stress == nullptr) return planes_of(file, response);
+  if (stress->station) return 1;
+  if (stress->bodies.size() > 1) {
+    return std::min(places_of_a_part * int_size(stress->bodies), most_places);
   }
-  const int points = points_of(file, response);
+  const int points = points_of(file, *stress);
   if (points > 0) return std::min(points, most_places);
-  const int segments = segments_of(file, response);
+  const int segments = segments_of(file, *stress);
   return segments > 1 ? std::min(segments, most_places) : places_of_a_part;
 }
 

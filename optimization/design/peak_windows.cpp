@@ -115,24 +115,25 @@ constexpr double meeting = 1e-3;
 
 /// The natural frequency of a mode of what a response looks at [rad/s]; none if there is no such
 /// mode.
-std::optional<double> frequency_of_mode(const Analysis& analysis, const ResponseSettings& response,
+std::optional<double> frequency_of_mode(const Analysis& analysis, const ModeResponse& response,
                                         int number) {
   if (number < 0) return std::nullopt;
-  if (response.bodies.empty()) {
+  if (response.body.empty()) {
     const Eigen::VectorXd& all = analysis.mechanism_frequencies;
     return number < all.size() ? std::optional(all(number)) : std::nullopt;
   }
   const Model& model = model_of_modes(analysis);
-  const BodyModel& body = model.body(response.bodies.front());
+  const BodyModel& body = model.body(response.body);
   if (number >= body.elastic_size()) return std::nullopt;
   return std::sqrt(body_mode(body, {number}).square);
 }
 
 bool meets_another(const Analysis& analysis, const ResponseSettings& response) {
-  if (response.type != ResponseType::frequency || response.mode.axis) return false;
-  const double shown = *frequency_of_mode(analysis, response, response.mode.number);
+  const auto* one = response.as<ModeResponse>();
+  if (one == nullptr || one->mode.counts_damping() || one->mode.axis) return false;
+  const double shown = *frequency_of_mode(analysis, *one, one->mode.number);
   return std::ranges::any_of(std::array{-1, 1}, [&](int step) {
-    const auto other = frequency_of_mode(analysis, response, response.mode.number + step);
+    const auto other = frequency_of_mode(analysis, *one, one->mode.number + step);
     return other && std::abs(*other - shown) <= meeting * std::abs(shown);
   });
 }

@@ -16,32 +16,35 @@ namespace {
 
 // What bars are worth, over many values.
 
-std::string type_name(ResponseType type) {
-  switch (type) {
-    case ResponseType::mass:
-      return "mass";
-    case ResponseType::stress:
-      return "stress";
-    case ResponseType::deflection:
-      return "deflection";
-    case ResponseType::position:
-    case ResponseType::velocity:
-      return "position, velocity";
-    case ResponseType::acceleration:
-      return "acceleration";
-    case ResponseType::drive_torque:
-    case ResponseType::drive_force:
-    case ResponseType::drive_power:
-      return "drive";
-    case ResponseType::reaction_force:
-    case ResponseType::reaction_moment:
-      return "reaction";
-    case ResponseType::kinetic_energy:
-    case ResponseType::elastic_energy:
-      return "energy";
-    default:
-      return "other";
-  }
+std::string kind_name(const MassResponse&) {
+  return "mass";
+}
+std::string kind_name(const StressResponse&) {
+  return "stress";
+}
+std::string kind_name(const DeflectionResponse&) {
+  return "deflection";
+}
+std::string kind_name(const PointMotionResponse& motion) {
+  if (motion.derivative == TimeDerivative::third) return "other";
+  return motion.derivative == TimeDerivative::second ? "acceleration" : "position, velocity";
+}
+std::string kind_name(const DriveResponse&) {
+  return "drive";
+}
+std::string kind_name(const ReactionResponse&) {
+  return "reaction";
+}
+std::string kind_name(const EnergyResponse&) {
+  return "energy";
+}
+template <class Other>
+std::string kind_name(const Other&) {
+  return "other";
+}
+
+std::string kind_name(const AnyResponse& response) {
+  return std::visit([](const auto& one) { return kind_name(one); }, response);
 }
 
 std::string reduction_name(OverTime over_time) {
@@ -123,7 +126,7 @@ using Group = std::function<std::string(const JudgedValue&)>;
 
 /// What a value is, in words: its type with what is made of it over time.
 std::string kind_of(const JudgedValue& value) {
-  return fmt::format("{}, {}", type_name(value.type), reduction_name(value.over_time));
+  return fmt::format("{}, {}", kind_name(value.what), reduction_name(value.over_time));
 }
 
 /// Whether the step or the elements make most of its error.

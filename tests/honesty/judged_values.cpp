@@ -61,7 +61,7 @@ void judge(const JudgedScene& scene, const Coarseness& coarseness, const Referen
     JudgedValue one;
     one.scene = scene.name;
     one.response = analysis->responses[i].name;
-    one.type = file.responses[i].type;
+    one.what = file.responses[i].what;
     one.over_time = file.responses[i].over_time;
     one.coarseness = coarseness;
     one.value = value;

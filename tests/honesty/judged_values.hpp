@@ -22,7 +22,7 @@ namespace pleuel::test {
 /// One response of one simulation, with its bar and what is true.
 struct JudgedValue {
   std::string scene, response;
-  ResponseType type = ResponseType::mass;
+  AnyResponse what;
   OverTime over_time = OverTime::max;
   Coarseness coarseness;
   double value = 0.0;

@@ -482,23 +482,23 @@ Json with_response(const std::string& value) {
   return document;
 }
 
-const ResponseSettings& formula_of(const ProblemFile& problem) {
+const ResponseSettings& formula_in(const ProblemFile& problem) {
   return find_response(problem, "formula");
 }
 
 TEST(ExpressionResponse, HasTheUnitThatItsFormulaHas) {
   const ProblemFile problem = read(with_response("weight*9.81 m/s^2*place + bow*3 N"));
-  EXPECT_EQ(quantity_of(formula_of(problem)).unit, "N m");
+  EXPECT_EQ(quantity_of(formula_in(problem)).unit, "N m");
   EXPECT_EQ(unit_of(read(with_response("bow/place")).responses.back()).name, "1");
-  EXPECT_EQ(unit_of(formula_of(read(with_response("place - 2*bow")))).name, "mm");
+  EXPECT_EQ(unit_of(formula_in(read(with_response("place - 2*bow")))).name, "mm");
 }
 
 TEST(ExpressionResponse, IsShownInTheUnitThatIsAskedFor) {
   Json document = with_response("weight*9.81 m/s^2*place");
   document["responses"]["formula"]["unit"] = "N mm";
   const ProblemFile problem = read(document);
-  EXPECT_EQ(unit_of(formula_of(problem)).name, "N mm");
-  EXPECT_DOUBLE_EQ(unit_of(formula_of(problem)).shown(3.0), 3000.0);
+  EXPECT_EQ(unit_of(formula_in(problem)).name, "N mm");
+  EXPECT_DOUBLE_EQ(unit_of(formula_in(problem)).shown(3.0), 3000.0);
   document["responses"]["formula"]["unit"] = "kg";
   EXPECT_EQ(complaint(document),
             "bad.json: /responses/formula/unit must be a unit of a torque [N m], which the formula "
@@ -522,7 +522,7 @@ TEST(ExpressionResponse, OfFrequenciesTakesLimitsInHertz) {
   document["constraints"]["gap"] = {{"response", "formula"}, {"lower", "20 Hz"}};
   const ProblemFile problem = read(document);
   EXPECT_NEAR(*problem.constraints.back().lower, 125.66370614359172, 1e-12);  // 40 π
-  EXPECT_EQ(unit_of(formula_of(problem)).name, "Hz");
+  EXPECT_EQ(unit_of(formula_in(problem)).name, "Hz");
 }
 
 TEST(ExpressionResponse, DependsOnSomething) {

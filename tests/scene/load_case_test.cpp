@@ -99,7 +99,7 @@ TEST(LoadCase, ReadsFormulasWithTheResponsesOfItsOwn) {
   const ProblemFile problem = read(rail());
   const ResponseSettings& of_fast = problem.responses[11];
   ASSERT_EQ(of_fast.name, "double_tip [fast]");
-  EXPECT_EQ(problem.responses[of_fast.expression->arguments.front().index].name, "tip [fast]");
+  EXPECT_EQ(problem.responses[formula_of(of_fast)->arguments.front().index].name, "tip [fast]");
 }
 
 TEST(LoadCase, StandsForEachValueOfARange) {
@@ -266,8 +266,8 @@ TEST(AcrossCases, AreReadBesideTheResponsesOfTheCases) {
   const ResponseSettings& gap = problem.responses.back();
   ASSERT_EQ(gap.name, "gap");
   EXPECT_TRUE(is_over_cases(problem, problem.responses.size() - 1));
-  EXPECT_EQ(problem.responses[gap.expression->arguments[0].index].name, "tip [fast]");
-  EXPECT_EQ(problem.responses[gap.expression->arguments[1].index].name, "tip [slow]");
+  EXPECT_EQ(problem.responses[formula_of(gap)->arguments[0].index].name, "tip [fast]");
+  EXPECT_EQ(problem.responses[formula_of(gap)->arguments[1].index].name, "tip [slow]");
   EXPECT_EQ(problem.constraints.back().name, "evenness");
   for (const ProblemFile& one : problem.cases) {
     EXPECT_EQ(one.responses.size(), 5u);
@@ -280,7 +280,7 @@ TEST(AcrossCases, MayBeWrittenAsTablesShowThem) {
                               "'tip [fast]' - 'tip'[slow]", "= tip[fast] - 'tip [slow]'"}) {
     const ProblemFile problem =
         read(with(across(), "/responses/gap/value", fmt::format("\"{}\"", formula)));
-    EXPECT_EQ(problem.responses.back().expression->arguments.size(), 2u) << formula;
+    EXPECT_EQ(formula_of(problem.responses.back())->arguments.size(), 2u) << formula;
   }
 }
 
@@ -298,7 +298,7 @@ TEST(AcrossCases, TakeResponsesThatAreTheSameInAllAsTheyAre) {
   document["responses"]["gap"]["value"] = "weight*tip[fast]";
   document["constraints"]["evenness"]["upper"] = "0.5 kg mm";
   const ProblemFile problem = read(document);
-  const Expression& formula = *problem.responses.back().expression;
+  const Expression& formula = *formula_of(problem.responses.back());
   EXPECT_EQ(problem.responses[formula.arguments[0].index].name, "weight");
 }
 
@@ -338,7 +338,7 @@ TEST(AcrossCases, NameTheCasesOfConstantsThatDiffer) {
   document["objective"]["over_cases"] = "worst";  // masses may follow from constants
   document["responses"]["gap"]["value"] = "tip[fast] + reach[fast] - reach[slow]";
   const ProblemFile problem = read(document);
-  EXPECT_EQ(find_named(problem.responses, "gap")->expression->arguments.size(), 1u);
+  EXPECT_EQ(formula_of(*find_named(problem.responses, "gap"))->arguments.size(), 1u);
   document["responses"]["gap"]["value"] = "tip[fast] + reach";
   EXPECT_THAT(complaint(document), HasSubstr("\"reach\" differs from case to case"));
 }

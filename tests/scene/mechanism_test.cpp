@@ -34,8 +34,12 @@ class Mechanism : public testing::Test {
   const Element& load(const std::string& name) const {
     return std::get<Element>(named(problem_.scene.loads, name).element);
   }
-  const ResponseSettings& response(const std::string& name) const {
+  const ResponseSettings& settings(const std::string& name) const {
     return named(problem_.responses, name);
+  }
+  template <class Kind>
+  const Kind& response(const std::string& name) const {
+    return std::get<Kind>(settings(name).what);
   }
 
   ProblemFile problem_ = read(good_mechanism());
@@ -180,68 +184,65 @@ TEST_F(Mechanism, HasForcesInJoints) {
 }
 
 TEST_F(Mechanism, HasResponsesOfMotion) {
-  EXPECT_EQ(response("speed").type, ResponseType::velocity);
-  EXPECT_EQ(response("speed").direction, -1);
-  EXPECT_EQ(response("speed").at, 0.5);
-  EXPECT_EQ(response("jolt").type, ResponseType::acceleration);
-  EXPECT_EQ(response("jolt").direction, 1);
-  EXPECT_EQ(response("tone").mode.number, 1);  // counted from 0 here, from 1 in a file
-  EXPECT_THAT(response("tone").bodies, ElementsAre("arm"));
-  EXPECT_EQ(response("mechanism_tone").mode.number, 0);
-  EXPECT_TRUE(response("mechanism_tone").bodies.empty());
+  const auto &speed = response<PointMotionResponse>("speed"),
+             &jolt = response<PointMotionResponse>("jolt");
+  EXPECT_EQ(speed.derivative, TimeDerivative::first);
+  EXPECT_EQ(speed.component.direction, magnitude_direction);
+  EXPECT_EQ(speed.point.at, 0.5);
+  EXPECT_EQ(jolt.derivative, TimeDerivative::second);
+  EXPECT_EQ(jolt.component.direction, 1);
+  // Counted from 0 here, from 1 in a file.
+  EXPECT_EQ(response<ModeResponse>("tone"), (ModeResponse{"arm", {.number = 1}}));
+  EXPECT_EQ(response<ModeResponse>("mechanism_tone"), ModeResponse());
 }
 
 TEST_F(Mechanism, HasResponsesOfForcesAndStress) {
-  EXPECT_EQ(response("energy").type, ResponseType::drive_power);
-  EXPECT_EQ(response("energy").joint, "shoulder");
-  EXPECT_EQ(response("bearing").type, ResponseType::reaction_force);
-  EXPECT_EQ(response("bearing").direction, -1);
-  EXPECT_EQ(response("clamp").type, ResponseType::reaction_moment);
-  EXPECT_EQ(response("clamp").direction, 2);
-  EXPECT_EQ(response("stability").type, ResponseType::buckling);
-  EXPECT_EQ(response("normal").part, StressPart::normal);
-  EXPECT_EQ(response("normal").station, 0.25);
-  EXPECT_EQ(response("axial").part, StressPart::axial);
-  EXPECT_EQ(response("bending").part, StressPart::bending);
-  EXPECT_EQ(response("shear").part, StressPart::shear);
-  EXPECT_EQ(response("shear").segment, 1);
-  EXPECT_EQ(response("use").part, StressPart::utilization);
-  EXPECT_EQ(response("strain").part, StressPart::von_mises);
+  EXPECT_EQ(response<DriveResponse>("energy"), (DriveResponse{"shoulder", DriveNumber::power}));
+  EXPECT_EQ(response<ReactionResponse>("bearing").kind, ReactionKind::force);
+  EXPECT_EQ(response<ReactionResponse>("bearing").direction, magnitude_direction);
+  EXPECT_EQ(response<ReactionResponse>("clamp").kind, ReactionKind::moment);
+  EXPECT_EQ(response<ReactionResponse>("clamp").direction, 2);
+  EXPECT_TRUE(settings("stability").is<BucklingResponse>());
+  EXPECT_EQ(response<StressResponse>("normal").part, StressPart::normal);
+  EXPECT_EQ(response<StressResponse>("normal").where.station, 0.25);
+  EXPECT_EQ(response<StressResponse>("axial").part, StressPart::axial);
+  EXPECT_EQ(response<StressResponse>("bending").part, StressPart::bending);
+  EXPECT_EQ(response<StressResponse>("shear").part, StressPart::shear);
+  EXPECT_EQ(response<StressResponse>("shear").where.segment, 1);
+  EXPECT_EQ(response<StressResponse>("use").part, StressPart::utilization);
+  EXPECT_EQ(response<StressResponse>("strain").part, StressPart::von_mises);
 }
 
 TEST_F(Mechanism, HasResponsesOfEnergyAndErrors) {
-  EXPECT_EQ(response("motion").type, ResponseType::kinetic_energy);
-  EXPECT_TRUE(response("motion").bodies.empty());
-  EXPECT_THAT(response("swing").bodies, ElementsAre("block"));
-  EXPECT_EQ(response("spring").type, ResponseType::elastic_energy);
-  EXPECT_THAT(response("spring").bodies, ElementsAre("arm"));
-  EXPECT_EQ(response("missing").type, ResponseType::energy_balance);
-  EXPECT_EQ(response("missing").to, 0.05);
-  EXPECT_EQ(response("drift").type, ResponseType::constraint_drift);
-  EXPECT_EQ(response("drift").level, DriftLevel::position);
-  EXPECT_EQ(response("speed_drift").level, DriftLevel::velocity);
+  EXPECT_EQ(response<EnergyResponse>("motion"), EnergyResponse());
+  EXPECT_EQ(response<EnergyResponse>("swing").body, "block");
+  EXPECT_EQ(response<EnergyResponse>("spring"), (EnergyResponse{"arm", EnergyKind::elastic}));
+  EXPECT_TRUE(settings("missing").is<EnergyBalanceResponse>());
+  EXPECT_EQ(settings("missing").to, 0.05);
+  EXPECT_EQ(response<DriftResponse>("drift").level, DriftLevel::position);
+  EXPECT_EQ(response<DriftResponse>("speed_drift").level, DriftLevel::velocity);
 }
 
 TEST_F(Mechanism, HasResponsesInWindowsOfTime) {
-  EXPECT_DOUBLE_EQ(*response("jolt").from, 0.02);
-  EXPECT_EQ(response("jolt").to, 0.1);
-  EXPECT_FALSE(response("effort").from.has_value());
-  EXPECT_EQ(response("effort").to, 0.05);
-  EXPECT_EQ(response("bearing").from, 0.05);
-  EXPECT_FALSE(response("speed").to.has_value());
+  EXPECT_DOUBLE_EQ(*settings("jolt").from, 0.02);
+  EXPECT_EQ(settings("jolt").to, 0.1);
+  EXPECT_FALSE(settings("effort").from.has_value());
+  EXPECT_EQ(settings("effort").to, 0.05);
+  EXPECT_EQ(settings("bearing").from, 0.05);
+  EXPECT_FALSE(settings("speed").to.has_value());
 }
 
 TEST_F(Mechanism, HasLimitsInTheUnitsOfItsResponses) {
-  EXPECT_EQ(quantity_of(response("energy")).unit, "J");
+  EXPECT_EQ(quantity_of(settings("energy")).unit, "J");
   EXPECT_DOUBLE_EQ(*problem_.constraints[0].lower, 20.0 * pi);
   EXPECT_DOUBLE_EQ(*problem_.constraints[1].upper, 0.8);
-  EXPECT_EQ(quantity_of(response("thrust")).unit, "N");
-  EXPECT_EQ(quantity_of(response("jolt")).unit, "m/s^2");
-  EXPECT_EQ(quantity_of(response("clamp")).unit, "N m");
-  EXPECT_EQ(quantity_of(response("motion")).unit, "J");
-  EXPECT_EQ(quantity_of(response("swing")).unit, "J s");
-  EXPECT_EQ(quantity_of(response("missing")).unit, "J");
-  EXPECT_EQ(quantity_of(response("drift")).unit, "1");
+  EXPECT_EQ(quantity_of(settings("thrust")).unit, "N");
+  EXPECT_EQ(quantity_of(settings("jolt")).unit, "m/s^2");
+  EXPECT_EQ(quantity_of(settings("clamp")).unit, "N m");
+  EXPECT_EQ(quantity_of(settings("motion")).unit, "J");
+  EXPECT_EQ(quantity_of(settings("swing")).unit, "J s");
+  EXPECT_EQ(quantity_of(settings("missing")).unit, "J");
+  EXPECT_EQ(quantity_of(settings("drift")).unit, "1");
 }
 
 TEST_F(Mechanism, HasEffectsAndInitialState) {

@@ -99,7 +99,7 @@ TEST_P(SliderCrank, IsLimitedInStressAndDeflection) {
     }
   }
   EXPECT_EQ(problem.objective->response, "crank_and_rod");
-  EXPECT_THAT(problem.responses[0].bodies, ElementsAre("crank", "rod"));
+  EXPECT_THAT(bodies_of(problem.responses[0]), ElementsAre("crank", "rod"));
   for (const DesignVariable& variable : problem.variables) {
     EXPECT_EQ(variable.lower, 0.004);
     EXPECT_EQ(variable.upper, 0.06);
@@ -147,11 +147,10 @@ TEST(TaperedSliderCrank, HasAVariableAndAStressLimitForEachSegment) {
     const Segment& segment = beam_of(problem, body).segments[i % 4];
     EXPECT_EQ(segment.elements, 2);
     EXPECT_EQ(std::get<CircleSection>(segment.section).diameter.variable, i);
-    const ResponseSettings& stress = problem.responses[1 + i];
-    EXPECT_EQ(stress.type, ResponseType::stress);
-    EXPECT_EQ(stress.bodies[0], body == 0 ? "crank" : "rod");
-    EXPECT_EQ(stress.segment, i % 4);
-    EXPECT_EQ(problem.constraints[i].response, stress.name);
+    const auto& stress = std::get<StressResponse>(problem.responses[1 + i].what);
+    EXPECT_EQ(stress.where.bodies[0], body == 0 ? "crank" : "rod");
+    EXPECT_EQ(stress.where.segment, i % 4);
+    EXPECT_EQ(problem.constraints[i].response, problem.responses[1 + i].name);
   }
 }
 
@@ -221,12 +220,12 @@ TEST(GoodProblem, KeepsWhatItSaysInTheOrderOfTheFile) {
 
 TEST(GoodProblem, HasItsResponses) {
   const std::vector<ResponseSettings> responses = read(good_json()).responses;
-  EXPECT_EQ(responses[1].segment, 1);
-  EXPECT_EQ(responses[2].direction, 2);  // local z
-  EXPECT_EQ(responses[2].at, 0.5);
-  EXPECT_EQ(responses[3].direction, 0);  // global x
+  EXPECT_EQ(std::get<StressResponse>(responses[1].what).where.segment, 1);
+  EXPECT_EQ(std::get<DeflectionResponse>(responses[2].what).direction, 2);  // local z
+  EXPECT_EQ(place_along(responses[2]), 0.5);
+  EXPECT_EQ(std::get<PointMotionResponse>(responses[3].what).component.direction, 0);  // global x
   EXPECT_EQ(responses[3].over_time, OverTime::final);
-  EXPECT_EQ(responses[4].joint, "bearing");
+  EXPECT_EQ(joint_of(responses[4]), "bearing");
   EXPECT_EQ(quantity_of(responses[0]).unit, "kg");
   EXPECT_EQ(quantity_of(responses[1]).unit, "Pa");
   EXPECT_EQ(quantity_of(responses[2]).unit, "m");

@@ -142,25 +142,23 @@ TEST(Units, ThatMeanTwoThingsAreRefused) {
 }
 
 TEST(Integrals, HaveAUnitForEveryResponse) {
-  for (const ResponseKind& kind : response_kinds) {
-    if (kind.type == ResponseType::expression) continue;  // has the unit of its formula
-    ResponseSettings response;
-    response.type = kind.type;
-    response.over_time = OverTime::integral;
-    for (const auto along : {DrivenCoordinate::angle, DrivenCoordinate::displacement}) {
-      response.coordinate = along;
-      EXPECT_NO_THROW(quantity_of(response)) << kind.word;
-    }
-    for (const auto part : {SectionForcePart::axial, SectionForcePart::torque}) {
-      response.section_part = part;
-      EXPECT_NO_THROW(quantity_of(response)) << kind.word;
-    }
+  const auto expect_one = [](const AnyResponse& what) {
+    const ResponseSettings response{"one", what, OverTime::integral};
+    EXPECT_NO_THROW(quantity_of(response)) << kind_of(what).word;
+  };
+  for (const ResponseKind& kind : response_kinds()) {
+    if (kind.word != "expression") expect_one(kind.made);  // that has the unit of its formula
   }
+  for (const auto derivative :
+       {TimeDerivative::none, TimeDerivative::first, TimeDerivative::second}) {
+    expect_one(JointMotionResponse{"joint", DrivenCoordinate::displacement, derivative});
+  }
+  expect_one(SectionForceResponse{.part = SectionForcePart::torque});
 }
 
 TEST(Integrals, AreMeasuredInTheUnitOfTheResponseTimesASecond) {
   const Dimension second = measure_unit("s").dimension;
-  for (const ResponseKind& kind : response_kinds) {
+  for (const ResponseKind& kind : response_kinds()) {
     const MeasuredUnit unit = measure_unit(std::string(kind.quantity.unit));
     const MeasuredUnit integral = measure_unit(std::string(times_time(kind.quantity).unit));
     EXPECT_TRUE(integral.dimension == unit.dimension * second) << kind.word;
@@ -174,8 +172,9 @@ TEST(Integrals, AreCalledByTheQuantityThatUsuallyHasTheUnit) {
   EXPECT_EQ(describe(times_time(power)), "an energy [J]");
   EXPECT_EQ(describe(times_time(pure_number)), "a time [s]");
   EXPECT_EQ(describe(times_time(angular_frequency)), "an angular speed times a time [rad/s s]");
-  EXPECT_EQ(describe(times_time(kind_of(ResponseType::angular_acceleration).quantity)),
-            "an angular acceleration times a time [rad/s^2 s]");
+  EXPECT_EQ(
+      describe(times_time(kind_of(TurningResponse{.derivative = TimeDerivative::second}).quantity)),
+      "an angular acceleration times a time [rad/s^2 s]");
 }
 
 /// Formulas make roots of units, "sqrt(mass)", which others are made from: read back from their texts.

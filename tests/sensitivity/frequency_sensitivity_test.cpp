@@ -56,7 +56,8 @@ TEST(FrequencyDirection, HasTheGradientOfItsPlaneWherePlanesCoincide) {
 TEST(FrequencyDirection, MayBeAVector) {
   ProblemFile problem = square_cantilever();
   for (ResponseSettings& response : problem.responses) {
-    if (response.name == "in_plane") response.mode.axis = {{-0.5, 0.8660254037844386, 0.0}};
+    if (response.name != "in_plane") continue;
+    std::get<ModeResponse>(response.what).mode.axis = {{-0.5, 0.8660254037844386, 0.0}};
   }
   problem.variables[0].start = 0.012;  // so that planes do not coincide
   const Eigen::VectorXd x = start_design(problem);

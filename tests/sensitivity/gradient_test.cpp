@@ -42,13 +42,12 @@ TEST_P(GradientsOfAProblem, AreThoseOfCentralDifferencesAtTheBestStep) {
   Eigen::VectorXd allowed(direct.rows());
   for (Eigen::Index i = 0; i < direct.rows(); ++i) {
     const auto& response = problem_.responses[i];
-    const bool is_smooth =
-        response.type == ResponseType::mass || response.over_time == OverTime::rms;
+    const bool is_smooth = response.is<MassResponse>() || response.over_time == OverTime::rms;
     allowed(i) = is_smooth ? 1e-9 : 1e-7;
   }
   const auto compare = [&](const Eigen::MatrixXd& differences) {
     for (Eigen::Index i = 0; i < direct.rows(); ++i) {
-      const bool is_position = problem_.responses[i].type == ResponseType::position;
+      const bool is_position = time_derivative_of(problem_.responses[i]) == TimeDerivative::none;
       const double error = (differences.row(i) - direct.row(i)).lpNorm<Eigen::Infinity>() -
                            (is_position ? round_off : 0.0);
       best(i) = std::min(best(i), std::max(error, 0.0) / direct.row(i).lpNorm<Eigen::Infinity>());

@@ -172,20 +172,9 @@ ProblemFile cantilever(const NamedBeam& coordinates) {
     const double value = design[problem.variables.size()];
     problem.variables.push_back({name, value, 0.5 * value, 2.0 * value, ""});
   }
-  ResponseSettings response;
-  response.name = "tip";
-  response.type = ResponseType::position;
-  response.bodies = {"beam"};
-  response.at = 1.0;
-  response.over_time = OverTime::final;
-  problem.responses.push_back(response);
-  response.name = "frequency of the mechanism";
-  response.type = ResponseType::frequency;
-  response.bodies = {};
-  problem.responses.push_back(response);
-  response.name = "frequency of the body";
-  response.bodies = {"beam"};
-  problem.responses.push_back(response);
+  problem.responses = {{"tip", PointMotionResponse{{"beam", 1.0}}, OverTime::final},
+                       {"frequency of the mechanism", ModeResponse{}},
+                       {"frequency of the body", ModeResponse{"beam"}}};
   return problem;
 }
 

@@ -114,18 +114,6 @@ TEST(GradientsOfTheSliderCrank, AreAsGoodAsTheDerivativesOfTheInvariants) {
   }
 }
 
-ResponseSettings response(const std::string& name, ResponseType type, const std::string& body,
-                          double at, OverTime over_time) {
-  ResponseSettings settings;
-  settings.name = name;
-  settings.type = type;
-  settings.bodies = {body};
-  settings.at = at;
-  settings.direction = 1;
-  settings.over_time = over_time;
-  return settings;
-}
-
 /// What a designer asks of beams with modes: where places are, how far they bend. No response
 /// depends on the choice of a basis within its span.
 ProblemFile problem_of(const SampleScene& sample) {
@@ -141,15 +129,14 @@ ProblemFile problem_of(const SampleScene& sample) {
     variable.start = sample.design[i];
     problem.variables.push_back(variable);
   }
-  problem.responses = {
-      response("tip of crank", ResponseType::position, "crank", 1.0, OverTime::final),
-      response("bow of crank", ResponseType::deflection, "crank", 0.5, OverTime::final),
-      response("place on rod", ResponseType::position, "rod", 0.35, OverTime::final),
-      response("bow of rod", ResponseType::deflection, "rod", 0.6, OverTime::rms),
-      response("root of flag", ResponseType::deflection, "flag", 0.0, OverTime::rms),
-      response("tip of flag", ResponseType::position, "flag", 1.0, OverTime::final),
-      response("end of arm", ResponseType::position, "arm", 1.0, OverTime::final),
-      response("bow of arm", ResponseType::deflection, "arm", 1.0, OverTime::final)};
+  problem.responses = {{"tip of crank", PointMotionResponse{{"crank", 1.0}}, OverTime::final},
+                       {"bow of crank", DeflectionResponse{{"crank", 0.5}}, OverTime::final},
+                       {"place on rod", PointMotionResponse{{"rod", 0.35}}, OverTime::final},
+                       {"bow of rod", DeflectionResponse{{"rod", 0.6}}, OverTime::rms},
+                       {"root of flag", DeflectionResponse{{"flag", 0.0}}, OverTime::rms},
+                       {"tip of flag", PointMotionResponse{{"flag", 1.0}}, OverTime::final},
+                       {"end of arm", PointMotionResponse{{"arm", 1.0}}, OverTime::final},
+                       {"bow of arm", DeflectionResponse{{"arm", 1.0}}, OverTime::final}};
   return problem;
 }
 

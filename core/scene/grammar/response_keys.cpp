@@ -29,11 +29,18 @@ void history(Keys& keys, R& r, const Scope& scope) {
   window(keys, r, scope);
 }
 
-const Body* body(Keys& keys, const Key& key, R& r, const Scope& scope, std::string_view sentence) {
-  std::string name;
+const Body* body(Keys& keys, const Key& key, std::string& name, const Scope& scope,
+                 std::string_view sentence) {
   keys.name(key, "body", names_of(scope.scene.bodies), name, sentence);
-  if (!name.empty()) r.bodies = {name};
   return find_named(scope.scene.bodies, name);
+}
+
+const Body* body(Keys& keys, const Key& key, std::vector<std::string>& names, const Scope& scope,
+                 std::string_view sentence) {
+  std::string name;
+  const Body* one = body(keys, key, name, scope, sentence);
+  if (!name.empty()) names = {name};
+  return one;
 }
 
 const BeamBody* elastic_beam(Keys& keys, const Body* body) {
@@ -46,24 +53,21 @@ const BeamBody* elastic_beam(Keys& keys, const Body* body) {
   return beam;
 }
 
-const BeamBody* elastic_beam(Keys& keys, const Key& key, R& r, const Scope& scope) {
-  return elastic_beam(keys, body(keys, key, r, scope, "An elastic beam."));
-}
-
-void component_of_rate(Keys& keys, R& r, std::string_view sentence) {
+void component_of_jerk(Keys& keys, MotionComponent& one, const std::string& prefix,
+                       std::string_view sentence) {
   keys.refused_choice("direction", "magnitude",
                       fmt::format("must be \"x\", \"y\", \"z\" or a vector, as the magnitude of "
-                                  "the {} is no rate of that of the {}",
-                                  kind_of(r.type).word, kind_of(observed_type(r.type)).word));
-  component(keys, r, axes, sentence);
+                                  "the {0}jerk is no rate of that of the {0}acceleration",
+                                  prefix));
+  component(keys, one, axes, sentence);
 }
 
-void place(Keys& keys, const Body* body, R& r, std::string_view sentence) {
+void place(Keys& keys, const Body* body, ResponsePoint& point, std::string_view sentence) {
   const auto* imported = shape_of<ImportedBody>(body);
   if (imported != nullptr) {
-    keys.name("at", "place", names_of(imported->file->constants.places), r.place, sentence);
+    keys.name("at", "place", names_of(imported->file->constants.places), point.place, sentence);
   } else if (shape_of<BeamBody>(body) != nullptr) {
-    keys.place("at", r.at, sentence);
+    keys.place("at", point.at, sentence);
   } else {
     keys.other("at", "named_place", sentence);
   }

@@ -2,10 +2,10 @@
 
 #include "core/scene/grammar/response_keys.hpp"
 
-/// The table of keys of each type of response.
+/// The tables of keys of responses.
 namespace pleuel {
 
-/// By its type. The coordinate of a joint and the formula of an expression are named here and read
+/// By its kind. The coordinate of a joint and the formula of an expression are named here and read
 /// elsewhere (reading/response_reader.cpp).
 void describe(Keys& keys, ResponseSettings& response, const ResponseScope& scope);
 

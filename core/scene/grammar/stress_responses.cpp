@@ -20,14 +20,20 @@ constexpr Choice<StressPart> imported_stress_parts[] = {{"von-mises", StressPart
                                                         {"utilization", StressPart::utilization}};
 constexpr int most_segments = 10000;
 
+/// What a response of stress allows besides one beam.
+struct StressBodies {
+  bool several_beams = true, imported_ones = true;
+};
+
 /// The beams that a stress is the largest of: of one body a segment, a place or all of it, or all of
 /// several bodies.
-std::vector<const BeamBody*> beams(Keys& keys, const Body* one, R& r, const Scope& scope) {
+std::vector<const BeamBody*> beams(Keys& keys, const Body* one, StressPlaces& places,
+                                   const Scope& scope, const StressBodies& allowed = {}) {
   std::vector<const BeamBody*> found;
   const BeamBody* beam = elastic_beam(keys, one);
   if (beam != nullptr) found.push_back(beam);
   std::vector<std::string> several;
-  if (r.type != ResponseType::fatigue_damage) {
+  if (allowed.several_beams) {
     keys.names(optional_key("bodies"), "body", names_of(scope.scene.bodies), several,
                "Elastic beams: the largest of all.");
   }
@@ -37,18 +43,18 @@ std::vector<const BeamBody*> beams(Keys& keys, const Body* one, R& r, const Scop
                    fmt::format("must name an elastic beam, but \"{}\" is none", several[i]));
     found.push_back(other);
   }
-  if (!several.empty()) r.bodies = several;
+  if (!several.empty()) places.bodies = several;
   for (const char* word : {"segment", "at"}) {
     keys.must(word, several.empty(), "is for one \"body\", not for several");
   }
   keys.exclusive("segment", "at");
   const int segments = beam == nullptr ? most_segments : int_size(beam->segments);
-  keys.whole(optional_key("segment"), r.segment, {0, segments - 1},
+  keys.whole(optional_key("segment"), places.segment, {0, segments - 1},
              "Counted from 0; by default the whole beam.");
-  if (beam == nullptr && r.type != ResponseType::shear_stress) {
+  if (beam == nullptr && allowed.imported_ones) {
     keys.other(optional_key("at"), "stress_place", "");
   } else {
-    keys.place(optional_key("at"), r.station,
+    keys.place(optional_key("at"), places.station,
                "Only at this place along the beam, from 0 to 1; not with segment.");
   }
   return found;
@@ -61,7 +67,7 @@ void body_or_bodies(Keys& keys) {
 
 /// The points of stress of a file: all, or those that `at` names.
 /// @returns what is known of them; without strengths where the file has no points
-Strengths<double> stress_points(Keys& keys, const ImportedBody& body, R& r) {
+Strengths<double> stress_points(Keys& keys, const ImportedBody& body, StressPlaces& places) {
   const std::optional<StressRecovery>& stress = body.file->constants.stress;
   keys.must("body", stress.has_value(),
             fmt::format("names a body whose file {} has no block \"stress\"", body.source));
@@ -69,31 +75,32 @@ Strengths<double> stress_points(Keys& keys, const ImportedBody& body, R& r) {
     keys.refused(word, "is for beams only; \"at\" names points of stress of a file");
   }
   if (!stress) return {};
-  keys.name(optional_key("at"), "point or group of points", point_names(*stress), r.place, "");
+  keys.name(optional_key("at"), "point or group of points", point_names(*stress), places.place, "");
   return stress->strengths;
 }
 
-void imported_stress(Keys& keys, const ImportedBody& body, R& r) {
-  const Strengths<double> strengths = stress_points(keys, body, r);
-  keys.choice(optional_key("part"), r.part, imported_stress_parts, "");
-  keys.must("part", r.part != StressPart::utilization || strengths.yield != 0.0,
+void imported_stress(Keys& keys, const ImportedBody& body, StressResponse& stress) {
+  const Strengths<double> strengths = stress_points(keys, body, stress.where);
+  keys.choice(optional_key("part"), stress.part, imported_stress_parts, "");
+  keys.must("part", stress.part != StressPart::utilization || strengths.yield != 0.0,
             fmt::format("needs a strength, which the file {} does not give", body.source));
 }
 
 }  // namespace
 
-void stress(Keys& keys, R& r, const Scope& scope) {
+void describe(Keys& keys, StressResponse& stress, R& r, const Scope& scope) {
   keys.about(
       "Stress [Pa], the largest over a beam, over one of its segments or at a place; utilization "
       "is "
       "a number without unit.");
   body_or_bodies(keys);
-  const Body* one = body(keys, optional_key("body"), r, scope, "An elastic beam.");
+  const Body* one =
+      body(keys, optional_key("body"), stress.where.bodies, scope, "An elastic beam.");
   if (const auto* imported = shape_of<ImportedBody>(one)) {
-    imported_stress(keys, *imported, r);
+    imported_stress(keys, *imported, stress);
   } else {
-    const std::vector<const BeamBody*> all = beams(keys, one, r, scope);
-    keys.choice(optional_key("part"), r.part, stress_parts,
+    const std::vector<const BeamBody*> all = beams(keys, one, stress.where, scope);
+    keys.choice(optional_key("part"), stress.part, stress_parts,
                 "normal: signed, axial and bending; axial: normal force over area; bending: "
                 "without it; shear: of torsion; utilization: von Mises stress over the strength of "
                 "the material.");
@@ -101,7 +108,7 @@ void stress(Keys& keys, R& r, const Scope& scope) {
       const Material* material = find_named(scope.scene.materials, beam->material);
       const bool has_strength = material != nullptr && material->strength.has_value();
       keys.must(
-          "part", r.part != StressPart::utilization || has_strength,
+          "part", stress.part != StressPart::utilization || has_strength,
           fmt::format("needs the strength of the material \"{}\", which has none", beam->material));
     }
   }
@@ -118,13 +125,15 @@ bool has_general_section(const BeamBody& beam) {
 
 }  // namespace
 
-void shear_stress(Keys& keys, R& r, const Scope& scope) {
+void describe(Keys& keys, ShearStressResponse& stress, R& r, const Scope& scope) {
   keys.about(
       "Shear stress [Pa] of shear forces and torsion, the largest over a beam, over one of its "
       "segments or at a place. The sections are not of the type general.");
   body_or_bodies(keys);
-  const Body* one = body(keys, optional_key("body"), r, scope, "An elastic beam.");
-  const std::vector<const BeamBody*> all = beams(keys, one, r, scope);
+  const Body* one =
+      body(keys, optional_key("body"), stress.where.bodies, scope, "An elastic beam.");
+  const std::vector<const BeamBody*> all =
+      beams(keys, one, stress.where, scope, {.imported_ones = false});
   for (std::size_t i = 0; i < all.size(); ++i) {
     const bool is_known = !has_general_section(*all[i]);
     const char* rule =
@@ -141,14 +150,14 @@ namespace {
 /// What a criterion needs to know, and what the endurance or the damage does.
 /// @param given  not zero where it is
 /// @param where  what lacks it
-void fatigue_data(Keys& keys, const R& r, const Strengths<double>& given,
+void fatigue_data(Keys& keys, const FatigueResponse& fatigue, const Strengths<double>& given,
                   const std::string& where) {
   const auto need = [&](bool is_asked, double number, std::string_view word) {
     keys.must("criterion", !is_asked || number > 0.0,
               fmt::format("needs the \"{}\" of {}", word, where));
   };
-  const bool is_damage = r.type == ResponseType::fatigue_damage;
-  const bool is_soderberg = r.criterion == FatigueCriterion::soderberg;
+  const bool is_damage = fatigue.kind == FatigueNumber::damage;
+  const bool is_soderberg = fatigue.criterion == FatigueCriterion::soderberg;
   need(!is_damage, given.endurance_limit, "endurance_limit");
   need(is_damage, given.fatigue, "fatigue_strength");
   need(is_damage, given.fatigue_exponent, fatigue_exponent_word);
@@ -165,8 +174,8 @@ Strengths<double> given_strengths(const Material& material) {
 
 }  // namespace
 
-void fatigue(Keys& keys, R& r, const Scope& scope) {
-  const bool is_damage = r.type == ResponseType::fatigue_damage;
+void describe(Keys& keys, FatigueResponse& fatigue, R& r, const Scope& scope) {
+  const bool is_damage = fatigue.kind == FatigueNumber::damage;
   keys.about(is_damage
                  ? "Damage by all cycles of normal stress of a point in the simulation or a window "
                    "of it, by rainflow counting, Basquin's line and the sum of Palmgren and Miner: "
@@ -182,21 +191,22 @@ void fatigue(Keys& keys, R& r, const Scope& scope) {
   } else {
     body_or_bodies(keys);
   }
-  keys.choice("criterion", r.criterion, fatigue_criteria,
+  keys.choice("criterion", fatigue.criterion, fatigue_criteria,
               "How much mean stress a cycle bears beside its amplitude: a straight line to the "
               "ultimate strength (goodman) or to the strength (soderberg), or a parabola to the "
               "ultimate strength (gerber). Compression as a mean neither harms nor helps.");
   r.over_time = OverTime::final;
   const Key key = is_damage ? Key("body") : optional_key("body");
-  const Body* one = body(keys, key, r, scope, "An elastic beam.");
+  const Body* one = body(keys, key, fatigue.where.bodies, scope, "An elastic beam.");
   if (const auto* imported = shape_of<ImportedBody>(one)) {
-    fatigue_data(keys, r, stress_points(keys, *imported, r),
+    fatigue_data(keys, fatigue, stress_points(keys, *imported, fatigue.where),
                  fmt::format("the file {}, which does not give it", imported->source));
   } else {
-    for (const BeamBody* beam : beams(keys, one, r, scope)) {
+    const StressBodies allowed{.several_beams = !is_damage};
+    for (const BeamBody* beam : beams(keys, one, fatigue.where, scope, allowed)) {
       const Material* material = find_named(scope.scene.materials, beam->material);
       if (material == nullptr) continue;
-      fatigue_data(keys, r, given_strengths(*material),
+      fatigue_data(keys, fatigue, given_strengths(*material),
                    fmt::format("the material \"{}\", which has none: give it in /scene/materials",
                                material->name));
     }

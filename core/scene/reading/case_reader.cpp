@@ -219,10 +219,10 @@ bool is_same_response(const ProblemFile& problem, std::size_t response, const Js
     return document.contains(pointer) && mentions_any(document.at(pointer), constants);
   };
   if (is_used_in("/constraints")) return false;  // there may be another limit in each case
-  const bool is_formula = problem.responses[response].type == ResponseType::expression;
+  const bool is_formula = problem.responses[response].is<ExpressionResponse>();
   if (is_formula && is_used_in("/responses")) return false;
   return std::ranges::all_of(parts_of(problem, response), [&](std::size_t part) {
-    const std::vector<std::string>& bodies = problem.responses[part].bodies;
+    const std::vector<std::string> bodies = bodies_of(problem.responses[part]);
     const Json masses = masses_in(of_cases.front(), bodies);
     return !mentions_any(masses, constants) && std::ranges::all_of(of_cases, [&](const Json& one) {
       return masses_in(one, bodies) == masses;

@@ -232,9 +232,8 @@ void take_responses(Json& definition) {
   const Scene nothing;
   const ResponseScope scope{nothing, 1.0};
   TypedSchemas types;
-  for (const ResponseKind& kind : response_kinds) {
-    ResponseSettings response;
-    response.type = kind.type;
+  for (const ResponseKind& kind : response_kinds()) {
+    const ResponseSettings response{.what = kind.made};
     types.emplace_back(kind.word, schema_of(kind.word, response, scope));
   }
   set_types(definition, types);

@@ -29,21 +29,18 @@ void check_column(const std::string& name, const JsonNode& node) {
 
 /// Of the motion in a joint: which coordinate, if it has two.
 void read_joint_coordinate(const JsonNode& node, const Scene& scene, ResponseSettings& response) {
-  const bool is_motion = observed_type(response.type) == ResponseType::joint_position ||
-                         observed_type(response.type) == ResponseType::joint_velocity;
-  if (!is_motion) return;
-  const Joint& joint = *find_named(scene.joints, response.joint);
+  auto* motion = std::get_if<JointMotionResponse>(&response.what);
+  if (motion == nullptr) return;
+  const Joint& joint = *find_named(scene.joints, motion->joint);
   check_coordinate_between_bodies(node.at("joint"), joint);
-  response.coordinate = read_coordinate(node, joint);
+  motion->coordinate = read_coordinate(node, joint);
 }
 
 /// But for formulas, which need all others.
 ResponseSettings read_response(const std::string& name, const JsonNode& node,
                                const ResponseScope& scope, NumberReader& numbers) {
-  ResponseSettings response;
-  response.name = name;
-  response.type = read_row(node.at("type"), response_kinds).type;
-  if (response.type == ResponseType::expression) return response;
+  ResponseSettings response{name, read_row(node.at("type"), response_kinds()).made};
+  if (response.is<ExpressionResponse>()) return response;
   read_keys(node, numbers, [&](Keys& keys) { describe(keys, response, scope); }, {"type"});
   read_joint_coordinate(node, scope.scene, response);
   return response;
@@ -56,7 +53,7 @@ std::set<std::string> read_expressions(const JsonNode& node, std::vector<Respons
   std::set<std::string> left_out;
   MistakeCollector mistakes;
   for (ResponseSettings& one : all) {
-    if (one.type != ResponseType::expression) continue;
+    if (!one.is<ExpressionResponse>()) continue;
     mistakes.collect([&] {
       const bool is_read = numbers.read_or_leave_out(one.name, [&] {
         one = read_expression_response(one.name, node.at(one.name), all, numbers);
@@ -103,7 +100,7 @@ bool is_frequency(const ResponseSettings& response) {
 std::vector<Symbol> symbols_of(const std::vector<ResponseSettings>& responses) {
   std::vector<Symbol> symbols;
   for (std::size_t i = 0; i < responses.size(); ++i) {
-    const bool is_read = responses[i].type != ResponseType::expression || responses[i].expression;
+    const bool is_read = !responses[i].is<ExpressionResponse>() || formula_of(responses[i]);
     if (!is_read) continue;
     symbols.push_back({responses[i].name, dimension_of(quantity_of(responses[i])), std::nullopt,
                        ExpressionArgument{Kind::response, i}});
@@ -121,6 +118,10 @@ void name_frequency(Expression& expression, const std::vector<ResponseSettings>&
   if (is_one) expression.quantity = quantities::angular_frequency.name;
 }
 
+ResponseSettings formula_response(const std::string& name, Expression formula) {
+  return {name, ExpressionResponse{std::make_shared<const Expression>(std::move(formula))}};
+}
+
 ResponseSettings make_response(const std::string& name, const JsonNode& value,
                                const std::vector<ResponseSettings>& known, NumberReader& numbers) {
   Expression expression = *numbers.formula(value, symbols_of(known)).expression;
@@ -128,11 +129,7 @@ ResponseSettings make_response(const std::string& name, const JsonNode& value,
   if (expression.arguments.empty()) {
     value.fail_with_value("must depend on a response or on a design variable");
   }
-  ResponseSettings response;
-  response.name = name;
-  response.type = ResponseType::expression;
-  response.expression = std::make_shared<const Expression>(std::move(expression));
-  return response;
+  return formula_response(name, std::move(expression));
 }
 
 /// The steps that the extreme of a formula is taken of, from the left to the right.
@@ -199,7 +196,7 @@ bool is_response(const Expression& expression, int step) {
 /// A formula max(…) or min(…) as that of responses: parts that are formulas themselves become responses
 /// of their own, before it, so that each can be pressed upon by itself (response_parts.hpp).
 void split_extreme(ResponseSettings& whole, std::vector<ResponseSettings>& responses) {
-  const Expression& expression = *whole.expression;
+  const Expression& expression = *formula_of(whole);
   const Operation extreme = expression.steps.back().operation;
   if (extreme != Operation::larger && extreme != Operation::smaller) return;
   std::vector<int> leaves;
@@ -216,22 +213,20 @@ void split_extreme(ResponseSettings& whole, std::vector<ResponseSettings>& respo
       const auto& step = expression.steps[leaves[i]];
       argument = expression.arguments[step.first];
     } else {
-      ResponseSettings part;
       const bool is_variable = expression.steps[leaves[i]].operation == Operation::argument;
-      part.name = has_texts && !is_variable ? texts[i] : fmt::format("{} [{}]", whole.name, i + 1);
-      part.type = ResponseType::expression;
-      part.expression =
-          std::make_shared<const Expression>(part_ending_with(expression, leaves[i], part.name));
-      const bool is_known = find_named(responses, part.name) || find_named(parts, part.name);
-      if (part.expression->arguments.empty() || is_known) return;
-      parts.push_back(std::move(part));
+      const std::string name =
+          has_texts && !is_variable ? texts[i] : fmt::format("{} [{}]", whole.name, i + 1);
+      Expression part = part_ending_with(expression, leaves[i], name);
+      const bool is_known = find_named(responses, name) || find_named(parts, name);
+      if (part.arguments.empty() || is_known) return;
+      parts.push_back(formula_response(name, std::move(part)));
     }
     of_parts.arguments.push_back(argument);
     of_parts.steps.push_back({Operation::argument, 0.0, static_cast<int>(i)});
     const int here = int_size(of_parts.steps) - 1;
     if (i > 0) of_parts.steps.push_back({extreme, 0.0, here - 1, here});
   }
-  whole.expression = std::make_shared<const Expression>(std::move(of_parts));
+  whole = formula_response(whole.name, std::move(of_parts));
   for (ResponseSettings& part : parts) responses.push_back(std::move(part));
 }
 

@@ -94,7 +94,7 @@ TEST(MeasuredEffects, ChangeNoAskedResponseByMoreThanTheTolerance) {
       problem.simulation.step *= 4.0;
       problem.simulation.end_time *= 0.5;
       std::erase_if(problem.responses, [](const ResponseSettings& response) {
-        return response.type == ResponseType::stress || response.type == ResponseType::deflection;
+        return response.is<StressResponse, DeflectionResponse>();
       });
       const auto complete = analyze(problem, start_design(problem));
       problem.effects.tolerance = tolerance;
@@ -225,9 +225,8 @@ TEST(ContradictoryEffects, AreErrorsThatNameTheirPlace) {
 TEST(GeometricStiffening, KeepsTheAxialElasticityThatItNeeds) {
   ProblemFile problem = sample_problem(
       "slider_crank_exudyn", {R"(/effects={"geometric_stiffening": "on", "tolerance": 0.5})"});
-  std::erase_if(problem.responses, [](const ResponseSettings& response) {
-    return response.type == ResponseType::stress;
-  });
+  std::erase_if(problem.responses,
+                [](const ResponseSettings& response) { return response.is<StressResponse>(); });
   problem.effects.decisions = EffectDecisions{estimate_effects(problem), {}};
   const auto built = build_model(problem.scene, problem.effects, {}, {});
   ASSERT_TRUE(built.body("rod").has_stiffening);
@@ -250,7 +249,7 @@ class LeavingOut : public testing::TestWithParam<Case> {
     file.effects = {};
     if (!GetParam().asks_for_stress) {
       std::erase_if(file.responses, [](const ResponseSettings& response) {
-        return response.type == ResponseType::stress || response.type == ResponseType::deflection;
+        return response.is<StressResponse, DeflectionResponse>();
       });
     }
     return file;

@@ -75,7 +75,8 @@ TEST(DividedBeam, IsTheSameInFramesOfEveryKind) {
       cantilever.frame = frame;
       cantilever.more = more;
       ProblemFile problem = cantilever.problem();
-      ResponseSettings& tip = problem.responses[response_index(problem, "tip")];
+      auto& tip =
+          std::get<DeflectionResponse>(problem.responses[response_index(problem, "tip")].what);
       if (frame == "mean-axis") tip.against = DeflectionReference::chord;
       const AtStart run(problem);
       EXPECT_NEAR(run.value("y"), exact.deflection, 3e-3 * exact.deflection) << frame << more;

@@ -16,14 +16,11 @@ namespace {
 constexpr double length = 1.0, width = 0.02, height = 0.03, young = 2.1e11, bow = 2e-4, rate = 0.3;
 
 ResponseSettings deflection_at(double at, OverTime over_time) {
-  ResponseSettings response;
-  response.name = "bow";
-  response.type = ResponseType::deflection;
-  response.bodies = {"beam"};
-  response.at = at;
-  response.over_time = over_time;
-  return response;
+  return {"bow", DeflectionResponse{{"beam", at}}, over_time};
 }
+
+const EnergyResponse elastic_energy{"beam", EnergyKind::elastic};
+const StressResponse axial_stress{{{"beam"}}, StressPart::axial};
 
 InitialDeflection along_y(double at, Number displacement, Number speed = 0.0) {
   return {{at, 0.0, 0.0}, {0, 1, 0}, displacement, speed};
@@ -67,12 +64,7 @@ double value_at(const Analysis& analysis, int step, std::size_t response = 0) {
 TEST(InitialDeflections, AreThoseOfAForceAtTheTip) {
   ProblemFile problem = released(ReferenceCondition::tangent, {along_y(length, bow)});
   for (double at : {1.0, 0.5}) problem.responses.push_back(deflection_at(at, OverTime::max));
-  ResponseSettings energy;
-  energy.name = "energy";
-  energy.type = ResponseType::elastic_energy;
-  energy.bodies = {"beam"};
-  energy.over_time = OverTime::max;
-  problem.responses.push_back(energy);
+  problem.responses.push_back({"energy", elastic_energy});
   const auto analysis = analyze(problem, start_design(problem));
   EXPECT_EQ(analysis->model.bodies[0].frame.rotation, RotationCoordinates::angle);  // in a plane
   EXPECT_NEAR(value_at(*analysis, 0), bow, 1e-12 * bow);
@@ -133,10 +125,7 @@ TEST(InitialDeflections, HaveGradients) {
     problem.variables.push_back({"bow", bow, 0.0, 1e-3, ""});
     problem.variables.push_back({"rate", rate, 0.0, 1.0, ""});
     for (double at : {1.0, 0.25}) problem.responses.push_back(deflection_at(at, OverTime::rms));
-    ResponseSettings stretch = deflection_at(0.25, OverTime::rms);
-    stretch.type = ResponseType::stress;
-    stretch.part = StressPart::axial;
-    problem.responses.push_back(stretch);
+    problem.responses.push_back({"stretch", axial_stress, OverTime::rms});
     const Started start = started(problem);
     const Eigen::VectorXd& x = start.x;
     const Eigen::MatrixXd direct = gradients(problem, x, *start.analysis, GradientMethod::direct);
@@ -170,12 +159,7 @@ TEST(InitialDeflections, BetweenFixedPinsStretchTheWholeBeam) {
   for (const int elements : {2, 8, 16}) {
     ProblemFile problem = released(ReferenceCondition::chord, {along_y(0.5 * length, d)}, elements);
     problem.scene.joints[1].type = JointType::spherical;
-    ResponseSettings axial = deflection_at(0.5, OverTime::max);
-    axial.type = ResponseType::stress;
-    axial.part = StressPart::axial;
-    ResponseSettings energy = deflection_at(0.5, OverTime::max);
-    energy.type = ResponseType::elastic_energy;
-    problem.responses = {axial, energy};
+    problem.responses = {{"axial", axial_stress}, {"energy", elastic_energy}};
     const auto analysis = analyze(problem, start_design(problem));
     State start = state_of(analysis->trajectory, 0);
     Signal& stress = *analysis->responses[0].history()->signal;

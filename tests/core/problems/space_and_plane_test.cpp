@@ -6,6 +6,7 @@
 #include "core/base/error.hpp"
 #include "core/response/analysis.hpp"
 #include "core/response/monitors.hpp"
+#include "core/scene/response_kind.hpp"
 #include "sensitivity/gradients.hpp"
 #include "sensitivity/sampled_gradients.hpp"
 #include "tests/support/at_start.hpp"
@@ -79,13 +80,13 @@ Eigen::VectorXd largest_of(const Eigen::MatrixXd& history) {
 /// Compares whole histories. Round-off: 1e-9 of the largest of each kind.
 void expect_same_histories(const ProblemFile& problem, const Analysis& expected,
                            const Analysis& found) {
-  std::map<ResponseType, double> scales;
+  std::map<std::string_view, double> scales;
   for (std::size_t i = 0; i < problem.responses.size(); ++i) {
-    double& scale = scales[problem.responses[i].type];
+    double& scale = scales[kind_of(problem.responses[i].what).word];
     scale = std::max(scale, largest_of(expected.histories[i]).maxCoeff());
   }
   for (std::size_t i = 0; i < problem.responses.size(); ++i) {
-    const double scale = scales[problem.responses[i].type];
+    const double scale = scales[kind_of(problem.responses[i].what).word];
     const Eigen::VectorXd difference =
         largest_of(expected.histories[i]) - largest_of(found.histories[i]);
     EXPECT_LE(difference.lpNorm<Eigen::Infinity>(), 1e-9 * scale) << problem.responses[i].name;

@@ -214,11 +214,7 @@ TEST(Monitors, CompareTheBalanceWithTheEnergyOfTheStrainToo) {
   ProblemFile problem = sample.problem();
   problem.simulation.end_time = 0.05;
   problem.simulation.step = 1e-3;
-  ResponseSettings elastic;
-  elastic.name = "strain";
-  elastic.type = ResponseType::elastic_energy;
-  elastic.over_time = OverTime::max;
-  problem.responses = {elastic};
+  problem.responses = {{"strain", EnergyResponse{.kind = EnergyKind::elastic}}};
   const auto analysis = analyze(problem, start_design(problem));
   const Monitors monitors = monitor(analysis->model, analysis->trajectory);
   const double missing =
@@ -365,10 +361,7 @@ TEST(ElasticEnergyResponse, OfACantileverIsThatOfStatics) {
   problem.simulation.end_time = 0.01;
   problem.simulation.step = 1e-3;
   problem.simulation.quasi_static_start = true;
-  ResponseSettings energy;
-  energy.type = ResponseType::elastic_energy;
-  energy.over_time = OverTime::mean;
-  problem.responses = {energy};
+  problem.responses = {{"energy", EnergyResponse{.kind = EnergyKind::elastic}, OverTime::mean}};
   const double expected =
       force * force * std::pow(length, 3) / (6.0 * young * std::pow(side, 4) / 12.0);
   EXPECT_NEAR(analyze(problem, {})->reductions[0].value, expected, 1e-6 * expected);
@@ -384,9 +377,8 @@ TEST(EnergyResponses, AreThoseOfMassAndStrain) {
       for (const BodyModel& body : model.bodies) {
         state.q.segment(body.elastic_offset(), body.elastic_size()) *= share;
       }
-      ResponseSettings kinetic, elastic;
-      kinetic.type = ResponseType::kinetic_energy;
-      elastic.type = ResponseType::elastic_energy;
+      const EnergyResponse kinetic{.kind = EnergyKind::kinetic},
+          elastic{.kind = EnergyKind::elastic};
       const double expected = energy_of(model, state);
       EXPECT_NEAR(observed(model, kinetic, state) + observed(model, elastic, state), expected,
                   1e-12 * expected)
@@ -406,10 +398,9 @@ class EverySimulatedSample : public testing::TestWithParam<int> {
   }
 
   std::unique_ptr<Analysis> run() const { return analyze(problem_, start_design(problem_)); }
-  /// The response of this type in a window.
-  ResponseSettings& response(ResponseType type) {
+  ResponseSettings& balance() {
     for (ResponseSettings& response : problem_.responses) {
-      if (response.type == type) return response;
+      if (response.is<EnergyBalanceResponse>()) return response;
     }
     throw std::runtime_error("no such response");
   }
@@ -420,7 +411,7 @@ class EverySimulatedSample : public testing::TestWithParam<int> {
 /// The monitors have other formulas for the same balance; round-off of the largest energy.
 TEST_P(EverySimulatedSample, MissesInItsBalanceWhatTheMonitorsMiss) {
   for (const bool is_window : {false, true}) {
-    ResponseSettings& balance = response(ResponseType::energy_balance);
+    ResponseSettings& balance = this->balance();
     balance.over_time = OverTime::final;
     if (is_window) balance.from = 0.005, balance.to = 0.015;
     const auto analysis = run();
@@ -440,7 +431,7 @@ TEST_P(EverySimulatedSample, MissesInItsBalanceWhatTheMonitorsMiss) {
 TEST_P(EverySimulatedSample, DriftsAsTheMonitorsSay) {
   problem_.simulation.formulation.constraints = ConstraintForm::index_1;
   for (ResponseSettings& response : problem_.responses) {
-    if (response.type == ResponseType::constraint_drift) response.over_time = OverTime::max_abs;
+    if (response.is<DriftResponse>()) response.over_time = OverTime::max_abs;
   }
   const auto analysis = run();
   const Monitors monitors = monitor(analysis->model, analysis->trajectory);
@@ -510,9 +501,7 @@ TEST(DriftResponse, NeedsConstraints) {
   scene.joints.clear();
   const Model model = build_model(scene, {}, {}, {});
   ASSERT_EQ(model.mechanism.system->multipliers(), 0);
-  ResponseSettings drift;
-  drift.type = ResponseType::constraint_drift;
-  EXPECT_THROW(make_responses({drift}, model), InputError);
+  EXPECT_THROW(make_responses({{"drift", DriftResponse{}}}, model), InputError);
 }
 
 }  // namespace

@@ -163,11 +163,7 @@ TEST(Frequency, ThatDoesNotExistIsAnErrorThatSaysHowManyThereAre) {
   problem.scene = hanging_body();
   problem.simulation.end_time = 1e-3;
   problem.simulation.step = 1e-3;
-  ResponseSettings settings;
-  settings.name = "fifth";
-  settings.type = ResponseType::frequency;
-  settings.mode.number = 4;
-  problem.responses = {settings};
+  problem.responses = {{"fifth", ModeResponse{.mode = {.number = 4}}}};
   EXPECT_EQ(thrown<InputError>([&] { analyze(problem, {}); }),
             "the response \"fifth\" cannot be computed: the mechanism has 1 natural "
             "frequency, not 5");

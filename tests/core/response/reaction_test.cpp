@@ -40,8 +40,8 @@ TEST_P(EveryReaction, IsWhatTheTermDoesToTheFrameOfTheSecondBody) {
     const auto term = pleuel::make_joint_term(joint.topology, joint.data, joint.derivatives);
     const Eigen::VectorXd rows =
         -residual_of(*term, state, ConstraintLevel::position).segment(frame.offset, frame.size());
-    const Eigen::Vector3d force = reaction(model, joint.name, ResponseType::reaction_force, all);
-    const Eigen::Vector3d moment = reaction(model, joint.name, ResponseType::reaction_moment, all);
+    const Eigen::Vector3d force = reaction(model, joint.name, ReactionKind::force, all);
+    const Eigen::Vector3d moment = reaction(model, joint.name, ReactionKind::moment, all);
     const FrameMotion<double> motion = frame_motion<double>(
         frame, state.q.segment(frame.offset, frame.size()),
         state.v.segment(frame.offset, frame.size()), state.a.segment(frame.offset, frame.size()));
@@ -96,16 +96,13 @@ TEST_P(Reaction, OfAPendulumAtItsLowestPointIsWeightAndCentripetalForce) {
   for (bool ground_first : {true, false}) {
     Model model = build(pendulum(JointType::revolute, ground_first));
     const State state = initial_state(model.mechanism).state;
-    const Eigen::Vector3d force = reaction(model, "bearing", ResponseType::reaction_force, state);
+    const Eigen::Vector3d force = reaction(model, "bearing", ReactionKind::force, state);
     const double sign = ground_first ? 1.0 : -1.0;
     EXPECT_NEAR(force.y(), sign * expected, 1e-12 * expected);
     EXPECT_NEAR(force.x(), 0.0, 1e-12 * expected);
     EXPECT_NEAR(force.z(), 0.0, 1e-12 * expected);
-    ResponseSettings settings;
-    settings.type = ResponseType::reaction_force;
-    settings.joint = "bearing";
-    settings.direction = magnitude_direction;
-    EXPECT_NEAR(observed(model, settings, state), expected, 1e-12 * expected);
+    const ReactionResponse whole{"bearing", ReactionKind::force, magnitude_direction};
+    EXPECT_NEAR(observed(model, whole, state), expected, 1e-12 * expected);
   }
 }
 
@@ -116,8 +113,8 @@ TEST_P(Reaction, OfAWeldIsWeightAndItsMoment) {
   scene.bodies = {{"bob", bob({0.3, -length, 0.0})}};
   Model model = build(scene);
   const State state = initial_state(model.mechanism).state;
-  const Eigen::Vector3d force = reaction(model, "bearing", ResponseType::reaction_force, state);
-  const Eigen::Vector3d moment = reaction(model, "bearing", ResponseType::reaction_moment, state);
+  const Eigen::Vector3d force = reaction(model, "bearing", ReactionKind::force, state);
+  const Eigen::Vector3d moment = reaction(model, "bearing", ReactionKind::moment, state);
   EXPECT_LE((force - Eigen::Vector3d(0, mass * gravity, 0)).norm(), 1e-12);
   EXPECT_LE((moment - Eigen::Vector3d(0, 0, mass * gravity * 0.3)).norm(), 1e-12);
 }
@@ -131,15 +128,12 @@ TEST_P(Reaction, ContainsTheTorqueOfTheDrive) {
     scene.joints[0].drive = PolynomialFunction{{0.0, 2.0, 5.0}};
     Model model = build(scene);
     const State state = initial_state(model.mechanism).state;
-    ResponseSettings settings;
-    settings.type = ResponseType::drive_torque;
-    settings.joint = "bearing";
+    const DriveResponse torque{"bearing", DriveNumber::torque};
     // Torque = I_z α + m (x a_y − y a_x) + m g x about the bearing, with α = 2 · 5 about the axis.
     const double about_z =
         (0.03 + mass * (0.3 * 0.3 + length * length)) * sense * 10.0 + mass * gravity * 0.3;
-    EXPECT_NEAR(observed(model, settings, state), sense * about_z, 1e-12);
-    EXPECT_NEAR(reaction(model, "bearing", ResponseType::reaction_moment, state).z(), about_z,
-                1e-12);
+    EXPECT_NEAR(observed(model, torque, state), sense * about_z, 1e-12);
+    EXPECT_NEAR(reaction(model, "bearing", ReactionKind::moment, state).z(), about_z, 1e-12);
   }
 }
 
@@ -157,17 +151,8 @@ TEST(Power, IsTorqueTimesSpeedAndItsIntegralTheChangeOfEnergy) {
   problem.scene.joints[0].drive = PolynomialFunction{{0.0, 4.0, 3.0}};
   problem.simulation.end_time = 1.2;
   problem.simulation.step = 5e-4;
-  ResponseSettings torque, power, energy;
-  torque.name = "torque";
-  torque.type = ResponseType::drive_torque;
-  torque.joint = "bearing";
-  power = torque;
-  power.name = "power";
-  power.type = ResponseType::drive_power;
-  energy = power;
-  energy.name = "energy";
-  energy.over_time = OverTime::integral;
-  problem.responses = {torque, power, energy};
+  const DriveResponse torque{"bearing", DriveNumber::torque}, power{"bearing", DriveNumber::power};
+  problem.responses = {{"torque", torque}, {"power", power}, {"energy", power, OverTime::integral}};
   const auto analysis = analyze(problem, {});
   const Eigen::VectorXd& time = analysis->trajectory.time;
   for (Eigen::Index i = 0; i < time.size(); ++i) {
@@ -221,8 +206,8 @@ TEST(LeastNorm, SharesTheLoadOfADoorBetweenItsHinges) {
   const double couple = torque * distance / square,
                moment = 2 * torque * bearing * bearing / square;
   for (const auto& [hinge, sign] : {std::pair("lower", 1.0), std::pair("upper", -1.0)}) {
-    const Eigen::Vector3d force = reaction(model, hinge, ResponseType::reaction_force, state),
-                          about = reaction(model, hinge, ResponseType::reaction_moment, state);
+    const Eigen::Vector3d force = reaction(model, hinge, ReactionKind::force, state),
+                          about = reaction(model, hinge, ReactionKind::moment, state);
     const Eigen::Vector3d expected(-pull + sign * couple, 0.0, 0.5 * panel_mass * gravity);
     EXPECT_LE((force - expected).norm(), 1e-11 * expected.norm()) << hinge;
     EXPECT_LE((about - Eigen::Vector3d(0.0, -moment, 0.0)).norm(), 1e-11 * torque) << hinge;
@@ -237,12 +222,10 @@ TEST(LeastNorm, SharesATorqueBetweenTwoDrives) {
   Model model = build_model(scene, {}, {}, {});
   ASSERT_EQ(model.mechanism.system->left_out().size(), 6u);
   const State state = initial_state(model.mechanism).state;
-  ResponseSettings settings;
-  settings.type = ResponseType::drive_torque;
   const double inertia = 4.0 + panel_mass * 0.25 * width * width;
   for (const char* hinge : {"lower", "upper"}) {
-    settings.joint = hinge;
-    EXPECT_NEAR(observed(model, settings, state), 0.5 * inertia * 4.0, 1e-10) << hinge;
+    const DriveResponse torque{hinge, DriveNumber::torque};
+    EXPECT_NEAR(observed(model, torque, state), 0.5 * inertia * 4.0, 1e-10) << hinge;
   }
 }
 
@@ -292,15 +275,10 @@ ProblemFile falling_door() {
   problem.simulation.step = 2e-3;
   problem.simulation.newton_tolerance = 1e-13;
   for (const char* hinge : {"lower", "upper"}) {
-    for (ResponseType type : {ResponseType::reaction_force, ResponseType::reaction_moment}) {
+    for (ReactionKind kind : {ReactionKind::force, ReactionKind::moment}) {
       for (int direction : {0, 2, magnitude_direction}) {
-        ResponseSettings settings;
-        settings.name = hinge + std::to_string(static_cast<int>(type)) + std::to_string(direction);
-        settings.type = type;
-        settings.joint = hinge;
-        settings.direction = direction;
-        settings.over_time = OverTime::rms;
-        problem.responses.push_back(settings);
+        problem.responses.push_back({hinge + number(kind) + std::to_string(direction),
+                                     ReactionResponse{hinge, kind, direction}, OverTime::rms});
       }
     }
   }

@@ -323,15 +323,8 @@ ProblemFile falling(double from, double to) {
   problem.scene.bodies = {{"mass", PointMass{{0.0, 0.0, 0.0}, 1.0}}};
   problem.simulation.end_time = 0.1;
   problem.simulation.step = 1e-3;
-  ResponseSettings speed;
-  speed.name = "speed";
-  speed.type = ResponseType::velocity;
-  speed.bodies = {"mass"};
-  speed.direction = 1;
-  speed.over_time = OverTime::min;
-  speed.from = from;
-  speed.to = to;
-  problem.responses = {speed};
+  const PointMotionResponse speed{{"mass"}, {1}, TimeDerivative::first};
+  problem.responses = {{"speed", speed, OverTime::min, from, to}};
   return problem;
 }
 

@@ -4,7 +4,6 @@
 
 #include "core/response/lateral_buckling_signal.hpp"
 #include "core/response/make_responses.hpp"
-#include "core/scene/response_kind.hpp"
 #include "tests/support/model_state.hpp"
 #include "tests/support/sample_scenes.hpp"
 
@@ -42,162 +41,112 @@ std::string number(Enum value) {
   return std::to_string(static_cast<int>(value));
 }
 
-inline void add(ResponseSettings settings, const std::string& name,
-                std::vector<ResponseSettings>& all) {
-  settings.name = name;
-  all.push_back(settings);
-}
+using All = std::vector<ResponseSettings>;
 
-inline void add_beam_responses(const BodyModel& body, std::vector<ResponseSettings>& all) {
-  ResponseSettings settings;
-  settings.type = ResponseType::stress;
-  settings.bodies = {body.name};
+inline void add_beam_responses(const BodyModel& body, All& all) {
+  const std::string& name = body.name;
   for (StressPart part : {StressPart::von_mises, StressPart::normal, StressPart::axial,
                           StressPart::bending, StressPart::shear, StressPart::utilization}) {
-    settings.part = part;
-    add(settings, body.name + " stress " + number(part), all);
+    all.push_back({name + " stress " + number(part), StressResponse{{{name}}, part}});
   }
-  settings.part = StressPart::von_mises;
-  for (ResponseType type :
-       {ResponseType::shear_stress, ResponseType::fatigue, ResponseType::fatigue_damage}) {
-    settings.type = type;
-    settings.name = body.name + " of stress " + number(type);
-    const bool is_general = body.beam.elements.front().section.shear_points.empty();
-    if (type != ResponseType::shear_stress || !is_general) all.push_back(settings);
+  const bool is_general = body.beam.elements.front().section.shear_points.empty();
+  if (!is_general) all.push_back({name + " shear stress", ShearStressResponse{{{name}}}});
+  for (FatigueNumber kind : {FatigueNumber::utilization, FatigueNumber::damage}) {
+    all.push_back({name + " fatigue " + number(kind), FatigueResponse{{{name}}, kind}});
   }
-  settings.type = ResponseType::stress;
-  settings.part = StressPart::normal;
-  settings.station = 0.37;
-  add(settings, body.name + " stress at 0.37", all);
-  settings.station = {};
-  settings.type = ResponseType::buckling;
-  add(settings, body.name + " buckling", all);
-  settings.type = ResponseType::deflection;
-  settings.at = 0.6;
+  const StressPlaces place{.bodies = {name}, .station = 0.37};
+  all.push_back({name + " stress at 0.37", StressResponse{place, StressPart::normal}});
+  all.push_back({name + " buckling", BucklingResponse{name}});
   for (int direction : {1, 2, 0, magnitude_direction}) {
-    settings.direction = direction;
-    add(settings, body.name + " deflection " + std::to_string(direction), all);
+    all.push_back({name + " deflection " + std::to_string(direction),
+                   DeflectionResponse{.point = {name, 0.6}, .direction = direction}});
   }
-  settings.type = ResponseType::section_force;
-  settings.station = 0.37;
   for (SectionForcePart part :
        {SectionForcePart::axial, SectionForcePart::moment_y, SectionForcePart::moment_z,
         SectionForcePart::torque, SectionForcePart::shear_y, SectionForcePart::shear_z}) {
-    settings.section_part = part;
-    add(settings, body.name + " section force " + number(part), all);
+    all.push_back(
+        {name + " section force " + number(part), SectionForceResponse{name, 0.37, part}});
   }
 }
 
-inline void add_lateral_buckling(const BodyModel& body, const Model& model,
-                                 std::vector<ResponseSettings>& all) {
+inline void add_lateral_buckling(const BodyModel& body, const Model& model, All& all) {
   if (!make_lateral_buckling_signal(body.name, model)) return;  // nothing holds it
-  ResponseSettings settings;
-  settings.type = ResponseType::lateral_buckling;
-  settings.bodies = {body.name};
-  add(settings, body.name + " lateral buckling", all);
+  all.push_back({body.name + " lateral buckling", LateralBucklingResponse{body.name}});
 }
 
-inline void add_spin_responses(const BodyModel& body, std::vector<ResponseSettings>& all) {
-  ResponseSettings settings;
-  settings.bodies = {body.name};
-  for (ResponseType type : {ResponseType::angular_velocity, ResponseType::angular_acceleration}) {
-    settings.type = type;
+inline void add_spin_responses(const BodyModel& body, All& all) {
+  for (TimeDerivative derivative : {TimeDerivative::first, TimeDerivative::second}) {
     for (int direction : {0, 1, 2, magnitude_direction}) {
-      settings.direction = direction;
-      add(settings, body.name + " turning " + number(type) + " " + std::to_string(direction), all);
+      all.push_back({body.name + " turning " + number(derivative) + " " + std::to_string(direction),
+                     TurningResponse{body.name, {direction}, derivative}});
     }
   }
-  settings.type = ResponseType::angle;
-  settings.direction = 2;
-  add(settings, body.name + " angle", all);
+  all.push_back({body.name + " angle", TurningResponse{body.name, {2}}});
 }
 
-inline void add_joint_motion(const JointModel& joint, std::vector<ResponseSettings>& all) {
-  ResponseSettings settings;
-  settings.joint = joint.name;
-  for (ResponseType type : {ResponseType::joint_position, ResponseType::joint_velocity}) {
-    settings.type = type;
-    settings.name = joint.name + " motion " + number(type);
-    settings.coordinate = DrivenCoordinate::angle;
-    if (joint.angle) all.push_back(settings);
-    settings.coordinate = DrivenCoordinate::displacement;
-    settings.name += " along";
-    if (joint.displacement) all.push_back(settings);
+inline void add_joint_motion(const JointModel& joint, All& all) {
+  for (TimeDerivative derivative : {TimeDerivative::none, TimeDerivative::first}) {
+    const std::string name = joint.name + " motion " + number(derivative);
+    JointMotionResponse motion{joint.name, DrivenCoordinate::angle, derivative};
+    if (joint.angle) all.push_back({name, motion});
+    motion.coordinate = DrivenCoordinate::displacement;
+    if (joint.displacement) all.push_back({name + " along", motion});
   }
 }
 
-inline void add_load_responses(const LoadModel& load, std::vector<ResponseSettings>& all) {
-  ResponseSettings settings;
-  settings.load = load.name;
-  for (ResponseType type : {ResponseType::spring_length, ResponseType::spring_force,
-                            ResponseType::motor_power, ResponseType::damper_power}) {
-    settings.type = type;
-    settings.name = load.name + " reading " + number(type);
-    if (load.gauge) all.push_back(settings);
+inline void add_load_responses(const LoadModel& load, All& all) {
+  if (!load.gauge) return;
+  for (LoadNumber kind : {LoadNumber::spring_length, LoadNumber::spring_force,
+                          LoadNumber::motor_power, LoadNumber::damper_power}) {
+    all.push_back({load.name + " reading " + number(kind), LoadResponse{load.name, kind}});
   }
 }
 
-inline void add_motion_responses(const BodyModel& body, std::vector<ResponseSettings>& all) {
-  ResponseSettings settings;
-  settings.bodies = {body.name};
-  settings.at = 0.7;
-  for (ResponseType type :
-       {ResponseType::position, ResponseType::velocity, ResponseType::acceleration}) {
-    settings.type = type;
+inline void add_motion_responses(const BodyModel& body, All& all) {
+  const ResponsePoint point{body.name, 0.7};
+  for (TimeDerivative derivative :
+       {TimeDerivative::none, TimeDerivative::first, TimeDerivative::second}) {
+    const std::string name = body.name + " motion " + number(derivative);
     for (int direction : {0, 1, 2, magnitude_direction}) {
-      settings.direction = direction;
-      add(settings, body.name + " motion " + number(type) + " " + std::to_string(direction), all);
+      all.push_back({name + " " + std::to_string(direction),
+                     PointMotionResponse{point, {direction}, derivative}});
     }
-    settings.along = {{0.48, 0.6, -0.64}};
-    add(settings, body.name + " motion " + number(type) + " along", all);
-    settings.along = std::nullopt;
+    const MotionComponent along{.along = {{0.48, 0.6, -0.64}}};
+    all.push_back({name + " along", PointMotionResponse{point, along, derivative}});
   }
 }
 
-inline void add_joint_responses(const JointModel& joint, std::vector<ResponseSettings>& all) {
-  ResponseSettings settings;
-  settings.joint = joint.name;
-  for (ResponseType type : {ResponseType::reaction_force, ResponseType::reaction_moment}) {
-    settings.type = type;
+inline void add_joint_responses(const JointModel& joint, All& all) {
+  for (ReactionKind kind : {ReactionKind::force, ReactionKind::moment}) {
     for (int direction : {0, 1, 2, magnitude_direction}) {
-      settings.direction = direction;
-      add(settings, joint.name + " reaction " + number(type) + " " + std::to_string(direction),
-          all);
+      all.push_back({joint.name + " reaction " + number(kind) + " " + std::to_string(direction),
+                     ReactionResponse{joint.name, kind, direction}});
     }
   }
   if (joint.drive_row < 0) return;
-  for (ResponseType type : {ResponseType::drive_torque, ResponseType::drive_power}) {
-    settings.type = type;
-    add(settings, joint.name + " drive " + number(type), all);
+  for (DriveNumber kind : {DriveNumber::torque, DriveNumber::power}) {
+    all.push_back({joint.name + " drive " + number(kind), DriveResponse{joint.name, kind}});
   }
 }
 
-inline void add_energy(ResponseType type, const std::vector<std::string>& bodies,
-                       std::vector<ResponseSettings>& all) {
-  ResponseSettings settings;
-  settings.type = type;
-  settings.bodies = bodies;
-  add(settings, (bodies.empty() ? "all" : bodies.front()) + " energy " + number(type), all);
-}
-
-inline void add_monitor_responses(const Model& model, std::vector<ResponseSettings>& all) {
-  for (ResponseType type : {ResponseType::kinetic_energy, ResponseType::elastic_energy}) {
-    add_energy(type, {}, all);
-    for (const BodyModel& body : model.bodies) add_energy(type, {body.name}, all);
+inline void add_monitor_responses(const Model& model, All& all) {
+  for (EnergyKind kind : {EnergyKind::kinetic, EnergyKind::elastic}) {
+    const std::string name = " energy " + number(kind);
+    all.push_back({"all" + name, EnergyResponse{"", kind}});
+    for (const BodyModel& body : model.bodies) {
+      all.push_back({body.name + name, EnergyResponse{body.name, kind}});
+    }
   }
-  add_energy(ResponseType::energy_balance, {}, all);
+  all.push_back({"energy balance", EnergyBalanceResponse{}});
   if (model.mechanism.system->multipliers() == 0) return;
-  ResponseSettings settings;
-  settings.type = ResponseType::constraint_drift;
   for (DriftLevel level : {DriftLevel::position, DriftLevel::velocity}) {
-    settings.level = level;
-    add(settings, "drift " + number(level), all);
+    all.push_back({"drift " + number(level), DriftResponse{level}});
   }
 }
 
 /// All responses with a history.
-inline std::vector<ResponseSettings> all_histories(const Model& model) {
-  std::vector<ResponseSettings> all;
+inline All all_histories(const Model& model) {
+  All all;
   for (const BodyModel& body : model.bodies) {
     if (body.is_beam() && body.is_elastic) {
       add_beam_responses(body, all);
@@ -229,21 +178,18 @@ inline Eigen::VectorXd observed(Signal& signal, const State& state) {
   return values;
 }
 
-inline double observed(const Model& model, const ResponseSettings& settings, const State& state) {
-  const std::vector<Response> responses = make_responses({settings}, model);
+inline double observed(const Model& model, const AnyResponse& response, const State& state) {
+  const std::vector<Response> responses = make_responses({{"observed", response}}, model);
   return observed(*responses.front().history()->signal, state)(0);
 }
 
 /// The three components of a reaction.
-inline Eigen::Vector3d reaction(const Model& model, const std::string& joint, ResponseType type,
+inline Eigen::Vector3d reaction(const Model& model, const std::string& joint, ReactionKind kind,
                                 const State& state) {
   Eigen::Vector3d components;
   for (int direction : {0, 1, 2}) {
-    ResponseSettings settings;
-    settings.type = type;
-    settings.direction = direction;
-    settings.joint = joint;
-    components(direction) = observed(model, settings, state);
+    const ReactionResponse response{joint, kind, direction};
+    components(direction) = observed(model, response, state);
   }
   return components;
 }

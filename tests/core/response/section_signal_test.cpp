@@ -36,12 +36,8 @@ Model beam_model(const Section& section, int elements, EffectChoice spatial) {
 
 Eigen::VectorXd stresses(const Model& model, const State& state, StressPart part,
                          std::optional<double> station = {}) {
-  ResponseSettings settings;
-  settings.type = ResponseType::stress;
-  settings.bodies = {"beam"};
-  settings.part = part;
-  settings.station = station;
-  const auto responses = make_responses({settings}, model);
+  const StressResponse stress{{.bodies = {"beam"}, .station = station}, part};
+  const auto responses = make_responses({{"stress", stress}}, model);
   return observed(*responses.front().history()->signal, state);
 }
 
@@ -125,10 +121,7 @@ TEST(StressPart, AtOnePlaceIsThatOfItsSection) {
 }
 
 double buckling(const Model& model, const State& state) {
-  ResponseSettings settings;
-  settings.type = ResponseType::buckling;
-  settings.bodies = {"beam"};
-  const auto responses = make_responses({settings}, model);
+  const auto responses = make_responses({{"buckling", BucklingResponse{"beam"}}}, model);
   return observed(*responses.front().history()->signal, state).maxCoeff();
 }
 
@@ -207,9 +200,8 @@ TEST(Buckling, OfAPushedBarIsThatOfItsInertia) {
   }
 }
 
-void expect_error(const Model& model, const ResponseSettings& settings,
-                  const std::string& message) {
-  EXPECT_EQ(thrown<InputError>([&] { make_responses({settings}, model); }), message);
+void expect_error(const Model& model, const AnyResponse& load, const std::string& message) {
+  EXPECT_EQ(thrown<InputError>([&] { make_responses({{"load", load}}, model); }), message);
 }
 
 TEST(SectionForces, OfARigidBodyAreNotKnown) {
@@ -218,18 +210,13 @@ TEST(SectionForces, OfARigidBodyAreNotKnown) {
   without_elasticity.elasticity = EffectChoice::off;
   without_axial.axial_elasticity = EffectChoice::off;
   const Model rigid = build_model(scene, without_elasticity, {}, {});
-  ResponseSettings settings;
-  settings.name = "load";
-  settings.type = ResponseType::buckling;
-  settings.bodies = {"beam"};
-  expect_error(rigid, settings, "the response \"load\" cannot be computed: \"beam\" is rigid");
+  const BucklingResponse buckling{"beam"};
+  expect_error(rigid, buckling, "the response \"load\" cannot be computed: \"beam\" is rigid");
   const Model stiff = build_model(scene, without_axial, {}, {});
-  expect_error(stiff, settings,
+  expect_error(stiff, buckling,
                "the response \"load\" cannot be computed: \"beam\" has no axial elasticity");
-  settings.type = ResponseType::stress;
-  settings.part = StressPart::utilization;
   expect_error(
-      stiff, settings,
+      stiff, StressResponse{{{"beam"}}, StressPart::utilization},
       "the response \"load\" cannot be computed: the material of \"beam\" has no strength");
 }
 

@@ -87,39 +87,37 @@ TEST_P(EverySignal, HasTheGradientOfItsValueInTheMultipliers) {
 TEST_P(EverySignal, OfAMotionIsTheTimeDerivativeOfThePosition) {
   for (const BodyModel& body : model_.bodies) {
     for (int direction : {0, 1, 2}) {
-      ResponseSettings settings;
-      settings.bodies = {body.name};
-      settings.at = 0.3;
-      settings.direction = direction;
-      settings.type = ResponseType::position;
+      PointMotionResponse motion{{body.name, 0.3}, {direction}};
       const auto position = [&](double t) {
         State at = state_;
         advance(model_.mechanism.rotations, state_.q, t * state_.v + 0.5 * t * t * state_.a, at.q);
-        return observed(model_, settings, at);
+        return observed(model_, motion, at);
       };
       const double velocity = derivative_at_zero(position, 2e-3);
       const double acceleration = second_derivative_at_zero(position, 4e-3);
       // Fourth order, rates of some 10 1/s: (0.04)⁴/100 of 1 m/s and 100 m/s².
-      settings.type = ResponseType::velocity;
-      EXPECT_NEAR(observed(model_, settings, state_), velocity, 1e-7) << body.name;
-      settings.type = ResponseType::acceleration;
-      EXPECT_NEAR(observed(model_, settings, state_), acceleration, 2e-5) << body.name;
+      motion.derivative = TimeDerivative::first;
+      EXPECT_NEAR(observed(model_, motion, state_), velocity, 1e-7) << body.name;
+      motion.derivative = TimeDerivative::second;
+      EXPECT_NEAR(observed(model_, motion, state_), acceleration, 2e-5) << body.name;
     }
   }
 }
 
 /// The same of relative coordinates of joints, with and without elasticity.
 TEST_P(EverySignal, OfAJointIsTheTimeDerivativeOfItsPosition) {
-  for (ResponseSettings settings : all_histories(model_)) {
-    if (settings.type != ResponseType::joint_position) continue;
+  for (const ResponseSettings& settings : all_histories(model_)) {
+    const auto* position_of_joint = settings.as<JointMotionResponse>();
+    if (!position_of_joint || position_of_joint->derivative != TimeDerivative::none) continue;
+    JointMotionResponse motion = *position_of_joint;
     const auto position = [&](double t) {
       State at = state_;
       advance(model_.mechanism.rotations, state_.q, t * state_.v, at.q);
-      return observed(model_, settings, at);
+      return observed(model_, motion, at);
     };
     const double rate = derivative_at_zero(position, 2e-3);
-    settings.type = ResponseType::joint_velocity;
-    EXPECT_NEAR(observed(model_, settings, state_), rate, 1e-6 * (1.0 + std::abs(rate)))
+    motion.derivative = TimeDerivative::first;
+    EXPECT_NEAR(observed(model_, motion, state_), rate, 1e-6 * (1.0 + std::abs(rate)))
         << settings.name;
   }
 }
@@ -131,10 +129,11 @@ TEST_P(EverySignal, OfAMotionFollowsTheSimulatedPosition) {
   problem.simulation.end_time = 0.01;
   problem.simulation.step = 5e-5;
   for (const ResponseSettings& settings : all_histories(model_)) {
-    const bool is_motion =
-        settings.type == ResponseType::position || settings.type == ResponseType::velocity;
-    if (is_motion && settings.direction != magnitude_direction)
+    const auto* motion = settings.as<PointMotionResponse>();
+    if (motion && motion->derivative != TimeDerivative::second &&
+        motion->component.direction != magnitude_direction && !motion->component.along) {
       problem.responses.push_back(settings);
+    }
   }
   const auto analysis = analyze(problem, start_design(problem));
   const double h = analysis->trajectory.time(1);
@@ -179,9 +178,7 @@ TEST_P(DescriptionOfASignal, TellsItsChannelsApart) {
 /// The rows of the constraints are in the order of the joints.
 TEST_P(DescriptionOfASignal, OfDriftNamesTheJointOfEachEquation) {
   if (model_.mechanism.system->multipliers() == 0) GTEST_SKIP() << "no constraints";
-  ResponseSettings settings;
-  settings.type = ResponseType::constraint_drift;
-  const std::vector<Response> responses = make_responses({settings}, model_);
+  const std::vector<Response> responses = make_responses({{"drift", DriftResponse{}}}, model_);
   const Signal& drift = *responses.front().history()->signal;
   int channel = 0;
   for (const JointModel& joint : model_.joints) {
@@ -227,19 +224,16 @@ class GradientsOfResponses : public testing::TestWithParam<int> {
     for (ResponseSettings& response : problem_.responses) {
       response.over_time = OverTime::final;
       // Along a whole beam the place of the largest stress jumps.
-      const bool is_stress =
-          response.type == ResponseType::stress || response.type == ResponseType::shear_stress ||
-          response.type == ResponseType::fatigue || response.type == ResponseType::fatigue_damage;
-      if (is_stress) response.station = 0.37;
+      const auto place = [](auto& one) {
+        if constexpr (requires { one.where; }) one.where.station = 0.37;
+      };
+      std::visit(place, response.what);
     }
     // A member of that one would buckle out of the plane: modes that grow, and meet.
     if (sample.name == "PlanarJoints") return;
     for (int mode = 0; mode < 3; ++mode) {
-      ResponseSettings frequency;
-      frequency.type = ResponseType::frequency;
-      frequency.name = "frequency " + std::to_string(mode);
-      frequency.mode.number = mode;
-      problem_.responses.push_back(frequency);
+      problem_.responses.push_back(
+          {"frequency " + std::to_string(mode), ModeResponse{.mode = {.number = mode}}});
     }
   }
   ProblemFile problem_;
@@ -247,20 +241,25 @@ class GradientsOfResponses : public testing::TestWithParam<int> {
 
 /// Round-off of differences, per relative change of a variable: positions carry 1e-16 m, and
 /// accelerations and reactions 1/h² of that.
-double noise_of(ResponseType type) {
-  switch (type) {
-    case ResponseType::stress:
-    case ResponseType::shear_stress:
-      return 1e-2;  // [Pa]
-    case ResponseType::acceleration:
-    case ResponseType::angular_acceleration:
-    case ResponseType::reaction_force:
-      return 1e-5;
-    case ResponseType::frequency:
-      return 1e-4;  // [rad/s]: soft modes, of 0.3 rad/s, beside stiff members
-    default:
-      return 1e-7;
-  }
+double noise_of(const ResponseSettings& response) {
+  if (response.is<StressResponse, ShearStressResponse>()) return 1e-2;  // [Pa]
+  // [rad/s]: soft modes, of 0.3 rad/s, beside stiff members
+  if (response.is<ModeResponse>()) return 1e-4;
+  const auto* reaction = response.as<ReactionResponse>();
+  const bool is_force = reaction && reaction->kind == ReactionKind::force;
+  const bool is_acceleration = time_derivative_of(response) == TimeDerivative::second;
+  return is_force || is_acceleration ? 1e-5 : 1e-7;
+}
+
+/// The component of a vector that a response is; none: it is of another kind.
+std::optional<int> direction_of(const ResponseSettings& response) {
+  return std::visit(
+      [](const auto& one) -> std::optional<int> {
+        if constexpr (requires { one.component; }) return one.component.direction;
+        if constexpr (requires { one.direction; }) return one.direction;
+        return std::nullopt;
+      },
+      response.what);
 }
 
 /// Direct differentiation against differences of fourth order of re-simulated designs, both as
@@ -275,10 +274,10 @@ TEST_P(GradientsOfResponses, AreThoseOfDifferencesOfSimulations) {
     const ResponseSettings& response = problem_.responses[i];
     const double value = std::abs(analysis->reductions[i].value);
     // The magnitude of what vanishes has a kink.
-    if (response.direction == magnitude_direction && value < 1e-6) continue;
+    if (direction_of(response) == magnitude_direction && value < 1e-6) continue;
     const double slope = direct.row(i).lpNorm<Eigen::Infinity>();
-    if (response.type == ResponseType::shear_stress && value < 1e-2 * slope) continue;
-    allowed(i) = 5e-6 * (slope + value) + noise_of(response.type);
+    if (response.is<ShearStressResponse>() && value < 1e-2 * slope) continue;
+    allowed(i) = 5e-6 * (slope + value) + noise_of(response);
   }
   Eigen::VectorXd best = Eigen::VectorXd::Constant(direct.rows(), any);
   for (double step : {8e-3, 1e-3}) {

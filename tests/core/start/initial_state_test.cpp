@@ -148,13 +148,8 @@ ProblemFile cantilever(bool is_quasi_static) {
   problem.simulation.step = 1e-3;
   problem.simulation.quasi_static_start = is_quasi_static;
   for (OverTime over_time : {OverTime::max, OverTime::min}) {
-    ResponseSettings tip;
-    tip.name = over_time == OverTime::max ? "highest" : "lowest";
-    tip.type = ResponseType::deflection;
-    tip.bodies = {"beam"};
-    tip.at = 1.0;
-    tip.over_time = over_time;
-    problem.responses.push_back(tip);
+    problem.responses.push_back({over_time == OverTime::max ? "highest" : "lowest",
+                                 DeflectionResponse{{"beam", 1.0}}, over_time});
   }
   return problem;
 }
@@ -189,12 +184,8 @@ TEST(QuasiStaticStart, OfARedundantMechanismIsThatOfTheSameWithoutRedundancy) {
   twice.scene.joints.push_back(again);
   for (ProblemFile* problem : {&once, &twice}) {
     problem->effects.spatial_motion = EffectChoice::on;
-    ResponseSettings reaction;
-    reaction.type = ResponseType::reaction_force;
-    reaction.joint = problem->scene.joints[0].name;
-    reaction.direction = 1;
-    reaction.over_time = OverTime::mean;
-    problem->responses.push_back(reaction);
+    const ReactionResponse reaction{problem->scene.joints[0].name, ReactionKind::force, 1};
+    problem->responses.push_back({"reaction", reaction, OverTime::mean});
   }
   const auto found = analyze(twice, start_design(twice)),
              expected = analyze(once, start_design(once));

@@ -291,9 +291,7 @@ TEST(ShearRange, IsSeriousBesideLimitsOnly) {
 /// Beside what is minimized nobody asks for it.
 TEST(ShearRange, IsNotSeriousForWhatIsNotAsked) {
   ProblemFile problem = LoadedBeam{rectangle(0.5)}.problem();
-  ResponseSettings mass;
-  mass.name = "mass";
-  problem.responses.push_back(mass);
+  problem.responses.push_back({"mass", MassResponse{}});
   problem.objective = Objective{"mass"};
   EXPECT_FALSE(only(findings_of(problem, check_variants)).is_serious);
   problem.objective = Objective{"asked"};
@@ -308,11 +306,8 @@ TEST(ShearRange, IsSeriousForAFormulaThatIsAsked) {
   power.arguments = {{ExpressionArgument::Kind::response, 0}};
   power.steps = {
       {Operation::argument, 0.0, 0}, {Operation::constant, 6.0}, {Operation::power, 0.0, 0, 1}};
-  ResponseSettings settings;
-  settings.name = "power";
-  settings.type = ResponseType::expression;
-  settings.expression = std::make_shared<const Expression>(power);
-  problem.responses.push_back(settings);
+  problem.responses.push_back(
+      {"power", ExpressionResponse{std::make_shared<const Expression>(power)}});
   problem.objective = Objective{"power"};
   EXPECT_TRUE(only(findings_of(problem, check_variants)).is_serious);
 }
