@@ -9,7 +9,6 @@
 #include "cli/text/wrapped_text.hpp"
 #include "core/base/find_named.hpp"
 #include "core/base/number_text.hpp"
-#include "core/response/divided_deflection.hpp"
 #include "core/response/peak_place.hpp"
 #include "core/scene/shown_unit.hpp"
 #include "optimization/verdict.hpp"

@@ -3,8 +3,6 @@
 #include <array>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "core/base/dual.hpp"
 #include "core/frame/body_frame.hpp"
 
@@ -84,13 +82,6 @@ class DividedDeflection final : public Signal {
 std::unique_ptr<Signal> make_divided_deflection(DeflectionVectors vectors,
                                                 DividedReference reference, int direction) {
   return std::make_unique<DividedDeflection>(std::move(vectors), reference, direction);
-}
-
-std::string describe_tie(const PeakTie& tie, const Response& response) {
-  const Signal& signal = *response.history()->signal;
-  return fmt::format("at {:.5g} s ({}) and at {:.5g} s ({})", tie.time,
-                     signal.describe(tie.channel), tie.other_time,
-                     signal.describe(tie.other_channel));
 }
 
 }  // namespace pleuel

@@ -1,9 +1,7 @@
 #pragma once
 
 #include <memory>
-#include <string>
 
-#include "core/response/response.hpp"
 #include "core/response/signal.hpp"
 
 namespace pleuel {
@@ -26,9 +24,5 @@ struct DeflectionVectors {
 /// @param direction  1: local y, 2: local z
 std::unique_ptr<Signal> make_divided_deflection(DeflectionVectors vectors,
                                                 DividedReference reference, int direction);
-
-/// When and where the two peaks of a tie are: "at 0.08 s (node 0) and at 0.05 s (node 3)".
-/// @param response  with a history
-std::string describe_tie(const PeakTie& tie, const Response& response);
 
 }  // namespace pleuel

@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <string_view>
 
+#include <fmt/format.h>
+
 namespace pleuel {
 
 namespace {
@@ -55,6 +57,13 @@ std::optional<Peak> find_peak(const ProblemFile& problem, const Analysis& analys
   const std::vector<std::string> bodies = bodies_of(problem.responses[response]);
   if (bodies.size() == 1) peak.share = share_of_place(analysis.model, bodies.front(), peak.place);
   return peak;
+}
+
+std::string describe_tie(const PeakTie& tie, const Response& response) {
+  const Signal& signal = *response.history()->signal;
+  return fmt::format("at {:.5g} s ({}) and at {:.5g} s ({})", tie.time,
+                     signal.describe(tie.channel), tie.other_time,
+                     signal.describe(tie.other_channel));
 }
 
 }  // namespace pleuel

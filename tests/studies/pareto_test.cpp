@@ -343,7 +343,7 @@ TEST(ParetoOverCases, SaysWhichNamesThereAre) {
          "/pareto/responses/0/over_cases/nah", "near"},
         {R"({"responses": [{"minimize": "distance[near]", "over_cases": "sum"}, "cost[near]"]})",
          "/pareto/responses/0/over_cases", ""}}) {
-    EXPECT_THAT(thrown<InputError>([&] { problem_from(distances(pareto).dump()); }),
+    EXPECT_THAT(thrown<InputError>([&, text = pareto] { problem_from(distances(text).dump()); }),
                 AllOf(HasSubstr(place), HasSubstr(name)));
   }
 }
