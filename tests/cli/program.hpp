@@ -75,7 +75,7 @@ class InProgramFolder : public testing::Test {
   std::string refusal(const std::string& line) const { return folder_.refusal(line); }
   json result(const std::string& name = "run") const { return folder_.result(name); }
 
-  const ProgramFolder folder_;
+  const ProgramFolder folder_{};
 };
 
 /// A problem file of the repository, and what stands in it.

@@ -252,6 +252,8 @@ TEST_F(ReadBackSentences, OfMechanismsThatForcesMove) {
                             "/simulation/resolution_check=false --set '/simulation/end_time=4 ms'")
                             .out),
               HasSubstr("(none of drives): 1 freedom is left to the forces"));
+  EXPECT_THAT(unwrapped(run("show $problems/hard/dead_centres.json").out),
+              HasSubstr("1 freedom is left to the forces (of \"crank\", \"rod\")"));
   const TextTable bodies(run("check $crank --jobs 1 $quick --set /scene/bodies/rod/frames=3").out,
                          "body");
   EXPECT_EQ(bodies.number("rod", "frames"), 3);
