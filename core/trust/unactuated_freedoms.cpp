@@ -339,13 +339,18 @@ std::vector<Finding> check_unconnected_bodies(const TrustedRun& run) {
     is_pushed = is_pushed || has_load(scene, body.name);
     names.push_back(body.name);
   }
-  if (names.empty()) return {};
-  const char* stands = run.analysis.model.gravity.isZero(0.0) ? "nothing moves there" : "falls";
+  const bool has_weight = !run.analysis.model.gravity.isZero(0.0);
+  // Where nothing acts on a mechanism that is free as a whole, its vibrations are asked for.
+  const bool is_free = grounded.empty();
+  if (names.empty() || (is_free && !is_pushed && !has_weight)) return {};
   Finding finding;
   finding.text = fmt::format(
       "no joint or spring connects {} with the ground, directly or by way of other bodies, and no "
       "initial velocity is given: {}. Is a joint missing?",
-      quoted(names), is_pushed ? "loads push it away" : stands);
+      quoted(names),
+      is_pushed    ? "loads push it away"
+      : has_weight ? "falls"
+                   : "nothing moves there");
   for (const ResponseSettings& response : run.problem.responses) {
     const std::vector<std::string> about = bodies_of(response);
     const bool looks_there = std::ranges::find_first_of(about, names) != about.end();
@@ -353,7 +358,7 @@ std::vector<Finding> check_unconnected_bodies(const TrustedRun& run) {
       finding.responses.push_back(response.name);
     }
   }
-  finding.is_serious = !finding.responses.empty() && !is_pushed;
+  finding.is_serious = !finding.responses.empty() && !is_pushed && !is_free;
   finding.bodies = names;
   return {finding};
 }

@@ -151,6 +151,20 @@ TEST(UnconnectedBodies, AreNamed) {
                                    "direction": [1, 0, 0], "value": 1}})"}),
       check_unconnected_bodies));
   EXPECT_FALSE(pushed.is_serious) << "it may be meant to fly";
+  // A mechanism that is free as a whole, for its vibrations or a fall.
+  const auto free_as_a_whole = [](const char* gravity) {
+    return findings_of(read_scene(fmt::format(R"({{"scene": {{"gravity": {}, "bodies": {{
+        "bar": {{"type": "beam", "from": [0, 0, 0], "to": [1, 0, 0], "material": "steel", "elements": 2,
+                 "section": {{"type": "circle", "diameter": 0.04}}}},
+        "lug": {{"type": "rigid", "at": [1, 0, 0], "mass": 1, "inertia": [0.01, 0.01, 0.01, 0, 0, 0]}}}},
+        "joints": {{"weld": {{"type": "fixed", "bodies": ["bar", "lug"], "at": [1, 0, 0]}}}}}},
+      "simulation": {{"end_time": 2e-3, "step": 1e-3}},
+      "responses": {{"f": {{"type": "frequency", "body": "bar"}}}}}})",
+                                              gravity)),
+                       check_unconnected_bodies);
+  };
+  EXPECT_THAT(free_as_a_whole("[0, 0, 0]"), IsEmpty());
+  EXPECT_FALSE(only(free_as_a_whole("[0, -9.81, 0]")).is_serious);
   EXPECT_THAT(pushed.text, HasSubstr("loads push it away"));
   EXPECT_THAT(findings_of(read_scene(crank_rocker(driven, closed),
                                      {stray_with(R"(, "velocity": [1, 2, 0])"), other, tie}),
